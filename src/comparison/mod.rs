@@ -1,0 +1,5 @@
+//! One comparison of two models, as a resumable run.
+
+mod settings;
+
+pub use settings::{Sampler, Settings, SettingsError};

@@ -1,0 +1,6 @@
+//! Shapevenn: given two linear statistical shape models, which shapes can both make, and which
+//! can only one of them make?
+
+pub mod comparison;
+pub mod model;
+pub mod report;

@@ -1,0 +1,560 @@
+//! The model type, how it is built from a scaled basis, and how it is edited.
+
+use core::fmt;
+
+use nalgebra::{DMatrix, DVector, DVectorView};
+use serde::{Deserialize, Serialize};
+
+use super::thin_svd;
+
+/// Modes whose standard deviation is below this share of the largest are dropped: a projection
+/// divides by the standard deviation.
+const SMALLEST_RELATIVE_DEVIATION: f64 = 1e-6;
+
+/// What the numbers of a model mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Kind {
+    /// Point positions.
+    Shape,
+    /// Red, green and blue at each point.
+    Color,
+}
+
+/// The unit of length in which a shape model is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, Default)]
+pub enum Unit {
+    /// Micrometres.
+    #[serde(rename = "µm")]
+    Micrometre,
+    /// Millimetres.
+    #[serde(rename = "mm")]
+    Millimetre,
+    /// Centimetres.
+    #[serde(rename = "cm")]
+    Centimetre,
+    /// Decimetres.
+    #[serde(rename = "dm")]
+    Decimetre,
+    /// Metres.
+    #[serde(rename = "m")]
+    Metre,
+    /// The file does not say.
+    #[default]
+    #[serde(rename = "units")]
+    Unknown,
+}
+
+impl Unit {
+    /// The symbol that stands behind a number.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            Self::Micrometre => "µm",
+            Self::Millimetre => "mm",
+            Self::Centimetre => "cm",
+            Self::Decimetre => "dm",
+            Self::Metre => "m",
+            Self::Unknown => "units",
+        }
+    }
+
+    /// The unit that a symbol names, also as written in files ("millimeter", "um"); `None` when unknown.
+    pub fn from_symbol(symbol: &str) -> Option<Self> {
+        Some(match symbol.trim().to_ascii_lowercase().as_str() {
+            "µm" | "um" | "micrometre" | "micrometer" => Self::Micrometre,
+            "mm" | "millimetre" | "millimeter" => Self::Millimetre,
+            "cm" | "centimetre" | "centimeter" => Self::Centimetre,
+            "dm" | "decimetre" | "decimeter" => Self::Decimetre,
+            "m" | "metre" | "meter" => Self::Metre,
+            _ => return None,
+        })
+    }
+}
+
+/// How the points are joined for drawing.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub enum Cells {
+    /// Points only.
+    #[default]
+    None,
+    /// Line segments, 0-based.
+    Segments(Vec<[u32; 2]>),
+    /// Triangles, 0-based, counter-clockwise seen from outside.
+    Triangles(Vec<[u32; 3]>),
+}
+
+/// What [`LinearModel::from_scaled_basis`] found out about the basis that it was given.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct BasisCheck {
+    /// Largest |cos| between two different columns of the given basis; 0 when orthogonal.
+    pub orthogonality_error: f64,
+    /// Modes that were dropped because their standard deviation is nothing beside the largest.
+    pub dropped_modes: usize,
+}
+
+/// Why numbers do not make a model.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum ModelError {
+    /// The dimension is neither 2 nor 3.
+    Dimension {
+        /// Dimension found.
+        found: usize,
+    },
+    /// The mean is empty or its length is no multiple of the dimension.
+    MeanLength {
+        /// Numbers in the mean.
+        length: usize,
+        /// Dimension of the points.
+        dimension: usize,
+    },
+    /// Mean and basis have different lengths.
+    BasisRows {
+        /// Numbers in the mean.
+        mean: usize,
+        /// Rows of the basis.
+        rows: usize,
+    },
+    /// Values that are NaN or infinite.
+    NotFinite {
+        /// "mean" or "basis".
+        place: &'static str,
+        /// How many of them.
+        count: usize,
+    },
+    /// All modes have zero variance, or there are none.
+    NoVariance,
+    /// Cells point to vertices that do not exist.
+    Cells {
+        /// Indices that are too large.
+        count: usize,
+        /// Points of the model.
+        points: usize,
+    },
+    /// Too few shapes to build a model from.
+    TooFewShapes {
+        /// Shapes given.
+        found: usize,
+    },
+}
+
+impl ModelError {
+    /// Stable code, for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Dimension { .. } => "dimension",
+            Self::MeanLength { .. } => "mean-length",
+            Self::BasisRows { .. } => "basis-shape",
+            Self::NotFinite { .. } => "not-finite",
+            Self::NoVariance => "no-variance",
+            Self::Cells { .. } => "cells",
+            Self::TooFewShapes { .. } => "too-few-shapes",
+        }
+    }
+
+    /// What to do next.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Dimension { .. } => "Load a model of points in 2 or 3 dimensions.",
+            Self::MeanLength { .. } | Self::BasisRows { .. } => {
+                "Check that the mean and the basis come from the same model, and export it again."
+            }
+            Self::NotFinite { .. } => {
+                "Remove the NaN or infinite values and export the model again."
+            }
+            Self::NoVariance => "Load a model with at least one mode of positive variance.",
+            Self::Cells { .. } => {
+                "Check whether the faces count from 1, or belong to another mesh."
+            }
+            Self::TooFewShapes { .. } => "Add more shapes to the set.",
+        }
+    }
+}
+
+impl fmt::Display for ModelError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Dimension { found } => {
+                write!(f, "Points have {found} coordinates; 2 or 3 were expected.")
+            }
+            Self::MeanLength { length, dimension } => write!(
+                f,
+                "The mean has {length} numbers, which is not a positive multiple of {dimension}."
+            ),
+            Self::BasisRows { mean, rows } => {
+                write!(f, "The mean has {mean} numbers, but the basis has {rows} rows.")
+            }
+            Self::NotFinite { place, count } => {
+                write!(f, "{count} values in the {place} are not finite.")
+            }
+            Self::NoVariance => write!(f, "The model has no mode with positive variance."),
+            Self::Cells { count, points } => {
+                write!(f, "{count} face corners point beyond the last of the {points} points.")
+            }
+            Self::TooFewShapes { found } => {
+                write!(f, "{found} shapes were given; at least 3 are needed.")
+            }
+        }
+    }
+}
+
+impl core::error::Error for ModelError {}
+
+/// A linear statistical shape (or colour) model, x = x̄ + U α with α ~ N(0, I).
+#[derive(Debug, Clone, PartialEq)]
+pub struct LinearModel {
+    name: String,
+    kind: Kind,
+    unit: Unit,
+    dimension: usize,
+    mean: DVector<f64>,
+    basis: DMatrix<f64>,
+    standard_deviations: DVector<f64>,
+    cells: Cells,
+}
+
+impl LinearModel {
+    /// Builds a model from its mean (d·n, absolute positions) and scaled basis (d·n × q, column i
+    /// is √λᵢ uᵢ by the convention of the source). The columns need be neither orthogonal nor
+    /// sorted, and q may exceed d·n; modes below 10⁻⁶ of the largest are dropped.
+    ///
+    /// # Errors
+    /// [`ModelError`] when the sizes do not fit, a value is not finite or nothing varies.
+    pub fn from_scaled_basis(
+        dimension: usize,
+        mean: DVector<f64>,
+        scaled_basis: DMatrix<f64>,
+    ) -> Result<(Self, BasisCheck), ModelError> {
+        if dimension != 2 && dimension != 3 {
+            return Err(ModelError::Dimension { found: dimension });
+        }
+        if mean.is_empty() || mean.len() % dimension != 0 {
+            return Err(ModelError::MeanLength { length: mean.len(), dimension });
+        }
+        if scaled_basis.nrows() != mean.len() {
+            return Err(ModelError::BasisRows { mean: mean.len(), rows: scaled_basis.nrows() });
+        }
+        for (place, values) in [("mean", mean.as_slice()), ("basis", scaled_basis.as_slice())] {
+            let count = values.iter().filter(|value| !value.is_finite()).count();
+            if count > 0 {
+                return Err(ModelError::NotFinite { place, count });
+            }
+        }
+        if scaled_basis.iter().all(|&value| value == 0.0) {
+            return Err(ModelError::NoVariance);
+        }
+        let orthogonality_error = largest_cosine(&scaled_basis);
+        let given = scaled_basis.ncols();
+        let svd = thin_svd(&scaled_basis);
+        drop(scaled_basis);
+        let floor = SMALLEST_RELATIVE_DEVIATION * svd.values[0];
+        let kept = svd.values.iter().take_while(|&&value| value >= floor).count();
+        let model = Self {
+            name: String::new(),
+            kind: Kind::Shape,
+            unit: Unit::Unknown,
+            dimension,
+            mean,
+            basis: svd.left.columns(0, kept).into_owned(),
+            standard_deviations: svd.values.rows(0, kept).into_owned(),
+            cells: Cells::None,
+        };
+        Ok((model, BasisCheck { orthogonality_error, dropped_modes: given - kept }))
+    }
+
+    /// Assembles a model from parts that are orthonormal and sorted by construction.
+    pub(crate) fn from_orthonormal(
+        dimension: usize,
+        mean: DVector<f64>,
+        basis: DMatrix<f64>,
+        standard_deviations: DVector<f64>,
+    ) -> Self {
+        Self {
+            name: String::new(),
+            kind: Kind::Shape,
+            unit: Unit::Unknown,
+            dimension,
+            mean,
+            basis,
+            standard_deviations,
+            cells: Cells::None,
+        }
+    }
+
+    /// The same model under another name.
+    #[must_use]
+    pub fn with_name(mut self, name: impl Into<String>) -> Self {
+        self.name = name.into();
+        self
+    }
+
+    /// The same numbers, understood as `kind`.
+    #[must_use]
+    pub fn with_kind(mut self, kind: Kind) -> Self {
+        self.kind = kind;
+        self
+    }
+
+    /// The same numbers, understood in `unit`. Nothing is rescaled.
+    #[must_use]
+    pub fn with_unit(mut self, unit: Unit) -> Self {
+        self.unit = unit;
+        self
+    }
+
+    /// The same model, drawn with `cells`.
+    ///
+    /// # Errors
+    /// [`ModelError::Cells`] when an index is not below the number of points.
+    pub fn with_cells(mut self, cells: Cells) -> Result<Self, ModelError> {
+        let points = self.point_count();
+        let beyond = |index: &&u32| **index as usize >= points;
+        let count = match &cells {
+            Cells::None => 0,
+            Cells::Segments(segments) => segments.iter().flatten().filter(beyond).count(),
+            Cells::Triangles(triangles) => triangles.iter().flatten().filter(beyond).count(),
+        };
+        if count > 0 {
+            return Err(ModelError::Cells { count, points });
+        }
+        self.cells = cells;
+        Ok(self)
+    }
+
+    /// The model of the first `modes` modes (all of them when there are fewer).
+    #[must_use]
+    pub fn truncated(&self, modes: usize) -> Self {
+        let kept = modes.clamp(1, self.mode_count());
+        Self {
+            basis: self.basis.columns(0, kept).into_owned(),
+            standard_deviations: self.standard_deviations.rows(0, kept).into_owned(),
+            ..self.clone()
+        }
+    }
+
+    /// What the model is called.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Shape or colour.
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// Unit of length.
+    pub fn unit(&self) -> Unit {
+        self.unit
+    }
+
+    /// Coordinates per point, d = 2 or 3.
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// Number of points n.
+    pub fn point_count(&self) -> usize {
+        self.mean.len() / self.dimension
+    }
+
+    /// Number of modes q.
+    pub fn mode_count(&self) -> usize {
+        self.basis.ncols()
+    }
+
+    /// Mean shape x̄ (d·n).
+    pub fn mean(&self) -> &DVector<f64> {
+        &self.mean
+    }
+
+    /// Orthonormal modes u₁ … u_q (d·n × q), largest variance first.
+    pub fn basis(&self) -> &DMatrix<f64> {
+        &self.basis
+    }
+
+    /// One orthonormal mode.
+    pub fn mode(&self, index: usize) -> DVectorView<'_, f64> {
+        self.basis.column(index)
+    }
+
+    /// Standard deviations √λ₁ ≥ … ≥ √λ_q, of the whole shape vector.
+    pub fn standard_deviations(&self) -> &DVector<f64> {
+        &self.standard_deviations
+    }
+
+    /// The scaled basis U = (√λ₁ u₁ … √λ_q u_q), d·n × q.
+    pub fn scaled_basis(&self) -> DMatrix<f64> {
+        let mut scaled = self.basis.clone();
+        for (mut column, deviation) in scaled.column_iter_mut().zip(self.standard_deviations.iter())
+        {
+            column *= *deviation;
+        }
+        scaled
+    }
+
+    /// How the points are joined.
+    pub fn cells(&self) -> &Cells {
+        &self.cells
+    }
+
+    /// Σ λᵢ, in the square of the unit.
+    pub fn total_variance(&self) -> f64 {
+        self.standard_deviations.norm_squared()
+    }
+
+    /// The shape x̄ + U α (d·n). Missing coefficients count as 0, surplus ones are ignored.
+    pub fn shape(&self, coefficients: &[f64]) -> DVector<f64> {
+        let mut shape = self.mean.clone();
+        for (mode, (coefficient, deviation)) in
+            coefficients.iter().zip(self.standard_deviations.iter()).enumerate()
+        {
+            shape.axpy(coefficient * deviation, &self.basis.column(mode), 1.0);
+        }
+        shape
+    }
+
+    /// Root mean square displacement of every point from its mean position (n), in the unit of
+    /// the model: √(Σ_c Σᵢ λᵢ u²).
+    pub fn vertex_standard_deviations(&self) -> Vec<f64> {
+        let mut variance = vec![0.0; self.point_count()];
+        for (mode, deviation) in self.basis.column_iter().zip(self.standard_deviations.iter()) {
+            for (vertex, point) in mode.as_slice().chunks_exact(self.dimension).enumerate() {
+                variance[vertex] +=
+                    deviation * deviation * point.iter().map(|value| value * value).sum::<f64>();
+            }
+        }
+        variance.into_iter().map(f64::sqrt).collect()
+    }
+
+    /// Root mean square distance of the mean's points from their centroid: the size to which a
+    /// tolerance can be compared.
+    pub fn size(&self) -> f64 {
+        let centroid = super::procrustes::centroid(self.mean.as_slice(), self.dimension);
+        let squares: f64 = self
+            .mean
+            .as_slice()
+            .chunks_exact(self.dimension)
+            .flat_map(|point| point.iter().zip(&centroid).map(|(x, c)| (x - c) * (x - c)))
+            .sum();
+        (squares / self.point_count() as f64).sqrt()
+    }
+
+    /// The model moved by `similarity`: mean, basis and (with scale) standard deviations.
+    #[must_use]
+    pub fn moved(&self, similarity: &super::Similarity) -> Self {
+        let mut moved = self.clone();
+        similarity.move_points(moved.mean.as_mut_slice());
+        for mut mode in moved.basis.column_iter_mut() {
+            similarity.turn_directions(mode.as_mut_slice());
+        }
+        moved.standard_deviations *= similarity.scale();
+        moved
+    }
+}
+
+fn largest_cosine(matrix: &DMatrix<f64>) -> f64 {
+    let norms: Vec<f64> = matrix.column_iter().map(|column| column.norm()).collect();
+    let mut largest = 0.0_f64;
+    for i in 0..matrix.ncols() {
+        for j in i + 1..matrix.ncols() {
+            let product = norms[i] * norms[j];
+            if product > 0.0 {
+                largest = largest.max(matrix.column(i).dot(&matrix.column(j)).abs() / product);
+            }
+        }
+    }
+    largest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn skewed() -> (DVector<f64>, DMatrix<f64>) {
+        let mean = DVector::from_vec(vec![0.0, 0.0, 1.0, 0.0, 0.0, 1.0]);
+        let basis = DMatrix::from_row_slice(
+            6,
+            3,
+            &[
+                1.0, 1.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 3.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+                0.0, 0.0,
+            ],
+        );
+        (mean, basis)
+    }
+
+    #[test]
+    fn any_scaled_basis_becomes_orthonormal_and_sorted_with_the_same_covariance() {
+        let (mean, basis) = skewed();
+        let covariance = &basis * basis.transpose();
+        let (model, check) = LinearModel::from_scaled_basis(2, mean, basis).unwrap();
+        assert_eq!(model.mode_count(), 2, "the zero column is dropped");
+        assert_eq!(check.dropped_modes, 1, "and reported");
+        assert!(check.orthogonality_error > 0.5, "4/√60: the columns were skew");
+        let gram = model.basis().transpose() * model.basis();
+        assert!((gram - DMatrix::identity(2, 2)).amax() < 1e-14, "orthonormal");
+        let scaled = model.scaled_basis();
+        assert!((&scaled * scaled.transpose() - covariance).amax() < 1e-13, "same covariance");
+        assert!(model.standard_deviations()[0] >= model.standard_deviations()[1], "largest first");
+    }
+
+    #[test]
+    fn more_modes_than_coordinates_are_reduced_to_the_rank() {
+        let mean = DVector::from_vec(vec![0.0; 4]);
+        let basis = DMatrix::from_fn(4, 9, |i, j| ((i * 9 + j) % 7) as f64 - 3.0);
+        let covariance = &basis * basis.transpose();
+        let (model, _) = LinearModel::from_scaled_basis(2, mean, basis).unwrap();
+        let scaled = model.scaled_basis();
+        assert!(model.mode_count() <= 4, "rank at most 4");
+        assert!((&scaled * scaled.transpose() - covariance).amax() < 1e-11, "same covariance");
+    }
+
+    #[test]
+    fn vertex_deviation_is_the_root_of_the_trace_of_each_points_covariance() {
+        let (mean, basis) = skewed();
+        let covariance = &basis * basis.transpose();
+        let (model, _) = LinearModel::from_scaled_basis(2, mean, basis).unwrap();
+        for (vertex, deviation) in model.vertex_standard_deviations().into_iter().enumerate() {
+            let trace =
+                covariance[(2 * vertex, 2 * vertex)] + covariance[(2 * vertex + 1, 2 * vertex + 1)];
+            assert!((deviation - trace.sqrt()).abs() < 1e-13, "point {vertex}");
+        }
+    }
+
+    #[test]
+    fn faults_are_named_with_what_was_found() {
+        let mean = DVector::from_vec(vec![0.0; 6]);
+        let fault = |result: Result<(LinearModel, BasisCheck), ModelError>| {
+            result.map(|_| ()).unwrap_err().to_string()
+        };
+        assert_eq!(
+            fault(LinearModel::from_scaled_basis(3, mean.clone(), DMatrix::identity(5, 2))),
+            "The mean has 6 numbers, but the basis has 5 rows.",
+            "rows"
+        );
+        assert_eq!(
+            fault(LinearModel::from_scaled_basis(4, mean.clone(), DMatrix::identity(6, 2))),
+            "Points have 4 coordinates; 2 or 3 were expected.",
+            "dimension"
+        );
+        assert_eq!(
+            fault(LinearModel::from_scaled_basis(3, mean.clone(), DMatrix::zeros(6, 2))),
+            "The model has no mode with positive variance.",
+            "variance"
+        );
+        let mut broken = DMatrix::identity(6, 2);
+        broken[(3, 1)] = f64::NAN;
+        assert_eq!(
+            fault(LinearModel::from_scaled_basis(3, mean.clone(), broken)),
+            "1 values in the basis are not finite.",
+            "NaN"
+        );
+        let (model, _) = LinearModel::from_scaled_basis(3, mean, DMatrix::identity(6, 2)).unwrap();
+        assert_eq!(
+            model.with_cells(Cells::Triangles(vec![[0, 1, 2]])).unwrap_err().to_string(),
+            "1 face corners point beyond the last of the 2 points.",
+            "cells"
+        );
+    }
+}

@@ -1,0 +1,20 @@
+//! Linear statistical shape models: x = x̄ + U α with α ~ N(0, I).
+//!
+//! A model is a mean shape and a scaled basis U = (√λ₁ u₁ … √λ_q u_q) (Weiherer et al. 2024,
+//! eq. 2). Vectors are point-interleaved: x₀ y₀ z₀ x₁ y₁ z₁ …, length d·n.
+//!
+//! Every model is built by [`LinearModel::from_scaled_basis`], which takes basis·σ by the file's own
+//! convention and makes it orthogonal and sorted with one thin SVD: no file's claim that its
+//! columns are orthonormal is trusted.
+//!
+//! **Limits.** All numbers are held in `f64`; a model of 53,490 points and 199 modes takes 255 MB.
+
+mod linear_model;
+mod population;
+mod procrustes;
+mod thin_svd;
+
+pub use linear_model::{BasisCheck, Cells, Kind, LinearModel, ModelError, Unit};
+pub use population::{generalised_procrustes, principal_components};
+pub use procrustes::{Alignment, Similarity, align_to, procrustes};
+pub use thin_svd::{ThinSvd, thin_svd};

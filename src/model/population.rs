@@ -1,0 +1,95 @@
+//! Models built from shapes in correspondence: generalised Procrustes and principal components.
+//!
+//! PCA with divisor N − 1; `numpy.linalg.svd` of the centred data over √(N − 1) gives the same.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{Alignment, LinearModel, ModelError, procrustes};
+
+/// The model of `shapes` (d·n × N, one shape a column): their mean and principal components.
+///
+/// # Errors
+/// [`ModelError::TooFewShapes`] below three shapes, and what
+/// [`LinearModel::from_scaled_basis`] refuses.
+pub fn principal_components(
+    dimension: usize,
+    shapes: &DMatrix<f64>,
+) -> Result<LinearModel, ModelError> {
+    let count = shapes.ncols();
+    if count < 3 {
+        return Err(ModelError::TooFewShapes { found: count });
+    }
+    let mean = shapes.column_mean();
+    let scale = 1.0 / ((count - 1) as f64).sqrt();
+    let mut centred = shapes.clone();
+    for mut column in centred.column_iter_mut() {
+        column -= &mean;
+        column *= scale;
+    }
+    LinearModel::from_scaled_basis(dimension, mean, centred).map(|(model, _)| model)
+}
+
+/// Moves every shape (a column of `shapes`, d·n × N) onto the running mean until it settles, in at
+/// most ten rounds; returns that mean. Scale is only changed with [`Alignment::Similarity`].
+pub fn generalised_procrustes(
+    dimension: usize,
+    shapes: &mut DMatrix<f64>,
+    alignment: Alignment,
+) -> DVector<f64> {
+    const MOST_ROUNDS: usize = 10;
+    let mut mean: DVector<f64> = shapes.column(0).into_owned();
+    let size = mean.norm();
+    for _ in 0..MOST_ROUNDS {
+        for mut shape in shapes.column_iter_mut() {
+            let similarity = procrustes(mean.as_slice(), shape.as_slice(), dimension, alignment);
+            similarity.move_points(shape.as_mut_slice());
+        }
+        let mut next = shapes.column_mean();
+        if alignment == Alignment::Similarity {
+            next *= size / next.norm();
+        }
+        let change = (&next - &mean).norm();
+        mean = next;
+        if change <= 1e-12 * size {
+            break;
+        }
+    }
+    mean
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn principal_components_equal_numpys() {
+        // numpy: X = [[0,0],[1,2],[2,1],[4,6]] as 2-D points; svd(X - mean)/sqrt(3).
+        let shapes = DMatrix::from_column_slice(2, 4, &[0., 0., 1., 2., 2., 1., 4., 6.]);
+        let model = principal_components(2, &shapes).unwrap();
+        let expected = [PCA_FIRST, PCA_SECOND];
+        for (found, expected) in model.standard_deviations().iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-13, "{found} is not numpy's {expected}");
+        }
+    }
+
+    const PCA_FIRST: f64 = 3.076_278_751_224_371_4;
+    const PCA_SECOND: f64 = 0.608_146_674_823_396_1;
+
+    #[test]
+    fn shapes_that_differ_by_a_motion_only_become_equal() {
+        let base = [0.0, 0.0, 2.0, 0.0, 2.0, 1.0, 0.0, 3.0];
+        let mut shapes = DMatrix::zeros(8, 4);
+        for k in 0..4 {
+            let angle = k as f64 * 0.3;
+            let (sine, cosine) = libm::sincos(angle);
+            for (v, p) in base.chunks(2).enumerate() {
+                shapes[(2 * v, k)] = cosine * p[0] - sine * p[1] + k as f64;
+                shapes[(2 * v + 1, k)] = sine * p[0] + cosine * p[1] - 2.0 * k as f64;
+            }
+        }
+        let mean = generalised_procrustes(2, &mut shapes, Alignment::Rigid);
+        for shape in shapes.column_iter() {
+            assert!((shape - &mean).amax() < 1e-12, "moved onto the mean");
+        }
+    }
+}
