@@ -73,6 +73,24 @@ impl Default for Settings {
     }
 }
 
+impl Settings {
+    /// The defaults of one sampler: the paper's walks run its budget of 25 chains × 5,000 steps, 2,000 of
+    /// them burn-in, with 2,500 draws kept on each side.
+    pub fn of(sampler: Sampler) -> Self {
+        match sampler {
+            Sampler::Independence => Self::default(),
+            Sampler::Paper | Sampler::PaperCorrected => Self {
+                sampler,
+                chains: 25,
+                draws: 2500,
+                burn_in: 2000,
+                thin: 30,
+                ..Self::default()
+            },
+        }
+    }
+}
+
 mod decimal {
     use serde::{Deserialize, Deserializer, Serializer, de::Error};
 
