@@ -5,8 +5,8 @@
 //!
 //! * **rms**: d replaced by the root mean square √(Σ‖r_v‖²/n) ≥ d; exact in one solve.
 //!   Λ = I + AᵀA + RᵀR/(nσ²), μ = −Λ⁻¹(Aᵀa₀ + Rᵀr₀/(nσ²)).
-//! * **reweighted**: d² replaced by (1/n) Σ_v w_v ‖r_v‖² with w_v = d̄/E‖r_v‖, repeated; exact when
-//!   a single vertex moves, as in the paper's stars.
+//! * **reweighted**: d² replaced by (1/n) Σ_v w_v ‖r_v‖² ≥ d² with w_v = ρ̄/ρ_v, ρ_v = √E‖r_v‖² and ρ̄
+//!   their mean (Cauchy–Schwarz), repeated; exact when a single vertex moves, as in the paper's stars.
 //! * **variational**: the Gaussian that minimises KL(q‖p) with E d² replaced by (E d)². With r_v ~
 //!   N(m_v, C_v) under q, d̄ = mean E‖r_v‖, ḡ = (1/n) Σ R_vᵀE r̂_v, W_v = E∇²‖r_v‖ (Newton-like):
 //!   Λ ← I + AᵀA + σ⁻²[d̄·(1/n) Σ R_vᵀW_vR_v + ḡḡᵀ],
@@ -82,12 +82,11 @@ pub fn fit_reweighted(
     let mut fit = start.clone();
     for _ in 0..rounds {
         let expectations = expectations(side, &fit, &quadrature);
-        let total = expectations.norms.iter().sum::<f64>();
-        let weights: Vec<f64> = expectations
-            .norms
-            .iter()
-            .zip(&expectations.squares)
-            .map(|(norm, square)| if *square > 0.0 { total * norm / square } else { 0.0 })
+        let roots: Vec<f64> = expectations.squares.iter().map(|square| square.sqrt()).collect();
+        let total: f64 = roots.iter().sum();
+        let weights: Vec<f64> = roots
+            .into_iter()
+            .map(|root| if root > 1e-12 * total { total / root } else { 0.0 })
             .collect();
         let scale = 1.0 / (side.point_count() as f64 * sigma);
         let (hessian, shift) = weighted_gram(side, &weights, scale * scale);

@@ -13,7 +13,10 @@ const MOST_ITERATIONS: usize = 12;
 const AT_REST: f64 = 0.02;
 const PILOT_DRAWS: usize = 256;
 /// Effective share of the pilot's weights above which no other fit is tried.
-const GOOD_ENOUGH: f64 = 0.95;
+const GOOD_ENOUGH: f64 = 0.8;
+/// The same below `FEW_POINTS` points, where other fits cost nothing and are often exact.
+const GOOD_ENOUGH_FOR_FEW: f64 = 0.99;
+const FEW_POINTS: usize = 256;
 const REWEIGHTED_ROUNDS: usize = 6;
 
 /// A fit under way.
@@ -60,7 +63,8 @@ impl Fitting {
         }
         let variational = Fit { method: FitMethod::Variational, gaussian: self.current.clone() };
         let share = self.effective_share(operator, &variational.gaussian);
-        if share >= GOOD_ENOUGH {
+        let few = operator.point_count() < FEW_POINTS;
+        if share >= if few { GOOD_ENOUGH_FOR_FEW } else { GOOD_ENOUGH } {
             return Some(variational);
         }
         let mut best = (share, variational);
