@@ -14,7 +14,7 @@ import {
   ensurePython,
   hasNextest,
 } from "./setup.mjs";
-import { attempt, explain, main, StepError } from "./steps/run.mjs";
+import { announce, attempt, explain, main, StepError } from "./steps/run.mjs";
 import { bundleUnitTests } from "./unit.mjs";
 
 const total = { passed: 0, failed: 0 };
@@ -34,24 +34,20 @@ async function prepare(part, work) {
 
 /** One line for one check or suite; `work` resolves to `{passed, failed, output}`. */
 async function test(what, needs, work) {
-  const begin = performance.now();
-  process.stdout.write(`→ ${what} … `);
+  const close = announce(what);
   const missing = needs.filter((part) => !ready.get(part));
   const result =
     missing.length > 0
       ? { passed: 0, failed: 1, output: `Not run: set-up failed for ${missing.join(" and ")}.` }
       : await work().catch((error) => ({ passed: 0, failed: 1, output: describe(error) }));
-  const seconds = `(${((performance.now() - begin) / 1000).toFixed(1)} s)`;
   total.passed += result.passed;
   total.failed += result.failed;
-  const some = result.passed + result.failed !== 1;
+  const many = result.passed + result.failed !== 1;
   if (result.failed === 0) {
-    console.log(some ? `${result.passed} passed ${seconds}` : `ok ${seconds}`);
+    close(many ? `${result.passed} passed` : "ok");
     return;
   }
-  console.log(
-    some ? `${result.passed} passed, ${result.failed} failed ${seconds}` : `failed ${seconds}`,
-  );
+  close(many ? `${result.passed} passed, ${result.failed} failed` : "failed");
   console.log(`${result.output.trimEnd()}\n`);
   failures.push(what);
 }

@@ -77,13 +77,27 @@ export async function must(program, args, { env, hint } = {}) {
   return output;
 }
 
-/** Says what begins, does it, and adds how it went: what `work` returns, or "done". */
-export async function step(what, work) {
+let depth = 0;
+let lineIsOpen = false;
+
+/** Says what begins; the function it returns completes the line, or adds one after inner steps. */
+export function announce(what) {
   const begin = performance.now();
-  const close = (how) => {
-    console.log(`${how} (${((performance.now() - begin) / 1000).toFixed(1)} s)`);
+  if (lineIsOpen) process.stdout.write("\n");
+  process.stdout.write(`${"  ".repeat(depth)}→ ${what} … `);
+  depth += 1;
+  lineIsOpen = true;
+  return (how) => {
+    depth -= 1;
+    const lead = lineIsOpen ? "" : `${"  ".repeat(depth)}  `;
+    console.log(`${lead}${how} (${((performance.now() - begin) / 1000).toFixed(1)} s)`);
+    lineIsOpen = false;
   };
-  process.stdout.write(`→ ${what} … `);
+}
+
+/** One announced step; the line ends with what `work` returns, or "done". */
+export async function step(what, work) {
+  const close = announce(what);
   try {
     const result = await work();
     close(typeof result === "string" ? result : "done");

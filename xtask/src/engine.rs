@@ -28,6 +28,8 @@ pub(crate) fn build(variant: Variant, optimise: bool) -> Result {
         .input_path(&compiled)
         .out_name(NAME)
         .web(true)?
+        // So that `init()` finds the module beside its script.
+        .omit_default_module_path(false)
         .typescript(true)
         .remove_name_section(true)
         .remove_producers_section(true)
