@@ -60,5 +60,10 @@ export default defineConfig({
   worker: { format: "es" },
   server: { headers: isolation },
   preview: { headers: isolation },
-  build: { target: "es2022", chunkSizeWarningLimit: 700 },
+  build: {
+    target: "es2022",
+    // three.js alone is over the default.
+    chunkSizeWarningLimit: 700,
+    license: { fileName: "licenses.md" },
+  },
 });
