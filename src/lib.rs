@@ -2,5 +2,6 @@
 //! can only one of them make?
 
 pub mod comparison;
+pub mod formats;
 pub mod model;
 pub mod report;
