@@ -30,7 +30,7 @@ use crate::compare::{
 use crate::model::LinearModel;
 use crate::report::{ModelReport, Report, Seconds};
 use crate::sampling::{
-    Chains, Draws, IndependenceChains, RandomWalkChains, Rejection, Scaling, Schedule,
+    Chains, Draws, EndedChains, IndependenceChains, RandomWalkChains, Rejection, Scaling, Schedule,
 };
 use fitting::Fitting;
 
@@ -141,6 +141,30 @@ impl Comparison {
             cancelled: false,
             finished: None,
         })
+    }
+
+    /// A finished run, put back from its report and stored draws.
+    ///
+    /// # Errors
+    /// [`ComparisonError::Pair`], and [`ComparisonError::StoredDraws`] when the draws do not fit.
+    pub fn restored(
+        a: &LinearModel,
+        b: &LinearModel,
+        report: Report,
+        draws: &[StoredArray],
+    ) -> Result<Self, ComparisonError> {
+        let described = [report.models.a.clone(), report.models.b.clone()];
+        let mut run = Self::new(a, b, described, report.settings.clone())?;
+        let modes = run.pair.models().map(LinearModel::mode_count);
+        let Results { intersection, differences } = Results::from_arrays(draws, modes)?;
+        run.joint = Some(run.pair.joint());
+        run.chains =
+            intersection.map(|draws| Box::new(EndedChains(draws)) as Box<dyn Chains>).into();
+        run.rejections = differences.map(Rejection::ended).into();
+        let intersection = run.intersection_so_far().ok_or(ComparisonError::FlatIntersection)?;
+        run.finished = Some(Finished { report, intersection });
+        run.stage = Stage::Done;
+        Ok(run)
     }
 
     /// Does the next piece of work, about `evaluations` evaluations of the distance where it is

@@ -23,6 +23,23 @@ pub enum Region {
     BWithoutA,
 }
 
+impl Region {
+    /// All five, from A to B.
+    pub const ALL: [Self; 5] =
+        [Self::A, Self::AWithoutB, Self::Intersection, Self::BWithoutA, Self::B];
+
+    /// For names of files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::A => "a",
+            Self::B => "b",
+            Self::Intersection => "intersection",
+            Self::AWithoutB => "a-without-b",
+            Self::BWithoutA => "b-without-a",
+        }
+    }
+}
+
 /// What the shapes of a region come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]

@@ -91,6 +91,26 @@ impl Settings {
     }
 }
 
+impl Settings {
+    /// From JSON; what is left out has the default of the sampler that it names.
+    ///
+    /// # Errors
+    /// The reader's own words when a field is unknown or of the wrong type.
+    pub fn parse(given: serde_json::Value) -> Result<Self, serde_json::Error> {
+        #[derive(Deserialize, Default)]
+        #[serde(default)]
+        struct Named {
+            sampler: Sampler,
+        }
+        let Named { sampler } = serde_json::from_value(given.clone())?;
+        let mut whole = serde_json::to_value(Self::of(sampler))?;
+        if let (Some(all), serde_json::Value::Object(some)) = (whole.as_object_mut(), given) {
+            all.extend(some);
+        }
+        serde_json::from_value(whole)
+    }
+}
+
 mod decimal {
     use serde::{Deserialize, Deserializer, Serializer, de::Error};
 

@@ -11,6 +11,7 @@ use nalgebra::DMatrix;
 use crate::model::{Cells, LinearModel, principal_components};
 
 const TIPS: usize = 5;
+const POINTS: u32 = 10;
 const OUTER_RADIUS: f64 = 10.0;
 const INNER_RADIUS: f64 = 3.0;
 
@@ -59,7 +60,7 @@ fn swept(sweeps: &[(usize, i32, i32)]) -> LinearModel {
     }
     let length = 4 * TIPS;
     let matrix = DMatrix::from_column_slice(length, shapes.len() / length, &shapes);
-    let outline = (0..2 * TIPS as u32).map(|v| [v, (v + 1) % (2 * TIPS as u32)]).collect();
+    let outline = (0..POINTS).map(|v| [v, (v + 1) % POINTS]).collect();
     principal_components(2, &matrix)
         .and_then(|model| model.with_cells(Cells::Segments(outline)))
         .unwrap_or_else(|fault| unreachable!("a swept star is a model: {fault}"))

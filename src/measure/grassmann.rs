@@ -75,7 +75,7 @@ pub fn affine_grassmann_distance(
 fn embedding(space: &AffineSpace, columns: usize, displacement: Displacement) -> DMatrix<f64> {
     let count = columns.min(space.basis.ncols());
     let basis = space.basis.columns(0, count);
-    let mut away = &space.point - &basis * basis.tr_mul(&space.point);
+    let mut away = &space.point - basis * basis.tr_mul(&space.point);
     let length = away.norm();
     if displacement == Displacement::Unit && length > 0.0 {
         away /= length;

@@ -105,6 +105,22 @@ pub trait Chains: core::fmt::Debug + Send {
     fn draws(&self) -> &Draws;
 }
 
+/// Chains that have ended, known by their draws.
+#[derive(Debug, Clone)]
+pub struct EndedChains(pub Draws);
+
+impl Chains for EndedChains {
+    fn advance(&mut self, _: &dyn Target, _: usize) {}
+
+    fn remaining(&self) -> usize {
+        0
+    }
+
+    fn draws(&self) -> &Draws {
+        &self.0
+    }
+}
+
 /// How long chains run and which of their states are kept.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Schedule {

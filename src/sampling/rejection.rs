@@ -55,6 +55,11 @@ impl Rejection {
         }
     }
 
+    /// A run that has ended, known by its draws.
+    pub fn ended(draws: Draws) -> Self {
+        Self { draws, ..Self::new(0, 0, 0, 0, 0) }
+    }
+
     /// Proposes one block, or less when that gives the last draw wanted.
     pub fn advance(&mut self, target: &dyn RejectionTarget) {
         let dimension = self.draws.dimension;
