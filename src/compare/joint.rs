@@ -143,12 +143,14 @@ impl Joint {
         Moments { mean: self.means[side].clone(), covariance: scaled * scaled.transpose() }
     }
 
-    /// The model with these moments; `None` when nothing varies.
-    pub fn model(&self, moments: &Moments) -> Option<LinearModel> {
+    /// The model of the leading principal components, `most` at the most; `None` when nothing varies.
+    pub fn model(&self, moments: &Moments, most: usize) -> Option<LinearModel> {
         let (vectors, values) = moments.principal_components();
-        if values.is_empty() {
+        let kept = values.len().min(most);
+        if kept == 0 {
             return None;
         }
+        let (vectors, values) = (vectors.columns(0, kept), values.rows(0, kept));
         Some(LinearModel::from_orthonormal(
             self.dimension,
             &self.origin + &self.basis * &moments.mean,

@@ -111,11 +111,6 @@ impl Results {
     }
 }
 
-/// Joint-basis moments of the intersection: both sides pooled equally.
-pub(super) fn pooled(joint: &Joint, sides: [&Moments; 2]) -> Moments {
-    Moments::pooled(&joint.lift(0, sides[0]), &joint.lift(1, sides[1]))
-}
-
 impl Comparison {
     /// Moments of the coefficients of one side of the intersection: of the draws, or of the fit while
     /// there are too few.
@@ -132,8 +127,21 @@ impl Comparison {
     /// The intersection model from what there is.
     pub(super) fn intersection_so_far(&self) -> Option<LinearModel> {
         let joint = self.joint.as_ref()?;
-        let sides = [self.intersection_moments(0)?, self.intersection_moments(1)?];
-        joint.model(&pooled(joint, [&sides[0], &sides[1]])).map(|model| self.dressed(model))
+        let moments = self.pooled_moments()?;
+        joint.model(&moments, self.most_modes()).map(|model| self.dressed(model))
+    }
+
+    /// Joint-basis moments of the intersection from what there is: both sides pooled equally.
+    pub(super) fn pooled_moments(&self) -> Option<Moments> {
+        let joint = self.joint.as_ref()?;
+        let lifted = |side: usize| Some(joint.lift(side, &self.intersection_moments(side)?));
+        Some(Moments::pooled(&lifted(0)?, &lifted(1)?))
+    }
+
+    /// Modes of the intersection model: no more than the smaller model has, since an intersection of two
+    /// spaces has no more dimensions. What the pooled draws spread beyond is their tolerance.
+    fn most_modes(&self) -> usize {
+        self.pair.a().mode_count().min(self.pair.b().mode_count())
     }
 
     /// A model that lies in A's frame, with A's cells, unit and kind.
@@ -167,6 +175,8 @@ impl Comparison {
                 modes: intersection.mode_count(),
                 standard_deviations: intersection.standard_deviations().as_slice().to_vec(),
                 total_variance: intersection.total_variance(),
+                variance_kept: intersection.total_variance()
+                    / self.pooled_moments().map_or(1.0, |moments| moments.covariance.trace()),
                 mean_distance: MeanSd::of(&distances),
                 grassmann,
                 grassmann_affine,
