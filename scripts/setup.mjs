@@ -29,33 +29,57 @@ export async function ensureNode() {
   if (existsSync(stamp) && readFileSync(stamp, "utf8") === wanted) return;
   const newer = existsSync(installed) && statSync(installed).mtimeMs >= statSync(lock).mtimeMs;
   if (!newer) {
-    await change("Installing the npm packages", "npm", ["ci", "--no-audit", "--no-fund"], {
-      hint: "check the network; `npm ci` must succeed.",
-    });
+    await change(
+      "Installing the npm packages",
+      "npm",
+      ["ci", "--no-audit", "--no-fund", "--loglevel=error"],
+      {
+        hint: "check the network; `npm ci` must succeed.",
+      },
+    );
   }
   if (!dryRun) writeFileSync(stamp, wanted);
 }
 
-/** A C compiler: Rust links with it, and some build scripts run on this machine. */
-export async function ensureLinker() {
-  if (process.platform === "win32" || which("cc") !== null) return;
+const pythons = ["python3", "python"];
+const findPython = () => pythons.find((name) => ask(name, "-c", "import venv, ensurepip") !== null);
+
+/**
+ * System packages, all in one command: a C compiler, since Rust links with it; for tests also a
+ * Python that can make environments. On Debian as root a browser for the tests too; elsewhere
+ * `ensureBrowser` fetches one.
+ */
+export async function ensureSystem({ tests = false } = {}) {
+  if (process.platform === "win32") return;
+  const missing = [];
+  if (which("cc") === null) {
+    const elsewhere =
+      process.platform === "darwin" ? "run xcode-select --install" : "install gcc or clang";
+    missing.push({ what: "a C compiler", packages: ["build-essential"], elsewhere });
+  }
+  if (tests && findPython() === undefined) {
+    const elsewhere = "install Python 3.10 or later with venv";
+    missing.push({ what: "Python with venv", packages: ["python3", "python3-venv"], elsewhere });
+  }
+  if (tests && isDebianRoot() && !findInstalledBrowser()) {
+    missing.push({ what: "a browser for the tests", packages: ["chromium"], elsewhere: "" });
+  }
+  if (missing.length === 0) return;
   await installPackages(
-    ["build-essential"],
-    "a C compiler",
-    process.platform === "darwin" ? "run xcode-select --install." : "install gcc or clang.",
+    missing.flatMap(({ packages }) => packages),
+    missing.map(({ what }) => what).join(", "),
+    `${missing.map(({ elsewhere }) => elsewhere).join("; ")}; then try again.`,
   );
 }
 
 /** Everything that building needs; resolves to the environment for xtask. */
 export async function ensureBuild(options) {
-  await ensureLinker();
+  await ensureSystem();
   await ensureRust();
   return ensureWasm(options);
 }
 
-/** The browser that the tests drive: CHROMIUM, an installed one, or playwright's own. */
-export async function findBrowser() {
-  const { chromium } = await import("playwright-core");
+function findInstalledBrowser() {
   const places = [
     process.env.CHROMIUM,
     which("chromium"),
@@ -64,24 +88,28 @@ export async function findBrowser() {
     "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
     "/Applications/Chromium.app/Contents/MacOS/Chromium",
     join(process.env.PROGRAMFILES ?? homedir(), "Google/Chrome/Application/chrome.exe"),
-    chromium.executablePath(),
   ];
   return places.find((place) => place && existsSync(place)) ?? null;
 }
 
+/** The browser that the tests drive: CHROMIUM, an installed one, or playwright's own. */
+export async function findBrowser() {
+  const installed = findInstalledBrowser();
+  if (installed !== null) return installed;
+  const { chromium } = await import("playwright-core");
+  return existsSync(chromium.executablePath()) ? chromium.executablePath() : null;
+}
+
+/** On a machine without a browser, fetches one that needs no root. */
 export async function ensureBrowser() {
   if ((await findBrowser()) !== null) return;
-  if (isDebianRoot()) {
-    await installPackages(["chromium"], "the browser that the tests drive", "");
-  } else {
-    const apt = isDebian() ? " Or as root: apt-get install -y chromium" : "";
-    await change(
-      "Fetching Chromium for the browser tests",
-      "npx",
-      ["playwright-core", "install", "chromium"],
-      { hint: `install Chromium or Chrome, or set CHROMIUM to its path.${apt}` },
-    );
-  }
+  const apt = isDebian() ? " Or as root: apt-get install -y chromium" : "";
+  await change(
+    "Fetching Chromium for the browser tests",
+    "npx",
+    ["playwright-core", "install", "chromium"],
+    { hint: `install Chromium or Chrome, or set CHROMIUM to its path.${apt}` },
+  );
 }
 
 /** A Python with the packages that the Rust tests compare with; resolves to its path. */
@@ -90,14 +118,11 @@ export async function ensurePython() {
   const python = join(home, process.platform === "win32" ? "Scripts/python.exe" : "bin/python");
   const complete = () => ask(python, "-c", `import ${pythonPackages.join(", ")}`) !== null;
   if (complete()) return python;
-  const system = ["python3", "python"].find(
-    (name) => ask(name, "-c", "import venv, ensurepip") !== null,
-  );
-  if (system === undefined) {
-    await installPackages(
-      ["python3", "python3-venv"],
-      "Python with venv",
-      "install Python 3.10 or later.",
+  const system = findPython();
+  if (system === undefined && !dryRun) {
+    throw new StepError(
+      "No Python here can make environments.",
+      "see above for how to install it.",
     );
   }
   mkdirSync(cache, { recursive: true });
@@ -123,12 +148,13 @@ export async function hasNextest() {
   return (await attempt("cargo", ["nextest", "--version"])).ok;
 }
 
-export { ensureLinters };
+export { ensureLinters, ensureWasm };
 
 if (isMain(import.meta.url)) {
   await main(async () => {
     const tests = process.argv.includes("--tests");
     await ensureNode();
+    await ensureSystem({ tests });
     await ensureBuild({ lint: tests });
     if (tests) {
       await ensureLinters();

@@ -12,6 +12,8 @@ import {
   ensureLinters,
   ensureNode,
   ensurePython,
+  ensureSystem,
+  ensureWasm,
   hasNextest,
 } from "./setup.mjs";
 import { announce, attempt, explain, main, StepError } from "./steps/run.mjs";
@@ -106,17 +108,21 @@ function nodeTests(files, ...more) {
   return suite(counts.node, process.execPath, args);
 }
 
-async function xtask(...args) {
-  return check("cargo", ["run", "--quiet", "--locked", "-p", "xtask", "--", ...args], {
-    env: ready.get("WebAssembly"),
-  });
+function lint(variant) {
+  const args = ["run", "--quiet", "--locked", "-p", "xtask", "--", "lint", variant];
+  return check("cargo", args, { env: ready.get("Clippy for WebAssembly") });
 }
 
 async function rustTests() {
   const env = { SHAPEVENN_PYTHON: ready.get("Python") };
   const options = ["--locked", "--no-fail-fast", "-p", "shapevenn"];
   return (await hasNextest())
-    ? suite(counts.nextest, "cargo", ["nextest", "run", "--no-tests=pass", ...options], { env })
+    ? suite(
+        counts.nextest,
+        "cargo",
+        ["nextest", "run", "--cargo-quiet", "--no-tests=pass", ...options],
+        { env },
+      )
     : suite(counts.cargo, "cargo", ["test", "--all-targets", ...options], { env });
 }
 
@@ -128,7 +134,9 @@ async function built(build) {
 await main(async () => {
   console.log("Set-up");
   await prepare("npm", ensureNode);
-  await prepare("WebAssembly", () => ensureBuild({ lint: true }));
+  await prepare("system", () => ensureSystem({ tests: true }));
+  await prepare("WebAssembly", () => ensureBuild());
+  await prepare("Clippy for WebAssembly", () => ensureWasm({ lint: true }));
   await prepare("linters", ensureLinters);
   await prepare("browser", () =>
     ready.get("npm") ? ensureBrowser() : Promise.reject(new StepError("No npm packages.")),
@@ -136,13 +144,13 @@ await main(async () => {
   await prepare("Python", ensurePython);
 
   console.log("Checks");
-  const locked = ["--locked", "--workspace"];
+  const locked = ["--quiet", "--locked", "--workspace"];
   await test("Rust formatting", ["linters"], () => check("cargo", ["fmt", "--all", "--check"]));
   await test("Clippy, native", ["linters"], () =>
     check("cargo", ["clippy", ...locked, "--all-targets", "--", "-D", "warnings"]),
   );
-  await test("Clippy, WebAssembly, serial", ["WebAssembly"], () => xtask("lint", "serial"));
-  await test("Clippy, WebAssembly, threads", ["WebAssembly"], () => xtask("lint", "threads"));
+  await test("Clippy, WebAssembly, serial", ["Clippy for WebAssembly"], () => lint("serial"));
+  await test("Clippy, WebAssembly, threads", ["Clippy for WebAssembly"], () => lint("threads"));
   await test("Features that would change numbers", [], checkFeatures);
   await test("Rust documentation", [], () =>
     check("cargo", ["doc", ...locked, "--no-deps"], { env: { RUSTDOCFLAGS: "-D warnings" } }),

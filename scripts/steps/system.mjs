@@ -32,9 +32,9 @@ let updated = false;
  */
 export async function installPackages(packages, why, elsewhere) {
   const command = `apt-get install -y --no-install-recommends ${packages.join(" ")}`;
-  if (!isDebian()) throw new StepError(`${why} is missing.`, elsewhere);
+  if (!isDebian()) throw new StepError(`Missing: ${why}.`, elsewhere);
   if (!isDebianRoot()) {
-    throw new StepError(`${why} is missing.`, `run this once as root, then try again: ${command}`);
+    throw new StepError(`Missing: ${why}.`, `run this once as root, then try again: ${command}`);
   }
   const env = { DEBIAN_FRONTEND: "noninteractive" };
   if (!updated) {

@@ -103,7 +103,7 @@ export function wasmEnvironment() {
 export async function ensureWasm({ lint = false } = {}) {
   let environment = wasmEnvironment();
   if (environment === null) {
-    await installWasm();
+    await installWasm(lint);
     environment = wasmEnvironment();
     if (environment === null && dryRun) return {};
     if (environment === null) {
@@ -121,8 +121,8 @@ export async function ensureWasm({ lint = false } = {}) {
 }
 
 /** Debian's packages as root, else rustup's components, else one sentence. */
-async function installWasm() {
-  const packages = ["rustc-web", "rust-web-src"];
+async function installWasm(lint) {
+  const packages = ["rustc-web", "rust-web-src", ...(lint ? ["rust-web-clippy"] : [])];
   let refused = null;
   if (isDebianRoot()) {
     try {
