@@ -1,0 +1,30 @@
+import type { ComponentChildren } from "preact";
+
+interface FieldProps {
+  label: string;
+  changed: boolean;
+  onReset: () => void;
+  help?: string | undefined;
+  children: ComponentChildren;
+}
+
+/** One setting: its name, its input, and the way back to the default. */
+export function Field({ label, changed, onReset, help, children }: FieldProps) {
+  return (
+    <div class="field" data-changed={changed} title={help}>
+      <span class="field-label" aria-hidden="true">
+        {label}
+      </span>
+      <div class="field-input">{children}</div>
+      <button
+        type="button"
+        class="reset"
+        onClick={onReset}
+        disabled={!changed}
+        aria-label={`Reset ${label} to its default`}
+      >
+        {changed ? "reset" : "default"}
+      </button>
+    </div>
+  );
+}

@@ -1,0 +1,81 @@
+import { resample } from "../comparison";
+import { savePicture } from "../picture";
+import { VIEW_MODES, type ViewMode } from "../link";
+import { camera, lockedRange, region, view } from "../state";
+import { HOME } from "../viewer/camera";
+import { range } from "../viewer/stage-controller";
+import { DownloadIcon } from "./icons";
+import { REGION_NAMES } from "./names";
+
+const LABELS: Record<ViewMode, string> = {
+  mean: "Mean",
+  samples: "Samples",
+  sd: "Standard deviation",
+};
+
+export function Toolbar() {
+  const shown = region.value;
+  return (
+    <div class="toolbar">
+      <fieldset class="segments">
+        <legend class="unseen">What is drawn</legend>
+        {VIEW_MODES.map((mode) => (
+          <label key={mode} data-on={view.value === mode}>
+            <input
+              type="radio"
+              name="view"
+              value={mode}
+              checked={view.value === mode}
+              onChange={() => {
+                view.value = mode;
+              }}
+            />
+            {LABELS[mode]}
+          </label>
+        ))}
+      </fieldset>
+      {view.value === "samples" && (
+        <button type="button" class="quiet" onClick={() => void resample()}>
+          Resample
+        </button>
+      )}
+      {view.value === "sd" && (
+        <label class="check">
+          <input
+            type="checkbox"
+            checked={lockedRange.value !== null}
+            onChange={(event) => {
+              lockedRange.value = event.currentTarget.checked ? range.value : null;
+            }}
+          />
+          Lock scale
+        </label>
+      )}
+      <span class="grow" />
+      {shown !== null && (
+        <button
+          type="button"
+          class="quiet"
+          onClick={() => {
+            region.value = null;
+          }}
+        >
+          All five <span class="dim">({REGION_NAMES[shown].sign} now)</span>
+        </button>
+      )}
+      <button
+        type="button"
+        class="quiet"
+        onClick={() => {
+          camera.value = HOME;
+        }}
+      >
+        Reset view
+      </button>
+      <button type="button" class="quiet" onClick={() => void savePicture()}>
+        <DownloadIcon />
+        <span>PNG</span>
+      </button>
+    </div>
+  );
+}
