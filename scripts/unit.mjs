@@ -1,0 +1,51 @@
+/**
+ * Runs tests/unit. Node 20 reads no TypeScript, so the tests are bundled first, into .setup/unit;
+ * they run from the top of the repository, so fixtures are found from there.
+ */
+import { spawnSync } from "node:child_process";
+import { existsSync, readdirSync } from "node:fs";
+import { join } from "node:path";
+import { ensureNode } from "./setup.mjs";
+import { cache, isMain, main, root } from "./steps/run.mjs";
+
+/** Bundles the tests and returns the files for `node --test`. */
+export async function bundleUnitTests() {
+  const folder = join(root, "tests/unit");
+  const names = existsSync(folder) ? readdirSync(folder, { recursive: true }) : [];
+  const tests = names.filter((name) => /\.test\.(ts|tsx|mjs)$/.test(name)).sort();
+  if (tests.length === 0) return [];
+  const input = Object.fromEntries(
+    tests.map((name) => [
+      name.replace(/\.(ts|tsx|mjs)$/, "").replace(/[\\/]/g, "-"),
+      join(folder, name),
+    ]),
+  );
+  const outDir = join(cache, "unit");
+  const { build } = await import("vite");
+  await build({
+    configFile: false,
+    root,
+    publicDir: false,
+    logLevel: "warn",
+    build: {
+      ssr: true,
+      target: "node20",
+      outDir,
+      emptyOutDir: true,
+      sourcemap: "inline",
+      rolldownOptions: { input, output: { entryFileNames: "[name].mjs" } },
+    },
+  });
+  return Object.keys(input).map((name) => join(outDir, `${name}.mjs`));
+}
+
+if (isMain(import.meta.url)) {
+  await main(async () => {
+    await ensureNode();
+    const files = await bundleUnitTests();
+    if (files.length === 0) return console.log("There are no unit tests.");
+    const args = ["--enable-source-maps", "--test", ...files];
+    const { status } = spawnSync(process.execPath, args, { cwd: root, stdio: "inherit" });
+    process.exitCode = status ?? 1;
+  });
+}
