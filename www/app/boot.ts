@@ -54,7 +54,9 @@ function watchDocument(): void {
   effect(() => {
     const fraction = run.value?.progress?.fraction;
     const name = `${nouns.value.a} and ${nouns.value.b}`;
-    document.title = run.value ? `${Math.round(100 * (fraction ?? 0))}\u202f% – Shapevenn` : `Shapevenn: ${name}`;
+    document.title = run.value
+      ? `${Math.round(100 * (fraction ?? 0))}\u202f% – Shapevenn`
+      : `Shapevenn: ${name}`;
   });
   addEventListener("beforeunload", (event) => {
     if (run.value) event.preventDefault();

@@ -4,6 +4,7 @@ import { wasAborted } from "../worker/engine-errors";
 import type { Progress, Region, Report } from "../worker/protocol";
 import { engineClient, onEngineRestart, report as reportError } from "./engine";
 import { REGIONS } from "./link";
+import { plain } from "./phrase";
 import {
   chosenPart,
   currentKey,
@@ -21,7 +22,6 @@ import {
   spoken,
 } from "./state";
 import type { Stored } from "./stored";
-import { plain } from "./phrase";
 import { belief } from "./words";
 
 /** How long the page waits for the next change before it runs. */

@@ -16,7 +16,12 @@ export function engineClient(): EngineClient {
     },
     onRestart: (reason) => {
       engine.value = null;
-      notify("page", "engine-stopped", reason, "The engine starts again and opens your models anew.");
+      notify(
+        "page",
+        "engine-stopped",
+        reason,
+        "The engine starts again and opens your models anew.",
+      );
       for (const listener of restarted) listener();
     },
     onGiveUp: (reason) => {

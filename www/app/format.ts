@@ -28,6 +28,13 @@ export function length(value: number, unit: string): string {
   return `${number(value)}\u202f${unit}`;
 }
 
+/** A mean and its spread, both to the same decimal. */
+export function plusMinus(mean: number, spread: number): { mean: string; spread: string } {
+  const finest = Math.max(Math.abs(spread), 1e-3);
+  const decimals = Math.min(6, Math.max(0, 1 - Math.floor(Math.log10(finest))));
+  return { mean: minus(mean.toFixed(decimals)), spread: spread.toFixed(decimals) };
+}
+
 /** “about 12 s”, “about 3 min”. */
 export function duration(seconds: number): string {
   if (!Number.isFinite(seconds) || seconds < 0) return "–";

@@ -9,8 +9,8 @@ import {
   emptyRegions,
   lockedRange,
   opening,
-  type Side,
   SIDES,
+  type Side,
   type Slot,
   type Source,
   slots,
@@ -116,14 +116,20 @@ async function openSource(
     const file = packagedFile(source.name);
     bytes = file === null ? null : await fetched(signal, file);
   } else {
-    bytes = source.kind === "file" ? await readFile(source.file) : await fetched(signal, source.url);
+    bytes =
+      source.kind === "file" ? await readFile(source.file) : await fetched(signal, source.url);
     size = bytes.byteLength;
   }
   const opened =
     source.kind === "demo"
       ? await client.openDemo(signal, source.name, bytes)
       : await client.open(signal, nameOf(source), bytes ?? new ArrayBuffer(0));
-  const index = chosen ?? Math.max(0, opened.parts.findIndex((part) => part.report.kind === "shape"));
+  const index =
+    chosen ??
+    Math.max(
+      0,
+      opened.parts.findIndex((part) => part.report.kind === "shape"),
+    );
   const part = opened.parts[index];
   if (!part) {
     throw new EngineFailure({
@@ -133,7 +139,14 @@ async function openSource(
     });
   }
   const geometry = await geometryOf(signal, part);
-  return { source, format: opened.format, bytes: size, parts: opened.parts, chosen: index, geometry };
+  return {
+    source,
+    format: opened.format,
+    bytes: size,
+    parts: opened.parts,
+    chosen: index,
+    geometry,
+  };
 }
 
 function geometryOf(signal: AbortSignal, part: OpenedPart) {
@@ -189,7 +202,10 @@ async function reopen(): Promise<void> {
     return slot ? load(side, slot.source, slot.chosen) : null;
   };
   const [a, b] = await Promise.all([again("a"), again("b")]);
-  for (const [side, slot] of [["a", a], ["b", b]] as const) {
+  for (const [side, slot] of [
+    ["a", a],
+    ["b", b],
+  ] as const) {
     // The old handles died with the old worker: nothing is to be closed.
     if (slot) slots[side].value = slot;
   }

@@ -55,7 +55,11 @@ export const GROUPS: Group[] = [
     columns: [],
     rows: [
       { label: "Modes", metrics: ["intersection.modes"], show: (value) => count(value) },
-      { label: "Distance to the other model", metrics: ["intersection.meanDistance.mean"], show: inUnit },
+      {
+        label: "Distance to the other model",
+        metrics: ["intersection.meanDistance.mean"],
+        show: inUnit,
+      },
       { label: "its spread", metrics: ["intersection.meanDistance.sd"], show: inUnit },
       { label: "Vertex SD, mean", metrics: ["intersection.vertexSd.mean"], show: inUnit },
       { label: "Vertex SD, largest", metrics: ["intersection.vertexSd.max"], show: inUnit },
@@ -66,7 +70,11 @@ export const GROUPS: Group[] = [
   {
     title: "Grassmann distance from A∩B, radians",
     columns: ["paper", "affine"],
-    rows: [grassmann("to A", "toA"), grassmann("to B", "toB"), grassmann("to their union", "toUnion")],
+    rows: [
+      grassmann("to A", "toA"),
+      grassmann("to B", "toB"),
+      grassmann("to their union", "toUnion"),
+    ],
   },
   {
     title: "The differences",
@@ -80,8 +88,12 @@ export const GROUPS: Group[] = [
   },
 ];
 
-const SIDES = ["intersection.sides.a", "intersection.sides.b", "differences.aWithoutB.diagnostics",
-  "differences.bWithoutA.diagnostics"];
+const SIDES = [
+  "intersection.sides.a",
+  "intersection.sides.b",
+  "differences.aWithoutB.diagnostics",
+  "differences.bWithoutA.diagnostics",
+];
 const perSide = (label: string, path: string, show: Row["show"]): Row => ({
   label,
   metrics: SIDES.map((side) => `${side}.${path}`),

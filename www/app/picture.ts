@@ -2,12 +2,12 @@
 import { viridis } from "./colormap";
 import { saveBlob } from "./download";
 import { number } from "./format";
+import { plain } from "./phrase";
 import { nouns, region, result, unit, view } from "./state";
 import { isDark } from "./theme";
 import { layoutOf, range, viewer } from "./viewer/stage-controller";
 import { REGION_NAMES } from "./views/names";
 import { headline, settingsSentence } from "./words";
-import { plain } from "./phrase";
 
 const SCALE = 2;
 const FOOT = 84;
@@ -68,7 +68,9 @@ function foot(pen: CanvasRenderingContext2D, width: number, top: number): void {
   );
   const ink = pen.fillStyle;
   for (let i = 0; i < length; i += 1) {
-    pen.fillStyle = `rgb(${viridis(i / length).map(Math.round).join(",")})`;
+    pen.fillStyle = `rgb(${viridis(i / length)
+      .map(Math.round)
+      .join(",")})`;
     pen.fillRect(left + i, top + 10, 1.5, 12);
   }
   pen.fillStyle = ink;

@@ -1,5 +1,6 @@
 /** The one store: every view reads from here, every action writes here. */
 import { computed, type Signal, signal } from "@preact/signals";
+import type { EngineInfo } from "../worker/client";
 import type {
   Geometry,
   OpenedPart,
@@ -9,9 +10,8 @@ import type {
   Report,
   Settings,
 } from "../worker/protocol";
-import type { EngineInfo } from "../worker/client";
 import { FIRST_DEMO, findDemo } from "./demos";
-import { type LinkState, type ViewMode, defaultLink } from "./link";
+import { defaultLink, type LinkState, type ViewMode } from "./link";
 import { DEFAULTS, settingsKey } from "./settings";
 import { type Camera, HOME } from "./viewer/camera";
 import type { Nouns } from "./words";

@@ -1,6 +1,6 @@
 /** What a report says, in plain words. Pure: no DOM, no engine. */
-import type { Progress, Report } from "../worker/protocol";
-import { length, number, percent } from "./format";
+import type { Progress, Report, SamplerName } from "../worker/protocol";
+import { count, length, number, percent, plusMinus } from "./format";
 import { figure, type Phrase } from "./phrase";
 
 export interface Nouns {
@@ -30,11 +30,12 @@ export function shared(report: Report): Phrase {
   const { meanDistance, vertexSd } = report.intersection;
   const unit = report.models.a.unit;
   const [a, b] = [report.models.a.vertexSd.mean, report.models.b.vertexSd.mean];
+  const away = plusMinus(meanDistance.mean, meanDistance.sd);
   return [
     "A shape that both can make lies ",
-    figure("intersection.meanDistance.mean", meanDistance.mean, number(meanDistance.mean)),
+    figure("intersection.meanDistance.mean", meanDistance.mean, away.mean),
     " ± ",
-    figure("intersection.meanDistance.sd", meanDistance.sd, length(meanDistance.sd, unit)),
+    figure("intersection.meanDistance.sd", meanDistance.sd, `${away.spread}\u202f${unit}`),
     " from the nearest shape of the other model. Its points vary by ",
     figure("intersection.vertexSd.mean", vertexSd.mean, length(vertexSd.mean, unit)),
     " on average, against ",
@@ -59,8 +60,13 @@ export function differences(report: Report, nouns: Nouns): Phrase {
     ];
   }
   if (Math.max(a, b) <= 1 - NEARLY_ALL) {
-    return ["At this σ almost nothing differs: only ", ofA, ` of ${nouns.a} and `, ofB,
-      ` of ${nouns.b} are out of the other’s reach.`];
+    return [
+      "At this σ almost nothing differs: only ",
+      ofA,
+      ` of ${nouns.a} and `,
+      ofB,
+      ` of ${nouns.b} are out of the other’s reach.`,
+    ];
   }
   return [
     ofA,
@@ -85,7 +91,7 @@ export function spaces(report: Report): Phrase {
     ...sentence,
     " The directions of change they have most in common differ by ",
     figure("overlap.principalAnglesDegrees.0", first, `${number(first, 2)}°`),
-    ", the least by ",
+    ", those least so by ",
     figure(`overlap.principalAnglesDegrees.${angles.length - 1}`, last, `${number(last, 2)}°`),
     ".",
   ];
@@ -98,7 +104,7 @@ export function belief(report: Report): { converged: boolean; phrase: Phrase } {
       ? []
       : ["R-hat ", figure("intersection.diagnostics.rHatMax", rHatMax, rHatMax.toFixed(4)), ", "]),
     "at least ",
-    figure("intersection.diagnostics.essBulkMin", essBulkMin, number(essBulkMin)),
+    figure("intersection.diagnostics.essBulkMin", essBulkMin, count(essBulkMin)),
     " effective draws for every mode",
   ];
   const phrase: Phrase = converged
@@ -133,14 +139,20 @@ export function secondsLeft(fraction: number, seconds: number): number | null {
   return fraction < 0.03 || seconds < 0.5 ? null : (seconds * (1 - fraction)) / fraction;
 }
 
+const SAMPLER_WORDS: Record<SamplerName, string> = {
+  independence: "independence sampler",
+  paper: "paper’s random walk",
+  "paper-corrected": "paper’s walk, corrected",
+};
+
 export function settingsSentence(report: Report): string {
   const { sigma, sigmaRecommended, sampler, chains, draws, seed, align, modes } = report.settings;
   const unit = report.models.a.unit;
   const parts = [
     `σ ${sigma === null ? "recommended" : length(sigma, unit)}${sigmaRecommended ? " (recommended)" : ""}`,
-    { independence: "independence sampler", paper: "paper’s random walk", "paper-corrected": "paper’s walk, corrected" }[sampler],
+    SAMPLER_WORDS[sampler],
     `${chains} chains`,
-    `${number(draws, 6)} draws a side`,
+    `${count(draws)} draws a side`,
     `seed ${seed}`,
   ];
   if (modes !== null) parts.push(`first ${modes} modes`);

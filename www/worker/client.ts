@@ -10,7 +10,6 @@ import type {
   FromEngine,
   Geometry,
   Handle,
-  OpenedPart,
   Progress,
   Region,
   RegionShapes,
@@ -39,7 +38,11 @@ interface Pending {
   onProgress?: (progress: Progress, seconds: number) => void;
 }
 
-type Request = ToEngine extends infer M ? (M extends { id: number } ? Omit<M, "id"> : never) : never;
+type Request = ToEngine extends infer M
+  ? M extends { id: number }
+    ? Omit<M, "id">
+    : never
+  : never;
 type Reply<T extends FromEngine["t"]> = Extract<FromEngine, { t: T }>;
 
 const MOST_RESTARTS = 3;
@@ -133,7 +136,7 @@ export class EngineClient {
     transfer: Transferable[],
   ): Promise<Reply<"opened">> {
     return this.#ask(signal, request, "opened", transfer, (late) => {
-      for (const part of late.parts) this.close(partHandle(part));
+      for (const part of late.parts) this.close(part.model);
     });
   }
 
@@ -190,21 +193,26 @@ export class EngineClient {
       case "ready": {
         this.#ready = true;
         const { build, threads, engine } = message;
-        return this.#events.onReady({ build, threads, version: engine });
+        this.#events.onReady({ build, threads, version: engine });
+        break;
       }
       case "beat":
-        return;
+        break;
       case "busy":
-        return this.#watch.busy();
+        this.#watch.busy();
+        break;
       case "fatal":
-        return this.#replace(message.message);
+        this.#replace(message.message);
+        break;
       case "progress":
         this.#restarts = 0;
-        return this.#pending.get(message.id)?.onProgress?.(message.progress, message.seconds);
+        this.#pending.get(message.id)?.onProgress?.(message.progress, message.seconds);
+        break;
       case "error":
-        return this.#settle(message.id)?.reject(new EngineFailure(message));
+        this.#settle(message.id)?.reject(new EngineFailure(message));
+        break;
       default:
-        return this.#settle(message.id)?.resolve(message);
+        this.#settle(message.id)?.resolve(message);
     }
   }
 
@@ -232,8 +240,4 @@ export class EngineClient {
     this.#worker = this.#begin();
     this.#events.onRestart(reason);
   }
-}
-
-function partHandle(part: OpenedPart): Handle {
-  return part.model;
 }

@@ -6,7 +6,7 @@
  * busy reads no messages and would not see a cancel.
  */
 import { isEngineError, sentenceOf } from "./engine-errors";
-import type { Engine, FromEngine, RegionShapes, Stage, ToEngine } from "./protocol";
+import type { Engine, FromEngine, Stage, ToEngine } from "./protocol";
 import { firstBudget, isIndivisible, nextBudget } from "./slices";
 
 export type Post = (message: FromEngine, transfer?: Transferable[]) => void;
@@ -20,6 +20,18 @@ interface Run {
   stage: Stage;
   posted: number;
 }
+
+/** Messages that are answered at once. */
+type Question = Exclude<ToEngine, { t: "run" | "cancel" | "close" }>;
+
+const BUSY_WITH: Record<Question["t"], string> = {
+  open: "reading the file",
+  openDemo: "preparing the demo",
+  geometry: "drawing the model",
+  restore: "restoring the comparison",
+  region: "drawing shapes",
+  export: "writing the file",
+};
 
 const POST_EVERY_MS = 90;
 
@@ -55,65 +67,68 @@ export class Coordinator {
   }
 
   #answer(message: ToEngine): void {
-    const engine = this.#engine;
     switch (message.t) {
-      case "open": {
-        this.#busy("reading the file");
-        const opened = engine.open(message.name, new Uint8Array(message.bytes));
-        return this.#post({ t: "opened", id: message.id, ...opened });
-      }
-      case "openDemo": {
-        this.#busy("preparing the demo");
-        const bytes = message.bytes === null ? undefined : new Uint8Array(message.bytes);
-        const opened = engine.openDemo(message.demo, bytes);
-        return this.#post({ t: "opened", id: message.id, ...opened });
-      }
-      case "geometry": {
-        const geometry = engine.geometry(message.model);
-        return this.#post({ t: "geometry", id: message.id, geometry }, buffersOf(geometry));
-      }
       case "run":
-        return this.#start(message.id, () => {
-          engine.start(message.a, message.b, message.settings);
-        });
+        this.#start(message);
+        break;
       case "cancel":
-        if (this.#run?.id !== message.id) return;
-        engine.cancel();
-        return this.#finish(this.#run, true);
-      case "restore": {
-        this.#supersede();
-        this.#busy("restoring the comparison");
-        engine.restore(message.a, message.b, message.report, new Uint8Array(message.draws));
-        return this.#post({ t: "restored", id: message.id });
-      }
-      case "region": {
-        this.#busy("drawing shapes");
-        const shapes = engine.region(message.region, message.count, message.seed);
-        return this.#post({ t: "region", id: message.id, shapes }, buffersOf(shapes));
-      }
-      case "export": {
-        this.#busy("writing the file");
-        const { name, mime, bytes } = engine.export(message.what);
-        const own = bytes.slice().buffer;
-        return this.#post({ t: "exported", id: message.id, name, mime, bytes: own }, [own]);
-      }
+        if (this.#run?.id !== message.id) break;
+        this.#engine.cancel();
+        this.#finish(this.#run, true);
+        break;
       case "close":
-        return engine.close(message.model);
+        this.#engine.close(message.model);
+        break;
+      default: {
+        this.#busy(BUSY_WITH[message.t]);
+        const reply = this.#reply(message);
+        this.#post(reply, buffersOf(reply));
+      }
     }
   }
 
-  #start(id: number, begin: () => void): void {
+  #reply(message: Question): FromEngine {
+    const engine = this.#engine;
+    const { id } = message;
+    switch (message.t) {
+      case "open": {
+        const opened = engine.open(message.name, new Uint8Array(message.bytes));
+        return { t: "opened", id, ...opened };
+      }
+      case "openDemo": {
+        const bytes = message.bytes === null ? undefined : new Uint8Array(message.bytes);
+        return { t: "opened", id, ...engine.openDemo(message.demo, bytes) };
+      }
+      case "geometry":
+        return { t: "geometry", id, geometry: engine.geometry(message.model) };
+      case "restore":
+        this.#supersede();
+        engine.restore(message.a, message.b, message.report, new Uint8Array(message.draws));
+        return { t: "restored", id };
+      case "region": {
+        const shapes = engine.region(message.region, message.count, message.seed);
+        return { t: "region", id, shapes };
+      }
+      case "export": {
+        const { name, mime, bytes } = engine.export(message.what);
+        // A copy of its own: what the engine hands out may be a view of its memory.
+        return { t: "exported", id, name, mime, bytes: bytes.slice().buffer };
+      }
+    }
+  }
+
+  #start(message: Extract<ToEngine, { t: "run" }>): void {
     this.#supersede();
     this.#busy("preparing the comparison");
     const run: Run = {
-      id,
+      id: message.id,
       begun: performance.now(),
       drawing: 0,
       budget: firstBudget(),
       stage: "prepare",
       posted: 0,
     };
-    begin();
+    this.#engine.start(message.a, message.b, message.settings);
     this.#run = run;
     this.#later(() => this.#slice(run));
   }
@@ -144,7 +159,10 @@ export class Coordinator {
       run.budget = nextBudget(run.budget, now - begun);
       const changed = progress.stage !== run.stage;
       run.stage = progress.stage;
-      if (progress.stage === "done") return this.#finish(run, false);
+      if (progress.stage === "done") {
+        this.#finish(run, false);
+        return;
+      }
       if (changed || now - run.posted >= POST_EVERY_MS) {
         run.posted = now;
         const seconds = (now - run.begun) / 1000;
@@ -169,11 +187,17 @@ export class Coordinator {
   }
 }
 
-/** Buffers of the typed arrays in a reply, to be transferred. */
-function buffersOf(reply: object | RegionShapes): Transferable[] {
+/** Buffers that a reply may give away instead of copying, wherever in it they are. */
+function buffersOf(reply: FromEngine): Transferable[] {
   const buffers = new Set<ArrayBuffer>();
-  for (const value of Object.values(reply)) {
-    if (ArrayBuffer.isView(value) && value.buffer instanceof ArrayBuffer) buffers.add(value.buffer);
+  for (const value of Object.values(reply) as unknown[]) {
+    if (value instanceof ArrayBuffer) buffers.add(value);
+    if (typeof value !== "object" || value === null) continue;
+    for (const inner of Object.values(value)) {
+      if (ArrayBuffer.isView(inner) && inner.buffer instanceof ArrayBuffer) {
+        buffers.add(inner.buffer);
+      }
+    }
   }
   return [...buffers];
 }

@@ -34,7 +34,10 @@ async function headFrom(name: string, bytes: ArrayBuffer): Promise<MockModel> {
   const basis = new Int16Array(raw("basis"));
   const scale = new Float32Array(raw("basis_scale"));
   const modes = Array.from(scale, (factor, mode) =>
-    Float32Array.from(basis.subarray(mode * mean.length, (mode + 1) * mean.length), (v) => v * factor),
+    Float32Array.from(
+      basis.subarray(mode * mean.length, (mode + 1) * mean.length),
+      (v) => v * factor,
+    ),
   );
   const faces = new Uint16Array(raw("faces"));
   const triangles = new Uint32Array(faces.length);
@@ -82,7 +85,11 @@ function egg(name: string): MockModel {
     for (let column = 0; column < columns; column += 1) {
       const turn = (2 * Math.PI * column) / columns;
       const at = 3 * (row * columns + column);
-      const unit = [Math.sin(polar) * Math.sin(turn), Math.cos(polar), Math.sin(polar) * Math.cos(turn)];
+      const unit = [
+        Math.sin(polar) * Math.sin(turn),
+        Math.cos(polar),
+        Math.sin(polar) * Math.cos(turn),
+      ];
       unit.forEach((value, axis) => {
         mean[at + axis] = value * ([78, 120, 95][axis] ?? 1);
         radial[at + axis] = axis === 1 ? 0 : value * 4;

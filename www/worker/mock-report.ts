@@ -15,7 +15,14 @@ export function mockReport(
     engine: "mock",
     models,
     settings: {
-      seed: "1", sampler: "independence", chains: 16, draws: 4000, burnIn: 10, thin: 1, modes: null, align: "none",
+      seed: "1",
+      sampler: "independence",
+      chains: 16,
+      draws: 4000,
+      burnIn: 10,
+      thin: 1,
+      modes: null,
+      align: "none",
       ...settings,
       sigma: settings.sigma ?? 0.6134,
       sigmaRecommended: (settings.sigma ?? null) === null,
@@ -33,7 +40,9 @@ export function mockReport(
     },
     differences: { aWithoutB: difference(0.99894), bWithoutA: difference(0.99871) },
     overlap: {
-      principalAnglesDegrees: [1.4, 2.3, 3.1, 4.8, 6.6, 9.2, 13.4, 18.9, 27.3, 39.4, 54.1, 71.7, 89.2],
+      principalAnglesDegrees: [
+        1.4, 2.3, 3.1, 4.8, 6.6, 9.2, 13.4, 18.9, 27.3, 39.4, 54.1, 71.7, 89.2,
+      ],
       varianceOfAInB: 0.8312,
       varianceOfBInA: 0.7964,
       bhattacharyya: 41.2,
@@ -73,7 +82,13 @@ export function mockReportOf(model: MockModel): ModelReport {
 
 function diagnostics(rHatMax: number, acceptance: number): Diagnostics {
   return {
-    rHatMax, acceptance, essBulkMin: 7412, essTailMin: 6930, paretoK: 0.21, evaluations: 64160, draws: 4000,
+    rHatMax,
+    acceptance,
+    essBulkMin: 7412,
+    essTailMin: 6930,
+    paretoK: 0.21,
+    evaluations: 64160,
+    draws: 4000,
     converged: true,
   };
 }

@@ -29,7 +29,10 @@ export async function mockEngine(base: string): Promise<Engine> {
   const keep = (model: MockModel) => {
     models.set(next, model);
     next += 1;
-    return { format: model.format, parts: [{ model: next - 1, part: "shape", report: mockReportOf(model) }] };
+    return {
+      format: model.format,
+      parts: [{ model: next - 1, part: "shape", report: mockReportOf(model) }],
+    };
   };
   const find = (handle: Handle) => models.get(handle) ?? fail("handle", "No such model.", "");
   const current = () => pair ?? fail("no-run", "There is no run.", "Start one.");
@@ -38,10 +41,17 @@ export async function mockEngine(base: string): Promise<Engine> {
     open(name, bytes) {
       work(300);
       if (name.endsWith(".txt")) {
-        fail("unknown-format", `“${name}” is not a shape model that Shapevenn can read (${bytes.length} bytes of text).`,
-          "Open a statismo or Scalismo .h5, a .mat, .npz or .pkl model.");
+        fail(
+          "unknown-format",
+          `“${name}” is not a shape model that Shapevenn can read (${bytes.length} bytes of text).`,
+          "Open a statismo or Scalismo .h5, a .mat, .npz or .pkl model.",
+        );
       }
-      return keep({ ...(heads.get("heads-identity") as MockModel), name, format: "HDF5, Scalismo model" });
+      return keep({
+        ...(heads.get("heads-identity") as MockModel),
+        name,
+        format: "HDF5, Scalismo model",
+      });
     },
     openDemo(demo) {
       work(120);
@@ -63,8 +73,11 @@ export async function mockEngine(base: string): Promise<Engine> {
     start(a, b, settings) {
       const [first, second] = [find(a), find(b)];
       if (first.mean.length !== second.mean.length) {
-        fail("point-count-mismatch", `A has ${first.mean.length / first.dimension} points, B has ${second.mean.length / second.dimension}.`,
-          "Load models built on the same template.");
+        fail(
+          "point-count-mismatch",
+          `A has ${first.mean.length / first.dimension} points, B has ${second.mean.length / second.dimension}.`,
+          "Load models built on the same template.",
+        );
       }
       pair = { a: first, b: second, settings };
       done = 0;
@@ -101,7 +114,11 @@ export async function mockEngine(base: string): Promise<Engine> {
     },
     export(what: ExportKind) {
       const text = what.kind === "report-json" ? "{}" : `mock ${what.kind}`;
-      return { name: `${what.kind}.txt`, mime: "text/plain", bytes: new TextEncoder().encode(text) };
+      return {
+        name: `${what.kind}.txt`,
+        mime: "text/plain",
+        bytes: new TextEncoder().encode(text),
+      };
     },
     close: (handle) => {
       models.delete(handle);
@@ -117,10 +134,18 @@ function stageAt(fraction: number): Stage {
   return fraction < 0.97 ? "differences" : "measure";
 }
 
-function shapesOf(region: Region, a: MockModel, b: MockModel, count: number, seed: number): RegionShapes {
+function shapesOf(
+  region: Region,
+  a: MockModel,
+  b: MockModel,
+  count: number,
+  seed: number,
+): RegionShapes {
   const own = region === "b" || region === "bWithoutA" ? b : a;
   const shared = region === "intersection";
-  const mean = shared ? own.mean.map((value, i) => (value + (b.mean[i] ?? 0)) / 2) : own.mean.slice();
+  const mean = shared
+    ? own.mean.map((value, i) => (value + (b.mean[i] ?? 0)) / 2)
+    : own.mean.slice();
   const factor = shared ? 0.45 : 1;
   const samples = new Float32Array(count * mean.length);
   const random = mulberry(seed * 7919 + region.length);
@@ -133,7 +158,14 @@ function shapesOf(region: Region, a: MockModel, b: MockModel, count: number, see
     }
   }
   const source = region === "a" || region === "b" ? "model" : "draws";
-  return { region, mean, vertexSd: deviation(own.modes, own.dimension, factor), samples, count, source };
+  return {
+    region,
+    mean,
+    vertexSd: deviation(own.modes, own.dimension, factor),
+    samples,
+    count,
+    source,
+  };
 }
 
 export function deviation(modes: Float32Array[], dimension: number, factor: number): Float32Array {
@@ -141,7 +173,8 @@ export function deviation(modes: Float32Array[], dimension: number, factor: numb
   return Float32Array.from({ length: points }, (_, point) => {
     let sum = 0;
     for (const mode of modes) {
-      for (let axis = 0; axis < dimension; axis += 1) sum += (mode[point * dimension + axis] ?? 0) ** 2;
+      for (let axis = 0; axis < dimension; axis += 1)
+        sum += (mode[point * dimension + axis] ?? 0) ** 2;
     }
     return factor * Math.sqrt(sum);
   });
@@ -167,4 +200,3 @@ function normal(random: () => number): number {
 function fail(code: string, message: string, hint: string): never {
   throw { code, message, hint } satisfies EngineError;
 }
-

@@ -1,7 +1,7 @@
 /** Entry of the engine's worker: chooses a build, then hands every message to the coordinator. */
 import { Coordinator } from "./coordinator";
 import { sentenceOf } from "./engine-errors";
-import { loadEngine, type Loaded } from "./load";
+import { type Loaded, loadEngine } from "./load";
 import { type FromEngine, PROTOCOL, type ToEngine } from "./protocol";
 import { readStart, type WorkerStart } from "./start";
 

@@ -93,10 +93,14 @@ export function sceneFrame(scene: Scene): Frame {
   const dimension = geometry?.dimension ?? 3;
   const means: Float32Array[] = [];
   for (const side of ["a", "b"] as const) {
-    const content = contentOf({ ...scene, mode: scene.mode === "samples" ? "samples" : "mean" }, side);
+    const content = contentOf(
+      { ...scene, mode: scene.mode === "samples" ? "samples" : "mean" },
+      side,
+    );
     if (content) means.push(...(content.overlaid ? content.shapes : content.shapes.slice(0, 1)));
   }
-  return frameOf(means, dimension);
+  const fade = contentOf({ ...scene, mode: "mean" }, "a")?.fade ?? null;
+  return frameOf(means, dimension, fade);
 }
 
 function withSamples(found: RegionShapes): Float32Array[] {

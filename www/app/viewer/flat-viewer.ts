@@ -6,8 +6,8 @@ import { pickVertex } from "./pick";
 import {
   cellsOf,
   type Frame,
-  halfHeightIn,
   type Hit,
+  halfHeightIn,
   type PaneContent,
   type Rect,
   type Viewer,

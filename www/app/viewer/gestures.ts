@@ -82,12 +82,16 @@ export function listen(canvas: HTMLCanvasElement, target: GestureTarget): () => 
     },
     false,
   );
-  on("keydown", (event) => {
-    const next = keyed(event, target);
-    if (!next) return;
-    event.preventDefault();
-    target.setCamera(next);
-  }, false);
+  on(
+    "keydown",
+    (event) => {
+      const next = keyed(event, target);
+      if (!next) return;
+      event.preventDefault();
+      target.setCamera(next);
+    },
+    false,
+  );
   return () => stop.abort();
 }
 

@@ -28,8 +28,8 @@ import { pickVertex } from "./pick";
 import {
   cellsOf,
   type Frame,
-  halfHeightIn,
   type Hit,
+  halfHeightIn,
   type PaneContent,
   type Rect,
   type Viewer,
@@ -251,7 +251,10 @@ export class MeshViewer implements Viewer {
         return new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true }));
       }
       const size = content.shapes.length > 1 && i > 0 ? 4 : 9;
-      return new Points(geometry, new PointsMaterial({ vertexColors: true, size, sizeAttenuation: false }));
+      return new Points(
+        geometry,
+        new PointsMaterial({ vertexColors: true, size, sizeAttenuation: false }),
+      );
     });
   }
 
@@ -292,13 +295,21 @@ export class MeshViewer implements Viewer {
  * so a fading rim never shows the far side through it.
  */
 function clay(fades: boolean): MeshStandardMaterial {
-  return new MeshStandardMaterial({
+  const material = new MeshStandardMaterial({
     vertexColors: true,
     roughness: 0.82,
     metalness: 0,
     side: DoubleSide,
     ...(fades ? { transparent: true, blending: NoBlending, premultipliedAlpha: true } : {}),
   });
+  // A back face that shows at the outline would be lit from its other side: dark specks.
+  material.onBeforeCompile = (shader) => {
+    shader.fragmentShader = shader.fragmentShader.replace(
+      "#include <normal_fragment_begin>",
+      "#include <normal_fragment_begin>\nnormal = normalize( vNormal );",
+    );
+  };
+  return material;
 }
 
 function contains(rect: Rect, x: number, y: number): boolean {

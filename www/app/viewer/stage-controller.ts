@@ -3,16 +3,7 @@ import { computed, effect, signal } from "@preact/signals";
 import type { Region } from "../../worker/protocol";
 import { commonRange } from "../colormap";
 import { REGIONS } from "../link";
-import {
-  camera,
-  demo,
-  lockedRange,
-  region,
-  type Side,
-  shapes,
-  slots,
-  view,
-} from "../state";
+import { camera, demo, lockedRange, region, type Side, shapes, slots, view } from "../state";
 import { isDark } from "../theme";
 import { cardContent, contentsOf, type Scene, sceneFrame } from "./contents";
 import { listen } from "./gestures";
@@ -56,7 +47,10 @@ export const range = computed(() =>
 let panes = new Map<Region, HTMLElement>();
 
 /** Takes over a canvas; returns how to let go of it. */
-export function takeCanvas(canvas: HTMLCanvasElement, elements: Map<Region, HTMLElement>): () => void {
+export function takeCanvas(
+  canvas: HTMLCanvasElement,
+  elements: Map<Region, HTMLElement>,
+): () => void {
   panes = elements;
   const stops: (() => void)[] = [];
   let gone = false;
@@ -157,6 +151,11 @@ export function cardPicture(side: Side, size: number): HTMLCanvasElement | null 
   if (!geometry || !made || geometry.dimension !== dimension.peek()) return null;
   const content = cardContent(geometry, side, scene.peek());
   if (!content) return null;
-  const alone: Scene = { ...scene.peek(), shapes: {}, mode: "mean", geometry: { a: geometry, b: null } };
+  const alone: Scene = {
+    ...scene.peek(),
+    shapes: {},
+    mode: "mean",
+    geometry: { a: geometry, b: null },
+  };
   return made.thumbnail(content, sceneFrame(alone), size);
 }

@@ -79,7 +79,7 @@ export function cellsOf(rect: Rect, count: number, frame: Frame): Rect[] {
 }
 
 /** Room round the shapes. */
-const MARGIN = 1.12;
+const MARGIN = 1.06;
 
 /** Half of the height that a cell must show to hold the frame. */
 export function halfHeightIn(rect: Rect, frame: Frame): number {
@@ -87,13 +87,18 @@ export function halfHeightIn(rect: Rect, frame: Frame): number {
   return MARGIN * Math.max(frame.halfHeight, frame.halfWidth / Math.max(aspect, 1e-6));
 }
 
-/** The frame that holds all of these shapes. */
-export function frameOf(shapes: Float32Array[], dimension: 2 | 3): Frame {
+/** The frame that holds all of these shapes, but for what fades away. */
+export function frameOf(
+  shapes: Float32Array[],
+  dimension: 2 | 3,
+  fade: Float32Array | null = null,
+): Frame {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
   for (const shape of shapes) {
     for (let i = 0; i < shape.length; i += 1) {
       const axis = i % dimension;
+      if ((fade?.[(i - axis) / dimension] ?? 1) < 0.6) continue;
       const value = shape[i] ?? 0;
       if (value < (low[axis] ?? 0)) low[axis] = value;
       if (value > (high[axis] ?? 0)) high[axis] = value;

@@ -5,11 +5,20 @@ interface FieldProps {
   changed: boolean;
   onReset: () => void;
   help?: string | undefined;
+  /** What its default is called. */
+  standardWord?: string | undefined;
   children: ComponentChildren;
 }
 
 /** One setting: its name, its input, and the way back to the default. */
-export function Field({ label, changed, onReset, help, children }: FieldProps) {
+export function Field({
+  label,
+  changed,
+  onReset,
+  help,
+  standardWord = "default",
+  children,
+}: FieldProps) {
   return (
     <div class="field" data-changed={changed} title={help}>
       <span class="field-label" aria-hidden="true">
@@ -23,7 +32,7 @@ export function Field({ label, changed, onReset, help, children }: FieldProps) {
         disabled={!changed}
         aria-label={`Reset ${label} to its default`}
       >
-        {changed ? "reset" : "default"}
+        {changed ? "reset" : standardWord}
       </button>
     </div>
   );

@@ -41,10 +41,7 @@ function DemoChooser() {
   return (
     <label class="chooser">
       <span class="chooser-label">Example</span>
-      <select
-        value={demo.value?.id ?? ""}
-        onChange={(event) => choose(event.currentTarget.value)}
-      >
+      <select value={demo.value?.id ?? ""} onChange={(event) => choose(event.currentTarget.value)}>
         {demo.value === null && (
           <option value="" disabled>
             Your models

@@ -1,6 +1,6 @@
 import { useComputed } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { bytes, count, length, number } from "../format";
+import { bytes, count, length } from "../format";
 import { choosePart, nameOf, openFiles } from "../models";
 import { chosenPart, demo, opening, result, type Side, slots } from "../state";
 import { cardPicture, drawable, viewer } from "../viewer/stage-controller";
@@ -16,7 +16,12 @@ export function ModelCard({ side }: { side: Side }) {
   const name = slot ? nameOf(slot.source) : (demo.value?.[side] ?? "");
   const busy = opening[side].value;
   return (
-    <section class="card" data-side={side} aria-label={`Model ${side.toUpperCase()}`} aria-busy={busy !== null}>
+    <section
+      class="card"
+      data-side={side}
+      aria-label={`Model ${side.toUpperCase()}`}
+      aria-busy={busy !== null}
+    >
       <div class="card-head">
         <span class="letter" aria-hidden="true">
           {side.toUpperCase()}
@@ -53,9 +58,7 @@ export function ModelCard({ side }: { side: Side }) {
           </dl>
           <figure class="scree">
             <Scree deviations={report.standardDeviations} side={side} />
-            <figcaption>
-              SD of modes <span class="dim">1st {number(report.standardDeviations[0] ?? 0)}</span>
-            </figcaption>
+            <figcaption>SD per mode</figcaption>
           </figure>
         </div>
       )}
@@ -106,7 +109,6 @@ function Picture({ side }: { side: Side }) {
   const target = useRef<HTMLCanvasElement>(null);
   const ready = useComputed(() => `${viewer.value !== null} ${drawable.value}`);
   const geometry = slots[side].value?.geometry;
-  // biome-ignore lint/correctness/useExhaustiveDependencies: drawn again when any of these changes
   useEffect(() => {
     const canvas = target.current;
     const picture = cardPicture(side, PICTURE_PX);
@@ -115,5 +117,12 @@ function Picture({ side }: { side: Side }) {
     canvas.height = picture.height;
     canvas.getContext("2d")?.drawImage(picture, 0, 0);
   }, [geometry, ready.value, side]);
-  return <canvas ref={target} class="picture" role="img" aria-label={`Mean shape of model ${side.toUpperCase()}`} />;
+  return (
+    <canvas
+      ref={target}
+      class="picture"
+      role="img"
+      aria-label={`Mean shape of model ${side.toUpperCase()}`}
+    />
+  );
 }

@@ -12,7 +12,12 @@ export function Notices({ place }: { place: Notice["place"] }) {
             <p class="notice-message">{notice.message}</p>
             {notice.hint && <p class="notice-hint">{notice.hint}</p>}
           </div>
-          <button type="button" class="quiet icon-only" onClick={() => dismiss(place)} aria-label="Dismiss">
+          <button
+            type="button"
+            class="quiet icon-only"
+            onClick={() => dismiss(place)}
+            aria-label="Dismiss"
+          >
             <CloseIcon />
           </button>
         </div>

@@ -1,8 +1,8 @@
+import type { Report } from "../../worker/protocol";
 import { count } from "../format";
 import { DIAGNOSTICS, GROUPS, type Group, valueAt } from "../numbers";
 import { nouns, outOfDate, result } from "../state";
 import { belief, differences, headline, shared, spaces } from "../words";
-import type { Report } from "../../worker/protocol";
 import { Metric, Phrase } from "./Phrase";
 
 export function Headline() {
@@ -47,8 +47,9 @@ export function Results() {
         <summary>Can these draws be believed?</summary>
         <Numbers group={DIAGNOSTICS} report={report} />
         <p class="small">
-          R-hat (rank-normalised, split) should be below 1.01 and ESS above {count(400)}; Pareto k below 0.7. A
-          difference is sampled exactly, so its draws are independent and have no R-hat.
+          R-hat (rank-normalised, split) should be below 1.01 and ESS above {count(400)}; Pareto k
+          below 0.7. A difference is sampled exactly, so its draws are independent and have no
+          R-hat.
         </p>
         <Angles degrees={report.overlap.principalAnglesDegrees} />
       </details>

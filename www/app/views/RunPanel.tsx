@@ -38,7 +38,9 @@ function stateSentence(): string {
   if (outOfDate.value) return "Out of date: made with other settings.";
   if (held.stored) return "Computed beforehand by this engine.";
   const took = duration(held.report.seconds.total);
-  return held.cancelled ? `Cancelled after ${took}; the draws so far are kept.` : `Finished in ${took}.`;
+  return held.cancelled
+    ? `Cancelled after ${took}; the draws so far are kept.`
+    : `Finished in ${took}.`;
 }
 
 function Running() {
@@ -55,7 +57,8 @@ function Running() {
           {cancelling ? "Stopping…" : "Cancel"}
         </button>
         <p class="run-state">
-          <strong class="num">{Math.round(100 * fraction)}&#8239;%</strong> {stageName(progress?.stage ?? "prepare")}
+          <strong class="num">{Math.round(100 * fraction)}&#8239;%</strong>{" "}
+          {stageName(progress?.stage ?? "prepare")}
           <span class="dim">{left === null ? "" : ` · ${duration(left)} left`}</span>
         </p>
       </div>

@@ -21,7 +21,6 @@ export function Scree({ deviations, side }: { deviations: number[]; side: Side }
       {shown.map((deviation, i) => {
         const height = Math.max(0.75, (deviation / largest) * HEIGHT);
         return (
-          // biome-ignore lint/suspicious/noArrayIndexKey: a mode is its index
           <rect key={i} x={i * step} y={HEIGHT - height} width={step * 0.72} height={height} />
         );
       })}

@@ -1,5 +1,5 @@
 import type { Alignment, SamplerName, Settings } from "../../worker/protocol";
-import { length, number } from "../format";
+import { number } from "../format";
 import {
   ALIGNMENTS,
   chainLength,
@@ -69,17 +69,14 @@ function SigmaField() {
   const now = settings.value;
   const used = result.value?.report.settings;
   const recommended = used?.sigmaRecommended ? used.sigma : null;
-  const hint =
-    now.sigma === null
-      ? `recommended${recommended === null ? "" : `: ${length(recommended, unit.value)}`}`
-      : `${unit.value}`;
   return (
     <TypedField
       label="Tolerance σ"
       value={now.sigma === null ? "" : String(now.sigma)}
       standard=""
       placeholder={recommended === null ? "auto" : number(recommended)}
-      suffix={hint}
+      suffix={unit.value}
+      standardWord="recommended"
       parse={parseSigma}
       onChange={(sigma) => change({ sigma })}
       wrong={`a positive length in ${unit.value}`}
@@ -98,7 +95,9 @@ function ModesField() {
       standard=""
       placeholder="all"
       suffix={most > 0 ? `of ${most}` : ""}
-      parse={(text) => (text.trim() === "" || text.trim() === "all" ? null : parseCount(text, 1, 100_000))}
+      parse={(text) =>
+        text.trim() === "" || text.trim() === "all" ? null : parseCount(text, 1, 100_000)
+      }
       onChange={(modes) => change({ modes })}
       wrong="a whole number, or nothing for all"
     />
@@ -116,12 +115,21 @@ interface ChoiceProps<T extends string> {
 function Choice<T extends string>({ label, value, standard, options, onChoose }: ChoiceProps<T>) {
   const names = Object.keys(options) as T[];
   return (
-    <Field label={label} changed={value !== standard} onReset={() => onChoose(standard)} help={options[value].help}>
-      <select value={value} aria-label={label} onChange={(event) => onChoose(event.currentTarget.value as T)}>
+    <Field
+      label={label}
+      changed={value !== standard}
+      onReset={() => onChoose(standard)}
+      help={options[value].help}
+    >
+      <select
+        value={value}
+        aria-label={label}
+        onChange={(event) => onChoose(event.currentTarget.value as T)}
+      >
         {names.map((name) => (
           <option key={name} value={name}>
             {options[name].label}
-            {name === standard ? " (default)" : ""}
+            {name === standard && value !== name ? " (default)" : ""}
           </option>
         ))}
       </select>

@@ -42,6 +42,7 @@ function Panes({ live }: { live: boolean }) {
   const flat = dimension.value === 2;
   return (
     <>
+      {/* biome-ignore lint/a11y/noInteractiveElementToNoninteractiveRole: arrow keys are ours here, and role="img" would take them away in screen readers */}
       <canvas
         ref={canvas}
         class="shapes"
@@ -51,8 +52,10 @@ function Panes({ live }: { live: boolean }) {
         aria-describedby="canvas-help"
       />
       <p id="canvas-help" class="unseen">
-        {flat ? "Drag or use the arrow keys to shift" : "Drag or use the arrow keys to turn all shapes at once"},
-        plus and minus to zoom, 0 to go back to the first view.
+        {flat
+          ? "Drag or use the arrow keys to shift"
+          : "Drag or use the arrow keys to turn all shapes at once"}
+        , plus and minus to zoom, 0 to go back to the first view.
       </p>
       <div class="panes">
         {ORDER.map((name) =>
@@ -68,8 +71,12 @@ function Panes({ live }: { live: boolean }) {
 }
 
 function canvasLabel(): string {
-  const what = { mean: "Mean shapes", samples: "Random shapes", sd: "Standard deviations" }[view.value];
-  return region.value === null ? `${what} of the five regions` : `${what} of ${regionLabel(region.value)}`;
+  const what = { mean: "Mean shapes", samples: "Random shapes", sd: "Standard deviations" }[
+    view.value
+  ];
+  return region.value === null
+    ? `${what} of the five regions`
+    : `${what} of ${regionLabel(region.value)}`;
 }
 
 function Pane({ name, panes }: { name: Region; panes: Map<Region, HTMLElement> }) {
@@ -112,7 +119,9 @@ function PaneNote({ name }: { name: Region }) {
   if (shapes.value[name] || (own && slots[name].value)) {
     return shapes.value[name]?.source === "fit" ? <p class="pane-note">first guess</p> : null;
   }
-  return <p class="pane-note">{run.value ? "waiting for draws" : slots.a.value ? "" : "loading"}</p>;
+  return (
+    <p class="pane-note">{run.value ? "waiting for draws" : slots.a.value ? "" : "loading"}</p>
+  );
 }
 
 function Tooltip() {
@@ -124,7 +133,9 @@ function Tooltip() {
   return (
     <output class="tip" style={{ left: `${hit.x}px`, top: `${hit.y}px` }} aria-hidden="true">
       {REGION_NAMES[hit.region].sign} · vertex {hit.vertex}
-      {view.value === "samples" && hit.shape >= 0 && !dimensionIsFlat() ? ` · shape ${hit.shape + 1}` : ""}
+      {view.value === "samples" && hit.shape >= 0 && !dimensionIsFlat()
+        ? ` · shape ${hit.shape + 1}`
+        : ""}
       {deviation !== undefined && view.value !== "samples" ? (
         <strong>
           {" "}

@@ -1,6 +1,6 @@
 import { resample } from "../comparison";
-import { savePicture } from "../picture";
 import { VIEW_MODES, type ViewMode } from "../link";
+import { savePicture } from "../picture";
 import { camera, lockedRange, region, view } from "../state";
 import { HOME } from "../viewer/camera";
 import { range } from "../viewer/stage-controller";

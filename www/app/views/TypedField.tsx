@@ -11,12 +11,24 @@ interface Props<T> {
   wrong: string;
   placeholder?: string;
   suffix?: string;
+  standardWord?: string;
   help?: string;
 }
 
 /** A value that is typed, taken over on Enter or when the field is left. */
 export function TypedField<T>(props: Props<T>) {
-  const { label, value, standard, parse, onChange, wrong, placeholder = "", suffix, help } = props;
+  const {
+    label,
+    value,
+    standard,
+    parse,
+    onChange,
+    wrong,
+    placeholder = "",
+    suffix,
+    help,
+    standardWord,
+  } = props;
   const invalid = useSignal(false);
   const take = (text: string) => {
     if (text === value) return;
@@ -31,7 +43,13 @@ export function TypedField<T>(props: Props<T>) {
   };
   const about = `${label.replace(/\W+/g, "-").toLowerCase()}-about`;
   return (
-    <Field label={label} changed={value !== standard} onReset={reset} help={help}>
+    <Field
+      label={label}
+      changed={value !== standard}
+      onReset={reset}
+      help={help}
+      standardWord={standardWord}
+    >
       <input
         type="text"
         inputMode="decimal"

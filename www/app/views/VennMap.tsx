@@ -30,7 +30,12 @@ export function VennMap() {
   const labelB = (b.x + b.r + Math.min(b.x + b.r, Math.max(a.x + a.r, b.x - b.r))) / 2;
   return (
     <figure class="venn" data-stale={outOfDate.value}>
-      <svg viewBox={`0 0 ${BOX.width} ${BOX.height}`} role="group" aria-label={describe(varianceOfAInB, varianceOfBInA)}>
+      {/* biome-ignore lint/a11y/useSemanticElements: a drawing is no fieldset */}
+      <svg
+        viewBox={`0 0 ${BOX.width} ${BOX.height}`}
+        role="group"
+        aria-label={describe(varianceOfAInB, varianceOfBInA)}
+      >
         <Area name="aWithoutB" path={paths.aWithoutB} />
         <Area name="bWithoutA" path={paths.bWithoutA} />
         <Area name="intersection" path={paths.intersection} />
@@ -43,7 +48,8 @@ export function VennMap() {
         </text>
       </svg>
       <figcaption>
-        Areas are variances: of A, of B, and what each can make of the other’s. Choose a region to look closer.
+        Areas are variances: of A, of B, and what each can make of the other’s. Choose a region to
+        look closer.
       </figcaption>
     </figure>
   );
