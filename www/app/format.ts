@@ -20,7 +20,8 @@ export function percent(share: number): string {
   const value = 100 * share;
   if (value > 0 && value < 0.01) return "< 0.01\u202f%";
   if (value < 100 && value > 99.99) return "> 99.99\u202f%";
-  const decimals = value > 99 && value < 100 ? 2 : value < 10 && value > 0 ? 1 : 0;
+  const decimals = value > 99 && value < 100 ? 2 : value < 1 ? 2 : value < 10 ? 1 : 0;
+  if (value === 0) return "0\u202f%";
   return `${value.toFixed(decimals)}\u202f%`;
 }
 

@@ -11,7 +11,7 @@ import {
   type Material,
   Matrix4,
   Mesh,
-  MeshStandardMaterial,
+  MeshLambertMaterial,
   NoBlending,
   type Object3D,
   PerspectiveCamera,
@@ -294,11 +294,9 @@ export class MeshViewer implements Viewer {
  * Opacity goes straight into the canvas instead of being blended: the front surface always wins,
  * so a fading rim never shows the far side through it.
  */
-function clay(fades: boolean): MeshStandardMaterial {
-  const material = new MeshStandardMaterial({
+function clay(fades: boolean): MeshLambertMaterial {
+  const material = new MeshLambertMaterial({
     vertexColors: true,
-    roughness: 0.82,
-    metalness: 0,
     side: DoubleSide,
     ...(fades ? { transparent: true, blending: NoBlending, premultipliedAlpha: true } : {}),
   });

@@ -79,7 +79,7 @@ export function cellsOf(rect: Rect, count: number, frame: Frame): Rect[] {
 }
 
 /** Room round the shapes. */
-const MARGIN = 1.06;
+const MARGIN = 1.05;
 
 /** Half of the height that a cell must show to hold the frame. */
 export function halfHeightIn(rect: Rect, frame: Frame): number {
@@ -112,7 +112,7 @@ export function frameOf(
     const extent = (high[axis] ?? 0) - (low[axis] ?? 0);
     return Number.isFinite(extent) ? extent / 2 : 0;
   };
-  const across = dimension === 2 ? half(0) : Math.hypot(half(0), half(2)) * 0.86;
+  const across = dimension === 2 ? half(0) : Math.max(half(0), half(2));
   return {
     centre: [middle(0), middle(1), middle(2)],
     halfWidth: Math.max(across, half(1) * 0.05, 1e-9),

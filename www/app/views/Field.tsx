@@ -30,7 +30,7 @@ export function Field({
         class="reset"
         onClick={onReset}
         disabled={!changed}
-        aria-label={`Reset ${label} to its default`}
+        aria-label={changed ? `reset ${label} to its default` : `${standardWord}: ${label}`}
       >
         {changed ? "reset" : standardWord}
       </button>

@@ -20,6 +20,7 @@ export function Stage() {
       class="stage"
       aria-label="Shapes"
       data-region={region.value ?? "all"}
+      data-view={view.value}
       data-stale={outOfDate.value && !run.value?.progress?.hasIntersection}
     >
       <Toolbar />
@@ -93,7 +94,6 @@ function Pane({ name, panes }: { name: Region; panes: Map<Region, HTMLElement> }
         }}
       />
       <p class="pane-label">
-        <span class="dot" aria-hidden="true" />
         <strong>{sign}</strong> <span class="pane-meaning">{meaning}</span>
       </p>
       <button

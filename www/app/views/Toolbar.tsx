@@ -5,7 +5,6 @@ import { camera, lockedRange, region, view } from "../state";
 import { HOME } from "../viewer/camera";
 import { range } from "../viewer/stage-controller";
 import { DownloadIcon } from "./icons";
-import { REGION_NAMES } from "./names";
 
 const LABELS: Record<ViewMode, string> = {
   mean: "Mean",
@@ -14,7 +13,6 @@ const LABELS: Record<ViewMode, string> = {
 };
 
 export function Toolbar() {
-  const shown = region.value;
   return (
     <div class="toolbar">
       <fieldset class="segments">
@@ -52,7 +50,7 @@ export function Toolbar() {
         </label>
       )}
       <span class="grow" />
-      {shown !== null && (
+      {region.value !== null && (
         <button
           type="button"
           class="quiet"
@@ -60,7 +58,7 @@ export function Toolbar() {
             region.value = null;
           }}
         >
-          All five <span class="dim">({REGION_NAMES[shown].sign} now)</span>
+          All five
         </button>
       )}
       <button
