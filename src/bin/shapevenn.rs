@@ -1,2 +1,391 @@
-//! The command line.
-fn main() {}
+//! The command line: `shapevenn info | compare | convert`.
+//!
+//! Exit status 0: done. 2: a bad input, with the error on standard error. 1: anything else.
+#![allow(clippy::print_stdout, reason = "a command prints its result")]
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
+use shapevenn::comparison::{Comparison, Sampler, Settings, Stage};
+use shapevenn::files::{self, Described, Download, Error};
+use shapevenn::formats;
+use shapevenn::model::{Alignment, LinearModel};
+use shapevenn::report::{ModelReport, Report, Seconds};
+
+/// Which shapes can two statistical shape models both make, and which can only one of them make?
+#[derive(Debug, Parser)]
+#[command(version, about)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Say what is in model files
+    Info {
+        /// Files, or `demo:NAME`
+        #[arg(required = true)]
+        files: Vec<String>,
+        /// Print one JSON array of descriptions
+        #[arg(long)]
+        json: bool,
+    },
+    /// Compare two models: A∩B, A\B and B\A
+    Compare(Compare),
+    /// Write a model in another format, chosen by the ending of OUT: .h5, .npz, or .ply (mean shape)
+    Convert {
+        /// A file, `FILE#part` or `demo:NAME`
+        input: String,
+        /// Where to write
+        output: PathBuf,
+    },
+}
+
+#[derive(Debug, Args)]
+struct Compare {
+    /// First model: a file, `FILE#part` or `demo:NAME`
+    a: String,
+    /// Second model
+    b: String,
+    /// Use only the first modes of each model
+    #[arg(long)]
+    modes: Option<usize>,
+    /// Tolerance σ in the unit of A; recommended from the models when left out
+    #[arg(long)]
+    sigma: Option<f64>,
+    /// Seed of every random number
+    #[arg(long)]
+    seed: Option<u64>,
+    /// How the intersection is sampled
+    #[arg(long, value_enum, default_value = "independence")]
+    sampler: SamplerName,
+    /// Chains on each side
+    #[arg(long)]
+    chains: Option<usize>,
+    /// Draws kept on each side of the intersection, and of each difference
+    #[arg(long)]
+    draws: Option<usize>,
+    /// Steps of each chain thrown away at its start
+    #[arg(long)]
+    burn_in: Option<usize>,
+    /// Steps of each chain for every draw kept
+    #[arg(long)]
+    thin: Option<usize>,
+    /// What may be moved to bring B to A
+    #[arg(long, value_enum, default_value = "none")]
+    align: AlignName,
+    /// Write report, draws, the intersection model and the mean shapes to this folder
+    #[arg(long)]
+    out: Option<PathBuf>,
+    /// Print the report as one JSON document
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum SamplerName {
+    /// Independence Metropolis–Hastings from a Gaussian fit
+    Independence,
+    /// The paper's random walk, exactly as published
+    Paper,
+    /// The paper's random walk with the Hastings factor it lacks
+    PaperCorrected,
+}
+
+impl From<SamplerName> for Sampler {
+    fn from(name: SamplerName) -> Self {
+        match name {
+            SamplerName::Independence => Self::Independence,
+            SamplerName::Paper => Self::Paper,
+            SamplerName::PaperCorrected => Self::PaperCorrected,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum AlignName {
+    /// Compare the models as they stand
+    None,
+    /// Rotation and translation
+    Rigid,
+    /// Rotation, translation and scale
+    Similarity,
+}
+
+impl From<AlignName> for Alignment {
+    fn from(name: AlignName) -> Self {
+        match name {
+            AlignName::None => Self::None,
+            AlignName::Rigid => Self::Rigid,
+            AlignName::Similarity => Self::Similarity,
+        }
+    }
+}
+
+/// What ends the command early.
+#[derive(Debug)]
+enum Failure {
+    /// The user can mend it: exit status 2.
+    Input { message: String, hint: String },
+    /// The machine cannot do it: exit status 1.
+    System(String),
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self::Input { message: error.to_string(), hint: error.hint() }
+    }
+}
+
+fn system(what: &Path, error: &std::io::Error) -> Failure {
+    Failure::System(format!("{}: {error}.", what.display()))
+}
+
+fn main() -> ExitCode {
+    let done = match Cli::parse().command {
+        Command::Info { files, json } => info(&files, json),
+        Command::Compare(arguments) => compare(&arguments),
+        Command::Convert { input, output } => convert(&input, &output),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(Failure::Input { message, hint }) => {
+            eprintln!("shapevenn: {message}\n  {hint}");
+            ExitCode::from(2)
+        }
+        Err(Failure::System(message)) => {
+            eprintln!("shapevenn: {message}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// All models of a file or demo.
+fn open_all(source: &str) -> Result<Vec<Described>, Failure> {
+    if let Some(name) = source.strip_prefix("demo:") {
+        return Ok(files::open_demo(name, packaged(name))?);
+    }
+    let path = Path::new(source);
+    let bytes = std::fs::read(path).map_err(|error| Failure::Input {
+        message: format!("{source} cannot be read: {error}."),
+        hint: "Check the path; demo models are written demo:NAME.".to_owned(),
+    })?;
+    let name = path.file_name().map_or(source.into(), |name| name.to_string_lossy());
+    Ok(files::open(&name, &bytes)?)
+}
+
+/// One model: of `FILE#part` that part, else the first.
+fn open_one(source: &str) -> Result<Described, Failure> {
+    let (file, part) = match source.rsplit_once('#') {
+        Some((file, part)) if !Path::new(source).exists() => (file, Some(part)),
+        _ => (source, None),
+    };
+    Ok(files::choose(file, open_all(file)?, part)?)
+}
+
+/// The heads that the command carries.
+fn packaged(name: &str) -> Option<&'static [u8]> {
+    Some(match name {
+        "heads-male" => include_bytes!("../../demos/heads/heads-male.npz"),
+        "heads-female" => include_bytes!("../../demos/heads/heads-female.npz"),
+        "heads-identity" => include_bytes!("../../demos/heads/heads-identity.npz"),
+        "heads-expression" => include_bytes!("../../demos/heads/heads-expression.npz"),
+        _ => return None,
+    })
+}
+
+fn info(sources: &[String], json: bool) -> Result<(), Failure> {
+    let mut descriptions: Vec<ModelReport> = Vec::new();
+    for source in sources {
+        descriptions.extend(open_all(source)?.into_iter().map(|model| model.report));
+    }
+    if json {
+        println!("{}", to_json(&descriptions)?);
+        return Ok(());
+    }
+    for model in &descriptions {
+        println!("{}", model.name);
+        println!("  {}", model.format);
+        println!(
+            "  {} points in {} dimensions, {} modes",
+            model.points, model.dimension, model.modes
+        );
+        let unit = model.unit.symbol();
+        println!(
+            "  size {:.4} {unit}, total variance {:.6} {unit}²",
+            model.size, model.total_variance
+        );
+        for note in &model.notes {
+            println!("  note: {note}");
+        }
+    }
+    Ok(())
+}
+
+fn to_json(value: &impl serde::Serialize) -> Result<String, Failure> {
+    serde_json::to_string_pretty(value).map_err(|error| Failure::System(error.to_string()))
+}
+
+fn settings(arguments: &Compare) -> Settings {
+    let defaults = Settings::of(arguments.sampler.into());
+    Settings {
+        sigma: arguments.sigma,
+        seed: arguments.seed.unwrap_or(defaults.seed),
+        chains: arguments.chains.unwrap_or(defaults.chains),
+        draws: arguments.draws.unwrap_or(defaults.draws),
+        burn_in: arguments.burn_in.unwrap_or(defaults.burn_in),
+        thin: arguments.thin.unwrap_or(defaults.thin),
+        modes: arguments.modes,
+        align: arguments.align.into(),
+        ..defaults
+    }
+}
+
+fn compare(arguments: &Compare) -> Result<(), Failure> {
+    let begun = Instant::now();
+    let (a, b) = (open_one(&arguments.a)?, open_one(&arguments.b)?);
+    let mut seconds = Seconds { load: begun.elapsed().as_secs_f64(), ..Seconds::default() };
+    let described = [a.report, b.report];
+    let mut run =
+        Comparison::new(&a.model, &b.model, described, settings(arguments)).map_err(Error::from)?;
+    let bar = ProgressBar::new(1000).with_style(
+        ProgressStyle::with_template("{msg:14} {bar:40} {percent:>3} %  {eta} left")
+            .unwrap_or_else(|_| ProgressStyle::default_bar()),
+    );
+    while run.stage() != Stage::Done {
+        let (stage, slice) = (run.stage(), Instant::now());
+        let progress = run.advance(2048).map_err(Error::from)?;
+        let spent = slice.elapsed().as_secs_f64();
+        match stage {
+            Stage::Intersection | Stage::Differences => seconds.sample += spent,
+            _ => seconds.prepare += spent,
+        }
+        bar.set_message(name_of(stage));
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 1000")]
+        bar.set_position((1000.0 * progress.fraction) as u64);
+    }
+    bar.finish_and_clear();
+    seconds.total = begun.elapsed().as_secs_f64();
+    let report = run.report(seconds).ok_or_else(|| Failure::System("no report".to_owned()))?;
+    if let Some(folder) = &arguments.out {
+        write_all(&run, seconds, folder)?;
+    }
+    if arguments.json {
+        println!("{}", files::json(&report));
+    } else {
+        print_in_words(&report);
+    }
+    Ok(())
+}
+
+fn name_of(stage: Stage) -> &'static str {
+    match stage {
+        Stage::Prepare => "preparing",
+        Stage::Fit => "fitting",
+        Stage::Intersection => "intersection",
+        Stage::Differences => "differences",
+        Stage::Measure => "measuring",
+        Stage::Done => "done",
+    }
+}
+
+fn write_all(run: &Comparison, seconds: Seconds, folder: &Path) -> Result<(), Failure> {
+    use shapevenn::comparison::Region;
+    std::fs::create_dir_all(folder).map_err(|error| system(folder, &error))?;
+    let means = Region::ALL.map(|region| Download::Ply {
+        region,
+        index: -1,
+        count: 0,
+        seed: run.settings().seed.to_string(),
+    });
+    let fixed = [
+        Download::ReportJson,
+        Download::DrawsNpz,
+        Download::IntersectionH5,
+        Download::IntersectionNpz,
+    ];
+    for what in fixed.iter().chain(&means) {
+        let written = match files::write(run, seconds, what) {
+            // An empty difference has no mean to write.
+            Err(Error::NothingYet) => continue,
+            other => other?,
+        };
+        let path = folder.join(&written.name);
+        std::fs::write(&path, &written.bytes).map_err(|error| system(&path, &error))?;
+    }
+    Ok(())
+}
+
+fn print_in_words(report: &Report) {
+    let unit = report.models.a.unit.symbol();
+    let share = |value: f64| 100.0 * value;
+    println!("A  {} ({} modes)", report.models.a.name, report.models.a.modes);
+    println!("B  {} ({} modes)", report.models.b.name, report.models.b.modes);
+    println!(
+        "σ = {:.4} {unit}{}",
+        report.settings.sigma.unwrap_or(f64::NAN),
+        if report.settings.sigma_recommended { " (recommended)" } else { "" }
+    );
+    println!(
+        "B can make {:.1} % of A's variance; A can make {:.1} % of B's.",
+        share(report.overlap.variance_of_a_in_b),
+        share(report.overlap.variance_of_b_in_a)
+    );
+    let both = &report.intersection;
+    println!(
+        "A∩B  {} modes; its shapes lie {:.4} ± {:.4} {unit} from both models.",
+        both.modes, both.mean_distance.mean, both.mean_distance.sd
+    );
+    for (name, part) in
+        [("A\\B", &report.differences.a_without_b), ("B\\A", &report.differences.b_without_a)]
+    {
+        println!(
+            "{name}  {:.2} ± {:.2} % of the shapes, {:.4} {unit} away on average.",
+            share(part.probability),
+            share(part.standard_error),
+            part.mean_distance.mean
+        );
+    }
+    println!(
+        "d_G  to A {:.4}, to B {:.4}, to the union {:.4}",
+        both.grassmann.to_a, both.grassmann.to_b, both.grassmann.to_union
+    );
+    let found = &both.diagnostics;
+    println!(
+        "{}: R-hat {:.4}, bulk ESS {:.0}, acceptance {:.2}, {} evaluations, {:.2} s",
+        if found.converged { "converged" } else { "NOT converged" },
+        found.r_hat_max.unwrap_or(f64::NAN),
+        found.ess_bulk_min,
+        found.acceptance,
+        found.evaluations,
+        report.seconds.total
+    );
+    for warning in &report.warnings {
+        println!("! {} {}", warning.message, warning.hint);
+    }
+}
+
+fn convert(input: &str, output: &Path) -> Result<(), Failure> {
+    let model: LinearModel = open_one(input)?.model;
+    let ending = output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    let bytes = match ending.as_deref() {
+        Some("h5") => formats::write_statismo(&model).map_err(Error::from)?,
+        Some("npz") => formats::write_npz(&model).map_err(Error::from)?,
+        Some("ply") => {
+            #[allow(clippy::cast_possible_truncation, reason = "PLY holds single precision")]
+            let points: Vec<f32> = model.mean().iter().map(|value| *value as f32).collect();
+            formats::write_ply(&points, model.dimension(), model.cells(), None)
+        }
+        _ => {
+            return Err(Failure::Input {
+                message: format!("{} has no ending that says its format.", output.display()),
+                hint: "End it in .h5, .npz or .ply.".to_owned(),
+            });
+        }
+    };
+    std::fs::write(output, bytes).map_err(|error| system(output, &error))
+}

@@ -1,5 +1,425 @@
 //! One comparison of two models, as a resumable run.
+//!
+//! [`Comparison::new`] checks, [`Comparison::advance`] does a slice of the work and says how far it
+//! is, [`Comparison::cancel`] ends it with what was drawn so far: partial results are results.
+//! The run knows no clock, no thread and no file; same models and settings give the same draws,
+//! bit for bit, however the work is sliced.
+//!
+//! Stages: residual operators of both sides → joint basis → σ → Gaussian fits → pilot → chains of the
+//! intersection → rejection for the differences → measures.
 
+mod error;
+mod fitting;
+mod regions;
+mod results;
 mod settings;
+mod summary;
+mod warnings;
 
+pub use error::ComparisonError;
+pub use regions::{Region, RegionShapes, ShapeSource};
+pub use results::{Results, StoredArray};
 pub use settings::{Sampler, Settings, SettingsError};
+
+use serde::Serialize;
+
+use crate::compare::{
+    Difference, Fit, Intersection, Joint, Pair, Side, Tolerance, recommended_tolerance,
+    without_distance,
+};
+use crate::model::LinearModel;
+use crate::report::{ModelReport, Report, Seconds};
+use crate::sampling::{
+    Chains, Draws, EndedChains, IndependenceChains, RandomWalkChains, Rejection, Scaling, Schedule,
+};
+use fitting::Fitting;
+
+/// Proposals of the rejection sampler for each draw wanted, before it gives up.
+const MOST_PROPOSALS_PER_DRAW: u64 = 100;
+
+/// Where a run is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Stage {
+    /// Residual operators, joint basis, σ.
+    Prepare,
+    /// Gaussian fits.
+    Fit,
+    /// Chains of A∩B.
+    Intersection,
+    /// Rejection for A\B and B\A.
+    Differences,
+    /// Principal components and measures.
+    Measure,
+    /// There is a report.
+    Done,
+}
+
+/// How far a run is.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Progress {
+    /// Where the run is.
+    pub stage: Stage,
+    /// Share of the whole run, 0 to 1.
+    pub fraction: f64,
+    /// Evaluations of the distance so far.
+    pub evaluations: u64,
+    /// Draws of the intersection kept so far, both sides.
+    pub draws: usize,
+    /// Share of proposals accepted, both sides; absent before there are any.
+    pub acceptance: Option<f64>,
+    /// Largest R-hat over the first coefficients of both sides.
+    pub r_hat_max: Option<f64>,
+    /// Smallest bulk effective sample size over the first coefficients of both sides.
+    pub ess_bulk_min: Option<f64>,
+    /// σ in use, once it is known.
+    pub sigma: Option<f64>,
+    /// Whether there are shapes of the intersection to look at.
+    pub has_intersection: bool,
+}
+
+/// A run of the comparison of A and B.
+#[derive(Debug)]
+pub struct Comparison {
+    pair: Pair,
+    described: [ModelReport; 2],
+    settings: Settings,
+    stage: Stage,
+    sides: Vec<Side>,
+    joint: Option<Joint>,
+    tolerance: Option<Tolerance>,
+    fitting: Vec<Fitting>,
+    fits: Vec<Fit>,
+    chains: Vec<Box<dyn Chains>>,
+    rejections: Vec<Rejection>,
+    live: Option<(usize, f64, f64)>,
+    cancelled: bool,
+    finished: Option<Finished>,
+}
+
+/// What a finished run holds beside its draws.
+#[derive(Debug)]
+struct Finished {
+    report: Report,
+    intersection: LinearModel,
+}
+
+impl Comparison {
+    /// Checks the settings and that the two can be compared. `described` says what the report shall
+    /// say of the two inputs; numbers that alignment and truncation change are brought up to date.
+    ///
+    /// # Errors
+    /// [`ComparisonError::Settings`] and [`ComparisonError::Pair`].
+    pub fn new(
+        a: &LinearModel,
+        b: &LinearModel,
+        described: [ModelReport; 2],
+        settings: Settings,
+    ) -> Result<Self, ComparisonError> {
+        settings.check()?;
+        let pair = Pair::new(a, b, settings.align, settings.modes)?;
+        let [described_a, described_b] = described;
+        let refresh = |before: ModelReport, model: &LinearModel| ModelReport {
+            name: before.name,
+            ..ModelReport::new(model, &before.format, &before.notes)
+        };
+        let described = [refresh(described_a, pair.a()), refresh(described_b, pair.b())];
+        Ok(Self {
+            pair,
+            described,
+            settings,
+            stage: Stage::Prepare,
+            sides: Vec::new(),
+            joint: None,
+            tolerance: None,
+            fitting: Vec::new(),
+            fits: Vec::new(),
+            chains: Vec::new(),
+            rejections: Vec::new(),
+            live: None,
+            cancelled: false,
+            finished: None,
+        })
+    }
+
+    /// A finished run, put back from its report and stored draws.
+    ///
+    /// # Errors
+    /// [`ComparisonError::Pair`], and [`ComparisonError::StoredDraws`] when the draws do not fit.
+    pub fn restored(
+        a: &LinearModel,
+        b: &LinearModel,
+        report: Report,
+        draws: &[StoredArray],
+    ) -> Result<Self, ComparisonError> {
+        let described = [report.models.a.clone(), report.models.b.clone()];
+        let mut run = Self::new(a, b, described, report.settings.clone())?;
+        let modes = run.pair.models().map(LinearModel::mode_count);
+        let Results { intersection, differences } = Results::from_arrays(draws, modes)?;
+        run.joint = Some(run.pair.joint());
+        run.chains =
+            intersection.map(|draws| Box::new(EndedChains(draws)) as Box<dyn Chains>).into();
+        run.rejections = differences.map(Rejection::ended).into();
+        let intersection = run.intersection_so_far().ok_or(ComparisonError::FlatIntersection)?;
+        run.finished = Some(Finished { report, intersection });
+        run.stage = Stage::Done;
+        Ok(run)
+    }
+
+    /// Does the next piece of work, about `evaluations` evaluations of the distance where it is
+    /// sampling, and says how far the run is. Does nothing once it is done.
+    ///
+    /// # Errors
+    /// [`ComparisonError::Fit`] and [`ComparisonError::FlatIntersection`]; the run cannot go on then.
+    pub fn advance(&mut self, evaluations: usize) -> Result<Progress, ComparisonError> {
+        match self.stage {
+            Stage::Prepare => self.prepare(),
+            Stage::Fit => self.fit()?,
+            Stage::Intersection => self.draw_intersection(evaluations),
+            Stage::Differences => self.draw_differences(),
+            Stage::Measure => self.measure()?,
+            Stage::Done => {}
+        }
+        Ok(self.progress())
+    }
+
+    /// Runs to the end.
+    ///
+    /// # Errors
+    /// As [`Comparison::advance`].
+    pub fn run(&mut self) -> Result<(), ComparisonError> {
+        while self.stage != Stage::Done {
+            self.advance(4096)?;
+        }
+        Ok(())
+    }
+
+    /// Ends the run with what was drawn so far. What the report still needs is caught up on the next
+    /// calls of [`Comparison::advance`], which are short: a fit where there is none, no more draws.
+    pub fn cancel(&mut self) {
+        if self.stage < Stage::Measure {
+            self.cancelled = true;
+            if self.stage > Stage::Fit {
+                self.stage = Stage::Measure;
+            }
+        }
+    }
+
+    /// Whether the run was ended early.
+    pub fn is_cancelled(&self) -> bool {
+        self.cancelled
+    }
+
+    /// Where the run is.
+    pub fn stage(&self) -> Stage {
+        self.stage
+    }
+
+    /// The two models as they are compared: cut, and B in the frame of A.
+    pub fn pair(&self) -> &Pair {
+        &self.pair
+    }
+
+    /// The settings, with the σ that is used once it is known.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The intersection model, once the run is done.
+    pub fn intersection(&self) -> Option<&LinearModel> {
+        self.finished.as_ref().map(|finished| &finished.intersection)
+    }
+
+    /// The report, once the run is done; `seconds` as the caller's clock measured them.
+    pub fn report(&self, seconds: Seconds) -> Option<Report> {
+        self.finished.as_ref().map(|finished| Report { seconds, ..finished.report.clone() })
+    }
+
+    /// All draws so far.
+    pub fn results(&self) -> Results {
+        let none =
+            |side: usize, chains: usize| Draws::new(self.pair.models()[side].mode_count(), chains);
+        let chain = |side: usize| {
+            self.chains.get(side).map_or_else(|| none(side, 0), |chains| chains.draws().clone())
+        };
+        let difference = |side: usize| {
+            self.rejections.get(side).map_or_else(|| none(side, 1), |run| run.draws().clone())
+        };
+        Results { intersection: [chain(0), chain(1)], differences: [difference(0), difference(1)] }
+    }
+
+    fn prepare(&mut self) {
+        if self.sides.len() < 2 {
+            self.sides.push(self.pair.side(self.sides.len()));
+        } else if self.joint.is_none() {
+            self.joint = Some(self.pair.joint());
+        } else {
+            let tolerance = recommended_tolerance(&self.pair, [&self.sides[0], &self.sides[1]]);
+            self.settings.sigma_recommended = self.settings.sigma.is_none();
+            self.settings.sigma.get_or_insert(tolerance.sigma);
+            self.tolerance = Some(tolerance);
+            self.stage = Stage::Fit;
+        }
+    }
+
+    /// σ in use; the recommended one is known after [`Stage::Prepare`].
+    fn sigma(&self) -> f64 {
+        self.settings.sigma.unwrap_or(f64::NAN)
+    }
+
+    fn fit(&mut self) -> Result<(), ComparisonError> {
+        let side = self.fits.len();
+        let failed =
+            |side: usize, sigma: f64| ComparisonError::Fit { side: ["A", "B"][side], sigma };
+        let sigma = self.sigma();
+        if self.fitting.len() <= side {
+            let fitting = Fitting::new(&self.sides[side], sigma, self.settings.seed, side);
+            self.fitting.push(fitting.ok_or_else(|| failed(side, sigma))?);
+        } else if let Some(fit) = self.fitting[side].advance(&self.sides[side]) {
+            self.fits.push(fit);
+        }
+        if self.fits.len() == 2 {
+            for side in 0..2 {
+                let chains = self.start_chains(side).ok_or_else(|| failed(side, sigma))?;
+                self.chains.push(chains);
+                let wanted = self.settings.draws;
+                self.rejections.push(Rejection::new(
+                    self.sides[side].mode_count(),
+                    wanted,
+                    MOST_PROPOSALS_PER_DRAW * wanted as u64,
+                    self.settings.seed,
+                    side,
+                ));
+            }
+            self.stage = if self.cancelled { Stage::Measure } else { Stage::Intersection };
+        }
+        Ok(())
+    }
+
+    fn start_chains(&self, side: usize) -> Option<Box<dyn Chains>> {
+        let settings = &self.settings;
+        let schedule = Schedule {
+            chains: settings.chains,
+            burn_in: settings.burn_in,
+            thin: settings.thin,
+            kept: settings.draws.div_ceil(settings.chains),
+        };
+        let walk = |scaling: Scaling| -> Box<dyn Chains> {
+            let modes = self.sides[side].mode_count();
+            Box::new(RandomWalkChains::new(modes, scaling, schedule, settings.seed, side))
+        };
+        Some(match settings.sampler {
+            Sampler::Independence => Box::new(IndependenceChains::new(
+                self.fits[side].gaussian.clone(),
+                without_distance(&self.sides[side])?,
+                schedule,
+                settings.seed,
+                side,
+            )),
+            Sampler::Paper => walk(Scaling::AsPublished),
+            Sampler::PaperCorrected => walk(Scaling::Corrected),
+        })
+    }
+
+    fn draw_intersection(&mut self, evaluations: usize) {
+        let steps = evaluations.div_ceil(self.settings.chains).max(1);
+        let sigma = self.sigma();
+        // The side that is behind goes first, so that both grow together.
+        let side = usize::from(self.chains[1].remaining() > self.chains[0].remaining());
+        let centre = self.fits[side].gaussian.mean();
+        let target = Intersection::new(&self.sides[side], sigma, centre);
+        self.chains[side].advance(&target, steps);
+        if self.chains.iter().all(|chains| chains.remaining() == 0) {
+            self.stage = Stage::Differences;
+        }
+    }
+
+    fn draw_differences(&mut self) {
+        let sigma = self.sigma();
+        let unfinished =
+            (0..2).find(|&side| !self.rejections[side].is_done() && !self.is_contained(side));
+        match unfinished {
+            Some(side) => {
+                self.rejections[side].advance(&Difference::new(&self.sides[side], sigma));
+            }
+            None => self.stage = Stage::Measure,
+        }
+    }
+
+    /// Whether the other model makes every shape of this side, to rounding: the difference is empty.
+    fn is_contained(&self, side: usize) -> bool {
+        self.sides[side].is_contained(self.pair.a().size())
+    }
+
+    fn progress(&mut self) -> Progress {
+        let draws: usize = self.chains.iter().map(|chains| chains.draws().len()).sum();
+        let made: f64 = self.chains.iter().map(|chains| chains.draws().proposed as f64).sum();
+        let accepted: f64 = self.chains.iter().map(|chains| chains.draws().accepted as f64).sum();
+        self.refresh_live(draws);
+        let evaluations = self.evaluations();
+        Progress {
+            stage: self.stage,
+            fraction: self.fraction(),
+            evaluations,
+            draws,
+            acceptance: (made > 0.0).then(|| accepted / made),
+            r_hat_max: self.live.map(|(_, r_hat, _)| r_hat),
+            ess_bulk_min: self.live.map(|(_, _, ess)| ess),
+            sigma: self.settings.sigma,
+            has_intersection: self.fits.len() == 2,
+        }
+    }
+
+    fn evaluations(&self) -> u64 {
+        let chains: u64 = self.chains.iter().map(|chains| chains.draws().evaluations).sum();
+        let rejections: u64 = self.rejections.iter().map(|run| run.draws().evaluations).sum();
+        let pilots: u64 = self.fitting.iter().map(Fitting::evaluations).sum();
+        chains + rejections + pilots
+    }
+
+    /// Live diagnostics over the first coefficients, renewed when the draws have grown by a tenth.
+    fn refresh_live(&mut self, draws: usize) {
+        const COEFFICIENTS: usize = 3;
+        const LEAST: usize = 8;
+        let grown = self.live.is_none_or(|(before, _, _)| draws * 10 >= before * 11);
+        let enough = !self.chains.is_empty()
+            && self
+                .chains
+                .iter()
+                .all(|chains| chains.draws().statistics.iter().all(|chain| chain.len() >= LEAST));
+        if grown && enough {
+            let summaries: Vec<_> = self
+                .chains
+                .iter()
+                .flat_map(|chains| summary::coefficients(chains.draws(), COEFFICIENTS))
+                .collect();
+            let r_hat = summaries.iter().map(|one| one.r_hat).fold(1.0, f64::max);
+            let ess = summaries.iter().map(|one| one.ess_bulk).fold(f64::INFINITY, f64::min);
+            self.live = Some((draws, r_hat, ess));
+        }
+    }
+
+    fn fraction(&self) -> f64 {
+        let done = match self.stage {
+            Stage::Prepare => 0.02 * self.sides.len() as f64,
+            Stage::Fit => 0.08 + 0.06 * self.fits.len() as f64,
+            Stage::Intersection => {
+                let total = 2.0 * self.schedule_steps();
+                let left: f64 = self.chains.iter().map(|chains| chains.remaining() as f64).sum();
+                0.2 + 0.5 * (1.0 - left / total)
+            }
+            Stage::Differences => {
+                0.7 + 0.125 * self.rejections.iter().map(Rejection::fraction).sum::<f64>()
+            }
+            Stage::Measure => 0.95,
+            Stage::Done => 1.0,
+        };
+        done.clamp(0.0, 1.0)
+    }
+
+    fn schedule_steps(&self) -> f64 {
+        let settings = &self.settings;
+        (settings.burn_in + settings.thin * settings.draws.div_ceil(settings.chains)) as f64
+    }
+}

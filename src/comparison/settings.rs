@@ -73,6 +73,44 @@ impl Default for Settings {
     }
 }
 
+impl Settings {
+    /// The defaults of one sampler: the paper's walks run its budget of 25 chains × 5,000 steps, 2,000 of
+    /// them burn-in, with 2,500 draws kept on each side.
+    pub fn of(sampler: Sampler) -> Self {
+        match sampler {
+            Sampler::Independence => Self::default(),
+            Sampler::Paper | Sampler::PaperCorrected => Self {
+                sampler,
+                chains: 25,
+                draws: 2500,
+                burn_in: 2000,
+                thin: 30,
+                ..Self::default()
+            },
+        }
+    }
+}
+
+impl Settings {
+    /// From JSON; what is left out has the default of the sampler that it names.
+    ///
+    /// # Errors
+    /// The reader's own words when a field is unknown or of the wrong type.
+    pub fn parse(given: serde_json::Value) -> Result<Self, serde_json::Error> {
+        #[derive(Deserialize, Default)]
+        #[serde(default)]
+        struct Named {
+            sampler: Sampler,
+        }
+        let Named { sampler } = serde_json::from_value(given.clone())?;
+        let mut whole = serde_json::to_value(Self::of(sampler))?;
+        if let (Some(all), serde_json::Value::Object(some)) = (whole.as_object_mut(), given) {
+            all.extend(some);
+        }
+        serde_json::from_value(whole)
+    }
+}
+
 mod decimal {
     use serde::{Deserialize, Deserializer, Serializer, de::Error};
 

@@ -229,7 +229,7 @@ impl LinearModel {
         if dimension != 2 && dimension != 3 {
             return Err(ModelError::Dimension { found: dimension });
         }
-        if mean.is_empty() || mean.len() % dimension != 0 {
+        if mean.is_empty() || !mean.len().is_multiple_of(dimension) {
             return Err(ModelError::MeanLength { length: mean.len(), dimension });
         }
         if scaled_basis.nrows() != mean.len() {

@@ -1,0 +1,19 @@
+//! Two models in one frame: the residual operator, the targets, the Gaussian fits.
+
+mod fit;
+mod joint;
+mod kernel;
+mod pair;
+mod targets;
+mod tolerance;
+mod vertex_norm;
+
+pub use fit::{
+    Fit, FitMethod, expected_distance, fit_reweighted, fit_rms, fit_variational_step,
+    without_distance,
+};
+pub use joint::{Joint, Moments};
+pub use kernel::DistanceKernel;
+pub use pair::{Pair, PairError, Side};
+pub use targets::{Difference, Intersection};
+pub use tolerance::{Tolerance, recommended_tolerance};

@@ -1,0 +1,90 @@
+//! Why a comparison cannot start or go on.
+
+use core::fmt;
+
+use super::SettingsError;
+use crate::compare::PairError;
+
+/// Why a comparison cannot start or go on.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum ComparisonError {
+    /// A setting is out of its range.
+    Settings(SettingsError),
+    /// The two models are of different kinds.
+    Pair(PairError),
+    /// The Gaussian fit broke down: numbers overflow.
+    Fit {
+        /// "A" or "B".
+        side: &'static str,
+        /// Tolerance in use.
+        sigma: f64,
+    },
+    /// The two models meet in a single shape, so that there is no model of the intersection.
+    FlatIntersection,
+    /// Stored draws do not belong to these models.
+    StoredDraws {
+        /// Name of the array.
+        array: String,
+    },
+}
+
+impl ComparisonError {
+    /// Stable code, for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Settings(error) => error.code(),
+            Self::Pair(error) => error.code(),
+            Self::Fit { .. } => "not-finite",
+            Self::FlatIntersection => "flat-intersection",
+            Self::StoredDraws { .. } => "stored-draws",
+        }
+    }
+
+    /// What to do next.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Settings(error) => error.hint(),
+            Self::Pair(error) => error.hint(),
+            Self::Fit { .. } => "Try a larger σ, or fewer modes.",
+            Self::FlatIntersection => {
+                "Try a larger σ, or align B to A: a constant offset between the models empties the intersection."
+            }
+            Self::StoredDraws { .. } => "Load the two models with which the draws were made.",
+        }
+    }
+}
+
+impl fmt::Display for ComparisonError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Settings(error) => error.fmt(f),
+            Self::Pair(error) => error.fmt(f),
+            Self::Fit { side, sigma } => write!(
+                f,
+                "The numbers of model {side} overflow at σ = {sigma}: no intersection can be fitted."
+            ),
+            Self::FlatIntersection => write!(
+                f,
+                "The two models have no shape in common that can vary: their intersection is flat."
+            ),
+            Self::StoredDraws { array } => {
+                write!(f, "The stored draws “{array}” do not fit the two models.")
+            }
+        }
+    }
+}
+
+impl core::error::Error for ComparisonError {}
+
+impl From<SettingsError> for ComparisonError {
+    fn from(error: SettingsError) -> Self {
+        Self::Settings(error)
+    }
+}
+
+impl From<PairError> for ComparisonError {
+    fn from(error: PairError) -> Self {
+        Self::Pair(error)
+    }
+}

@@ -1,0 +1,114 @@
+//! The Gaussian fit of one side, step by step, and the pilot that picks it.
+//!
+//! The variational fit runs to rest; a pilot of 256 draws takes the effective share of its importance
+//! weights, (Σw)²/(N Σw²). Only where that is low are the rms and reweighted fits tried as well.
+
+use crate::compare::{
+    Fit, FitMethod, Intersection, Side, fit_reweighted, fit_rms, fit_variational_step,
+};
+use crate::sampling::{Gaussian, Stream, Target, fill_normal, stream};
+
+const MOST_ITERATIONS: usize = 12;
+/// Whitened length of a step at which the variational fit is at rest.
+const AT_REST: f64 = 0.02;
+const PILOT_DRAWS: usize = 256;
+/// Effective share of the pilot's weights above which no other fit is tried.
+const GOOD_ENOUGH: f64 = 0.8;
+/// The same below `FEW_POINTS` points, where other fits cost nothing and are often exact.
+const GOOD_ENOUGH_FOR_FEW: f64 = 0.99;
+const FEW_POINTS: usize = 256;
+const REWEIGHTED_ROUNDS: usize = 6;
+
+/// A fit under way.
+#[derive(Debug)]
+pub(super) struct Fitting {
+    sigma: f64,
+    seed: u64,
+    side: usize,
+    rms: Gaussian,
+    current: Gaussian,
+    iterations: usize,
+    settled: bool,
+    evaluations: u64,
+}
+
+impl Fitting {
+    /// Starts from the rms fit; `None` when its numbers overflow.
+    pub(super) fn new(operator: &Side, sigma: f64, seed: u64, side: usize) -> Option<Self> {
+        let rms = fit_rms(operator, sigma)?;
+        Some(Self {
+            sigma,
+            seed,
+            side,
+            current: rms.clone(),
+            rms,
+            iterations: 0,
+            settled: false,
+            evaluations: 0,
+        })
+    }
+
+    /// One iteration; the fit once it is decided.
+    pub(super) fn advance(&mut self, operator: &Side) -> Option<Fit> {
+        if !self.settled {
+            match fit_variational_step(operator, self.sigma, &self.current) {
+                Some((next, step)) => {
+                    self.current = next;
+                    self.iterations += 1;
+                    self.settled = step < AT_REST || self.iterations >= MOST_ITERATIONS;
+                }
+                None => self.settled = true,
+            }
+            return None;
+        }
+        let variational = Fit { method: FitMethod::Variational, gaussian: self.current.clone() };
+        let share = self.effective_share(operator, &variational.gaussian);
+        let few = operator.point_count() < FEW_POINTS;
+        if share >= if few { GOOD_ENOUGH_FOR_FEW } else { GOOD_ENOUGH } {
+            return Some(variational);
+        }
+        let mut best = (share, variational);
+        let reweighted = fit_reweighted(operator, self.sigma, &self.rms, REWEIGHTED_ROUNDS);
+        let others =
+            [(FitMethod::Reweighted, reweighted), (FitMethod::Rms, Some(self.rms.clone()))];
+        for (method, gaussian) in others {
+            let Some(gaussian) = gaussian else { continue };
+            let share = self.effective_share(operator, &gaussian);
+            if share > best.0 {
+                best = (share, Fit { method, gaussian });
+            }
+        }
+        Some(best.1)
+    }
+
+    /// Evaluations that pilots have cost.
+    pub(super) fn evaluations(&self) -> u64 {
+        self.evaluations
+    }
+
+    /// (Σw)²/(N Σw²) of the pilot's importance weights; every fit is tried with the same numbers.
+    fn effective_share(&mut self, operator: &Side, fit: &Gaussian) -> f64 {
+        let modes = fit.dimension();
+        let mut random = stream(self.seed, Stream::Pilot, self.side, 0);
+        let mut normals = vec![0.0; PILOT_DRAWS * modes];
+        fill_normal(&mut random, &mut normals);
+        let mut points = vec![0.0; normals.len()];
+        for (z, point) in normals.chunks_exact(modes).zip(points.chunks_exact_mut(modes)) {
+            fit.place(z, point);
+        }
+        let target = Intersection::new(operator, self.sigma, fit.mean());
+        self.evaluations += PILOT_DRAWS as u64;
+        let log_weights: Vec<f64> = target
+            .evaluate(&points)
+            .iter()
+            .zip(points.chunks_exact(modes))
+            .map(|(evaluation, point)| evaluation.log_density - fit.log_density(point))
+            .collect();
+        let largest = log_weights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let weights = log_weights.iter().map(|weight| libm::exp(weight - largest));
+        let (sum, squares) =
+            weights.fold((0.0, 0.0), |(sum, squares), w| (sum + w, squares + w * w));
+        let share = sum * sum / (squares * PILOT_DRAWS as f64);
+        if share.is_finite() { share } else { 0.0 }
+    }
+}

@@ -1,0 +1,176 @@
+//! What the reader of a report should know before believing its numbers.
+
+use super::{Comparison, Sampler};
+use crate::measure::mean_vertex_distance;
+use crate::model::{Alignment, Cells, align_to};
+use crate::report::{Report, Warning};
+
+/// Share of a model's shapes above which its difference is called nearly everything.
+const NEARLY_ALL: f64 = 0.99;
+/// Share below which draws of a difference are rare.
+const NEARLY_NONE: f64 = 0.01;
+/// Mean distance, in σ, beyond which the models do not meet within the tolerance.
+const APART: f64 = 10.0;
+/// Share of the mean-to-mean distance that a rigid motion must remove to be worth a word.
+const WORTH_ALIGNING: f64 = 0.3;
+
+fn warning(code: &str, message: String, hint: &str) -> Warning {
+    Warning { code: code.to_owned(), message, hint: hint.to_owned() }
+}
+
+impl Comparison {
+    pub(super) fn warnings(&self, report: &Report) -> Vec<Warning> {
+        let mut warnings = Vec::new();
+        self.about_the_models(report, &mut warnings);
+        self.about_the_intersection(report, &mut warnings);
+        self.about_the_differences(report, &mut warnings);
+        warnings
+    }
+
+    fn about_the_models(&self, report: &Report, warnings: &mut Vec<Warning>) {
+        let [a, b] = self.pair.models();
+        if let (Cells::Triangles(first), Cells::Triangles(second)) = (a.cells(), b.cells())
+            && canonical(first) != canonical(second)
+        {
+            warnings.push(warning(
+                "topology",
+                "The two meshes have the same number of points, but other triangles.".to_owned(),
+                "Check that point k is the same place on both: the order of the points may differ.",
+            ));
+        }
+        if report.models.a.unit != report.models.b.unit {
+            warnings.push(warning(
+                "unit",
+                format!(
+                    "A is in {}, B in {}.",
+                    report.models.a.unit.symbol(),
+                    report.models.b.unit.symbol()
+                ),
+                "Convert one of the two files, or align with scale.",
+            ));
+        }
+        if self.settings.align == Alignment::None && a.point_count() > 2 {
+            let (moved, _) = align_to(a, b, Alignment::Rigid);
+            let before = report.overlap.mean_to_mean;
+            let after = mean_vertex_distance(a.mean(), moved.mean(), a.dimension());
+            if before > 1e-6 * a.size() && after < (1.0 - WORTH_ALIGNING) * before {
+                warnings.push(warning(
+                    "not-aligned",
+                    format!(
+                        "A rigid motion would bring the two mean shapes from {before:.3} to {after:.3} {} apart.",
+                        a.unit().symbol()
+                    ),
+                    "Align B to A, unless the offset is what you want to compare.",
+                ));
+            }
+        }
+    }
+
+    fn about_the_intersection(&self, report: &Report, warnings: &mut Vec<Warning>) {
+        let intersection = &report.intersection;
+        let symbol = report.models.a.unit.symbol();
+        if self.cancelled {
+            warnings.push(warning(
+                "cancelled",
+                "The run was stopped early: these are the draws until then.".to_owned(),
+                "Run again for the full number of draws.",
+            ));
+        }
+        if !intersection.diagnostics.converged {
+            warnings.push(warning(
+                "not-converged",
+                "The draws of the intersection have not converged yet.".to_owned(),
+                "Draw more, or use the independence sampler.",
+            ));
+        }
+        if self.settings.sampler == Sampler::Paper {
+            warnings.push(warning(
+                "as-published",
+                "The walk as published leaves out a factor and draws from another law than it states.".to_owned(),
+                "Use it to compare with the paper only.",
+            ));
+        }
+        if intersection.mean_distance.mean > APART * self.sigma() {
+            warnings.push(warning(
+                "beyond-tolerance",
+                format!(
+                    "Within σ = {} {symbol} the two models do not meet: the nearest shapes are {} {symbol} apart on average, and the intersection shows that closest approach.",
+                    rounded(self.sigma()),
+                    rounded(intersection.mean_distance.mean)
+                ),
+                "Read it as “as near as the two come”, choose a larger σ, or use more modes.",
+            ));
+        }
+        if let Some(tolerance) = self.tolerance
+            && tolerance.farthest > 1e-9 * self.pair.a().size()
+            && tolerance.farthest - tolerance.nearest <= 1e-3 * tolerance.farthest
+        {
+            warnings.push(warning(
+                "parallel",
+                format!(
+                    "The two models run parallel, {} {symbol} apart whatever the shape: they have no shape in common.",
+                    rounded(tolerance.nearest)
+                ),
+                "Align B to A, or check how the files were centred.",
+            ));
+        }
+    }
+
+    fn about_the_differences(&self, report: &Report, warnings: &mut Vec<Warning>) {
+        let differences = &report.differences;
+        let both =
+            [(0, "A", "B", &differences.a_without_b), (1, "B", "A", &differences.b_without_a)];
+        for (side, this, other, difference) in both {
+            if self.is_contained(side) {
+                warnings.push(warning(
+                    "empty-difference",
+                    format!(
+                        "{other} can make every shape of {this}: {this} without {other} is empty."
+                    ),
+                    "Nothing to do: there is no difference to show.",
+                ));
+            } else if difference.diagnostics.draws > 0 && difference.probability > NEARLY_ALL {
+                warnings.push(warning(
+                    "nearly-all-differs",
+                    format!(
+                        "At this σ, {:.1} % of the shapes of {this} count as outside {other}: {this} without {other} looks like {this} itself.",
+                        (1000.0 * difference.probability).floor() / 10.0
+                    ),
+                    "Choose a larger σ to see what is special to one model.",
+                ));
+            } else if difference.diagnostics.draws > 0 && difference.probability < NEARLY_NONE {
+                warnings.push(warning(
+                    "hardly-differs",
+                    format!("Hardly any shape of {this} lies outside {other} at this σ."),
+                    "Choose a smaller σ to see more of the difference.",
+                ));
+            }
+        }
+    }
+}
+
+/// Three significant digits, for a sentence.
+fn rounded(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    #[allow(clippy::cast_possible_truncation, reason = "a decimal exponent is small")]
+    let digits = (2.0 - libm::log10(value.abs()).floor()).clamp(0.0, 12.0) as i64;
+    #[allow(clippy::cast_sign_loss, clippy::cast_possible_truncation, reason = "clamped above")]
+    let digits = digits as usize;
+    format!("{value:.digits$}")
+}
+
+/// Triangles without regard to their order, first corner or winding.
+fn canonical(triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
+    let mut sorted: Vec<[u32; 3]> = triangles
+        .iter()
+        .map(|triangle| {
+            let mut corners = *triangle;
+            corners.sort_unstable();
+            corners
+        })
+        .collect();
+    sorted.sort_unstable();
+    sorted
+}

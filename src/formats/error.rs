@@ -1,0 +1,393 @@
+//! What can be wrong with a file, in sentences for the person who dropped it.
+//!
+//! A [`FormatError`] is the file's name and a [`Fault`]. Its text is one sentence that says what was
+//! expected and what was found; [`FormatError::hint`] says what to do next, and
+//! [`FormatError::code`] is for programs. The corpus in `tests/corpus/models.json` holds each text.
+
+use core::fmt;
+
+use crate::model::ModelError;
+
+/// Formats that can be read, as listed to the user.
+pub(super) const ACCEPTED: &str =
+    "statismo or Scalismo HDF5 (.h5) and NumPy archives (.npz) with a mean and a basis";
+
+/// Why a file could not be read or written.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FormatError {
+    /// Name of the file, as the user knows it.
+    pub file: String,
+    /// What is wrong with it.
+    pub fault: Fault,
+}
+
+/// What is wrong with a file.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Fault {
+    /// No bytes at all.
+    Empty,
+    /// A web page was saved instead of the file behind its link.
+    WebPage,
+    /// A Git LFS pointer instead of the file.
+    LfsPointer {
+        /// Size of the real file in bytes, when the pointer says so.
+        size: Option<u64>,
+    },
+    /// Content of no known format.
+    Unknown {
+        /// The first bytes.
+        start: Vec<u8>,
+    },
+    /// The file ends before something that it announces.
+    Truncated {
+        /// What is cut off.
+        what: String,
+        /// Bytes needed.
+        needed: u64,
+        /// Bytes present.
+        present: u64,
+    },
+    /// A ZIP archive without the directory at its end.
+    TruncatedArchive,
+    /// Readable, but without mean and basis.
+    NoModel {
+        /// Format of the file.
+        format: &'static str,
+        /// Names and shapes of what it holds.
+        contents: Vec<String>,
+    },
+    /// A version of the statismo format that is not known.
+    Version {
+        /// Major version.
+        major: i64,
+        /// Minor version.
+        minor: i64,
+    },
+    /// Compressed in a way that cannot be read.
+    Filter {
+        /// Name of the array.
+        what: String,
+        /// Name of the compression.
+        filter: String,
+    },
+    /// Stored in a way that cannot be read.
+    Layout {
+        /// Name of the array.
+        what: String,
+        /// What the storage is called.
+        layout: String,
+    },
+    /// Mean, basis and variances do not fit together.
+    Shape {
+        /// Name and size of the first of them.
+        first: String,
+        /// Name and size of the one that does not fit.
+        second: String,
+    },
+    /// Faces point to vertices that do not exist.
+    CellIndices {
+        /// Indices that are too large or negative.
+        count: usize,
+        /// Points of the model.
+        points: usize,
+    },
+    /// The list of faces has no side of 2, 3 or 4.
+    CellCorners {
+        /// Sides of the list.
+        shape: Vec<usize>,
+    },
+    /// Values that are NaN or infinite.
+    NotFinite {
+        /// Name of the array.
+        what: String,
+        /// How many of them.
+        count: usize,
+    },
+    /// Variances below zero.
+    NegativeVariances {
+        /// How many of them.
+        count: usize,
+        /// The smallest.
+        smallest: f64,
+    },
+    /// Singular values where variances are needed.
+    SingularValues {
+        /// Name of the array.
+        what: String,
+    },
+    /// An array of something else than numbers.
+    NotNumbers {
+        /// Name of the array.
+        what: String,
+        /// What it holds.
+        found: String,
+    },
+    /// A model of images or vectors.
+    NotMesh {
+        /// The file's word for it.
+        kind: String,
+    },
+    /// An expression model without the shape model to which it is added.
+    Displacement {
+        /// Name of the part.
+        part: String,
+    },
+    /// An array that is too large for the file it claims to be in, or for the memory.
+    Size {
+        /// Name of the array.
+        what: String,
+        /// Bytes it claims.
+        claimed: u64,
+        /// Most bytes that are read.
+        limit: u64,
+    },
+    /// Content that contradicts itself.
+    Damaged {
+        /// Where.
+        what: String,
+        /// What the reader said.
+        reason: String,
+    },
+    /// The numbers make no model.
+    Model(ModelError),
+    /// The model cannot be written in this format.
+    Write {
+        /// Why.
+        reason: String,
+    },
+}
+
+impl Fault {
+    /// The fault, found in `file`.
+    pub(super) fn of(self, file: &str) -> FormatError {
+        FormatError { file: file.to_owned(), fault: self }
+    }
+}
+
+impl FormatError {
+    /// Stable code, for programs.
+    pub fn code(&self) -> &'static str {
+        match &self.fault {
+            Fault::Empty => "empty",
+            Fault::WebPage => "html",
+            Fault::LfsPointer { .. } => "lfs",
+            Fault::Unknown { .. } => "unknown",
+            Fault::Truncated { .. } | Fault::TruncatedArchive => "trunc",
+            Fault::NoModel { .. } => "nomodel",
+            Fault::Version { .. } => "version",
+            Fault::Filter { .. } => "h5filter",
+            Fault::Layout { .. } => "h5layout",
+            Fault::Shape { .. } => "shape",
+            Fault::CellIndices { .. } | Fault::CellCorners { .. } => "cells",
+            Fault::NotFinite { .. } => "nan",
+            Fault::NegativeVariances { .. } | Fault::SingularValues { .. } => "variance",
+            Fault::NotNumbers { .. } => "npyobj",
+            Fault::NotMesh { .. } => "notmesh",
+            Fault::Displacement { .. } => "displacement",
+            Fault::Size { .. } => "size",
+            Fault::Damaged { .. } => "damaged",
+            Fault::Model(error) => error.code(),
+            Fault::Write { .. } => "write",
+        }
+    }
+
+    /// What to do next.
+    pub fn hint(&self) -> &'static str {
+        match &self.fault {
+            Fault::Empty | Fault::Truncated { .. } | Fault::TruncatedArchive => {
+                "Download or copy the file again."
+            }
+            Fault::WebPage => {
+                "Download the file itself: the page may need a login, or hold the direct link."
+            }
+            Fault::LfsPointer { .. } => {
+                "Get the real file with `git lfs pull`, or from the repository's download link."
+            }
+            Fault::Unknown { .. } => "Export the model in one of the accepted formats.",
+            Fault::NoModel { .. } => {
+                "Export the model from statismo or Scalismo, or save its arrays as `mean` and `basis` \
+                 with `numpy.savez`."
+            }
+            Fault::Version { .. } => "Save the model with a current version of its software.",
+            Fault::Filter { .. } => "Rewrite the file with gzip or without compression.",
+            Fault::Layout { .. } => {
+                "Rewrite the file with h5py's `libver='v114'`, or uncompressed."
+            }
+            Fault::Shape { .. } => {
+                "Check that mean, basis and variances come from the same model, and export it again."
+            }
+            Fault::CellIndices { .. } => {
+                "Check that the faces belong to this mesh, and export the model again."
+            }
+            Fault::CellCorners { .. } => {
+                "Store the faces as one row of 2 or 3 point numbers each, or leave them out."
+            }
+            Fault::NotFinite { .. } => {
+                "Remove the NaN or infinite values and export the model again."
+            }
+            Fault::NegativeVariances { .. } => {
+                "Check how the variances were computed, and export the model again."
+            }
+            Fault::SingularValues { .. } => {
+                "Save the variances as `eigenvalues`: the squares of the singular values, divided by \
+                 the number of training shapes less one."
+            }
+            Fault::NotNumbers { .. } => "Save it as an array of numbers with `numpy.savez`.",
+            Fault::NotMesh { .. } => "Load a model of points or of a mesh.",
+            Fault::Displacement { .. } => {
+                "Load a file that also holds the shape model it belongs to."
+            }
+            Fault::Size { .. } => {
+                "Check that the file is not damaged, or save fewer modes and load that."
+            }
+            Fault::Damaged { .. } => "Download the file or export the model again.",
+            Fault::Model(error) => error.hint(),
+            Fault::Write { .. } => "Export the model in the other format.",
+        }
+    }
+}
+
+impl fmt::Display for FormatError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.file, self.fault)
+    }
+}
+
+impl core::error::Error for FormatError {}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Empty => write!(f, "The file is empty."),
+            Self::WebPage => write!(f, "This is a web page, not a model."),
+            Self::LfsPointer { size: None } => {
+                write!(f, "This is a Git LFS pointer, not the model itself.")
+            }
+            Self::LfsPointer { size: Some(size) } => write!(
+                f,
+                "This is a Git LFS pointer, not the model itself ({}).",
+                quantity_of_bytes(*size)
+            ),
+            Self::Unknown { start } => {
+                write!(f, "Not a format Shapevenn knows (starts with")?;
+                for byte in start {
+                    write!(f, " {byte:02x}")?;
+                }
+                write!(f, "). Accepted: {ACCEPTED}.")
+            }
+            Self::Truncated { what, needed, present } => write!(
+                f,
+                "The file is cut off: {what} needs {needed} bytes, {present} are present."
+            ),
+            Self::TruncatedArchive => {
+                write!(
+                    f,
+                    "The file is cut off: a ZIP archive ends with a directory, this one does not."
+                )
+            }
+            Self::NoModel { format, contents } if contents.is_empty() => {
+                write!(f, "No mean and basis found in this {format}: it holds no arrays.")
+            }
+            Self::NoModel { format, contents } => write!(
+                f,
+                "No mean and basis found in this {format}. It contains: {}.",
+                contents.join(", ")
+            ),
+            Self::Version { major, minor } => {
+                write!(f, "statismo version {major}.{minor} is not known (0.8, 0.9 and 1.x are).")
+            }
+            Self::Filter { what, filter } => {
+                write!(f, "{what} is compressed with {filter}, which cannot be read.")
+            }
+            Self::Layout { what, layout } => {
+                write!(f, "{what} is stored as {layout}, which cannot be read.")
+            }
+            Self::Shape { first, second } => write!(f, "{first}, but {second}: they do not fit."),
+            Self::CellIndices { count, points } => {
+                write!(
+                    f,
+                    "{} beyond the {points} points.",
+                    counted(*count, "face corner points", "face corners point")
+                )
+            }
+            Self::CellCorners { shape } => write!(
+                f,
+                "The list of faces has the shape {}; rows of 2, 3 or 4 corners were expected.",
+                shape_text(shape)
+            ),
+            Self::NotFinite { what, count } => {
+                write!(
+                    f,
+                    "{} not finite.",
+                    counted(
+                        *count,
+                        &format!("value in {what} is"),
+                        &format!("values in {what} are")
+                    )
+                )
+            }
+            Self::NegativeVariances { count, smallest } => {
+                write!(
+                    f,
+                    "{} negative (smallest {}).",
+                    counted(*count, "variance is", "variances are"),
+                    short(*smallest)
+                )
+            }
+            Self::SingularValues { what } => write!(
+                f,
+                "{what} holds singular values; variances or standard deviations were expected."
+            ),
+            Self::NotNumbers { what, found } => write!(f, "{what} holds {found}, not numbers."),
+            Self::NotMesh { kind } => {
+                write!(f, "This is a model of type {kind}: it has no points to compare.")
+            }
+            Self::Displacement { part } => write!(
+                f,
+                "{part} holds displacements only, and no shape model to add them to was found."
+            ),
+            Self::Size { what, claimed, limit } => write!(
+                f,
+                "{what} claims {}; at most {} are read from this file.",
+                quantity_of_bytes(*claimed),
+                quantity_of_bytes(*limit)
+            ),
+            Self::Damaged { what, reason } => write!(f, "{what} cannot be read: {reason}."),
+            Self::Model(error) => write!(f, "{error}"),
+            Self::Write { reason } => write!(f, "The model cannot be written: {reason}."),
+        }
+    }
+}
+
+/// "1 value is", "3 values are".
+pub(super) fn counted(count: usize, one: &str, several: &str) -> String {
+    format!("{count} {}", if count == 1 { one } else { several })
+}
+
+/// A number with few digits: "-2", "0.125", "3.1e-7".
+pub(super) fn short(number: f64) -> String {
+    if number == 0.0 || (1e-3..1e6).contains(&number.abs()) {
+        let text = format!("{number:.3}");
+        return text.trim_end_matches('0').trim_end_matches('.').to_owned();
+    }
+    format!("{number:.1e}")
+}
+
+/// "12 bytes", "3.4 MB".
+fn quantity_of_bytes(bytes: u64) -> String {
+    match bytes {
+        0..1_000 => format!("{bytes} bytes"),
+        1_000..1_000_000 => format!("{:.1} kB", bytes as f64 / 1e3),
+        1_000_000..1_000_000_000 => format!("{:.1} MB", bytes as f64 / 1e6),
+        _ => format!("{:.1} GB", bytes as f64 / 1e9),
+    }
+}
+
+/// "120 × 5", "one number" for a scalar.
+pub(super) fn shape_text<T: fmt::Display>(shape: &[T]) -> String {
+    if shape.is_empty() {
+        return "one number".to_owned();
+    }
+    shape.iter().map(T::to_string).collect::<Vec<_>>().join(" × ")
+}

@@ -1,0 +1,284 @@
+//! HDF5 trees, read through `hdf5-pure` with its traps closed.
+//!
+//! Paths are opened directly; groups are listed only where nothing else helps, because one soft
+//! link or a missing end of the file makes listing fail while direct paths still work. Before an
+//! array is read its claim is compared with the file: stored in one piece it must lie inside the
+//! file, in chunks it may unpack to a bounded multiple. After reading, the number of values must
+//! be the product of the sides (half precision would otherwise come back empty).
+//!
+//! **Limits.** The chunk layout of version 5 (HDF5 2.0, h5py with `libver='latest'`), SZIP and soft
+//! links are not read; the first two give [`Fault::Layout`] and [`Fault::Filter`].
+
+use hdf5_pure::{
+    AttrValue, DType, Dataset, Datatype, DatatypeByteOrder, Error, File, FormatError as Low,
+    Layout, VlenStringReadOptions,
+};
+
+use super::array::{Array, Data, count_of, half_to_single, largest_array, trimmed};
+use super::error::{Fault, shape_text};
+
+/// Longest text read from an attribute or a dataset, in bytes.
+const LONGEST_TEXT: usize = 1 << 20;
+
+/// An open file.
+#[derive(Debug)]
+pub(super) struct Tree {
+    file: File,
+    length: usize,
+}
+
+/// Where the HDF5 signature stands: at 0, 512, 1024, 2048 …; `None` when this is no HDF5 file.
+pub(super) fn signature_offset(bytes: &[u8]) -> Option<usize> {
+    const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
+    core::iter::once(0)
+        .chain(core::iter::successors(Some(512_usize), |offset| offset.checked_mul(2)))
+        .take_while(|offset| *offset < bytes.len())
+        .find(|&offset| bytes[offset..].starts_with(SIGNATURE))
+}
+
+impl Tree {
+    /// Opens a file held in memory.
+    pub(super) fn open(bytes: &[u8]) -> Result<Self, Fault> {
+        match File::from_bytes(bytes.to_vec()) {
+            Ok(file) => Ok(Self { file, length: bytes.len() }),
+            Err(error) => Err(fault_of(&error, "The HDF5 file", bytes.len())),
+        }
+    }
+
+    /// The array at `path`; `None` when there is none.
+    pub(super) fn array(&self, path: &str) -> Result<Option<Array>, Fault> {
+        let what = path.trim_matches('/');
+        let fault = |error: &Error| fault_of(error, what, self.length);
+        let dataset = match self.file.dataset(what) {
+            Ok(dataset) => dataset,
+            Err(error) if is_absent(&error) => return Ok(None),
+            Err(error) => return Err(self.cut_off().unwrap_or_else(|| fault(&error))),
+        };
+        let sides = dataset.shape().map_err(|error| fault(&error))?;
+        let count = self.checked_count(&dataset, what, &sides)?;
+        let data = self.values(&dataset, what)?;
+        if data.len() != count {
+            return Err(Fault::Damaged {
+                what: what.to_owned(),
+                reason: format!("{count} values were announced and {} are there", data.len()),
+            });
+        }
+        let shape = sides.iter().filter_map(|&side| usize::try_from(side).ok()).collect();
+        Ok(Some(Array { shape, data }))
+    }
+
+    /// The number of values that a dataset claims, once it is sure that the file can hold them.
+    fn checked_count(&self, dataset: &Dataset, what: &str, sides: &[u64]) -> Result<usize, Fault> {
+        let fault = |error: &Error| fault_of(error, what, self.length);
+        let width = dataset.element_size().map_err(|error| fault(&error))?;
+        let bytes_of = |sides: &[u64]| count_of(sides)?.checked_mul(width.max(1));
+        let claimed = bytes_of(sides).unwrap_or(u64::MAX);
+        let limit = largest_array(self.length);
+        let too_large = |claimed| Fault::Size { what: what.to_owned(), claimed, limit };
+        match dataset.layout().map_err(|error| fault(&error))? {
+            Layout::Contiguous { address: Some(address), .. } => {
+                let present = (self.length as u64).saturating_sub(address);
+                if claimed > present {
+                    return Err(Fault::Truncated {
+                        what: what.to_owned(),
+                        needed: claimed,
+                        present,
+                    });
+                }
+            }
+            Layout::Chunked { chunk_shape, .. } => {
+                let chunk = bytes_of(&chunk_shape).unwrap_or(u64::MAX);
+                if chunk > limit {
+                    return Err(too_large(chunk));
+                }
+            }
+            Layout::Virtual => {
+                return Err(Fault::Layout {
+                    what: what.to_owned(),
+                    layout: "a virtual dataset, which points to other files".to_owned(),
+                });
+            }
+            _ => {}
+        }
+        if claimed > limit {
+            return Err(too_large(claimed));
+        }
+        count_of(sides)
+            .and_then(|count| usize::try_from(count).ok())
+            .ok_or_else(|| too_large(claimed))
+    }
+
+    fn values(&self, dataset: &Dataset, what: &str) -> Result<Data, Fault> {
+        let fault =
+            |error: Error| self.cut_off().unwrap_or_else(|| fault_of(&error, what, self.length));
+        let kind = dataset.datatype().map_err(fault)?;
+        Ok(match dataset.dtype().map_err(fault)? {
+            DType::F32 => Data::F32(dataset.read_f32().map_err(fault)?),
+            DType::F64 => Data::F64(dataset.read_f64().map_err(fault)?),
+            DType::I8 | DType::U8 | DType::I16 | DType::U16 | DType::I32 => {
+                Data::I32(dataset.read_i32().map_err(fault)?)
+            }
+            DType::U32 | DType::I64 | DType::U64 => Data::I64(dataset.read_i64().map_err(fault)?),
+            DType::String => Data::Text(dataset.read_string().map_err(fault)?),
+            DType::VariableLengthString => {
+                let limits = VlenStringReadOptions::new()
+                    .with_max_elements(LONGEST_TEXT)
+                    .with_max_payload_bytes(LONGEST_TEXT);
+                Data::Text(dataset.read_vlen_strings(limits).map_err(fault)?)
+            }
+            DType::Other(_) => match kind {
+                Datatype::FloatingPoint { size: 2, byte_order, .. } => {
+                    let big = matches!(byte_order, DatatypeByteOrder::BigEndian);
+                    let raw = dataset.read_raw().map_err(fault)?;
+                    let (pairs, _) = raw.as_chunks::<2>();
+                    Data::F32(
+                        pairs
+                            .iter()
+                            .map(|&pair| {
+                                half_to_single(if big {
+                                    u16::from_be_bytes(pair)
+                                } else {
+                                    u16::from_le_bytes(pair)
+                                })
+                            })
+                            .collect(),
+                    )
+                }
+                _ => return Err(not_readable(what)),
+            },
+            _ => return Err(not_readable(what)),
+        })
+    }
+
+    /// One number at `path`, a scalar or the first of a list.
+    pub(super) fn number(&self, path: &str) -> Option<f64> {
+        self.array(path).ok().flatten()?.first_number()
+    }
+
+    /// One text at `path`, a scalar or the first of a list.
+    pub(super) fn text(&self, path: &str) -> Option<String> {
+        self.array(path).ok().flatten()?.first_text()
+    }
+
+    /// A text attribute of a group.
+    pub(super) fn attribute(&self, group: &str, name: &str) -> Option<String> {
+        let group = self.file.group(group.trim_matches('/')).ok()?;
+        let attributes = group.attrs().ok()?;
+        attributes.get(name).and_then(AttrValue::as_strings)?.first().map(|text| trimmed(text))
+    }
+
+    /// Whether there is a dataset at `path`, however it can be read.
+    pub(super) fn has_array(&self, path: &str) -> bool {
+        match self.file.dataset(path.trim_matches('/')) {
+            Ok(_) => true,
+            Err(error) => !is_absent(&error),
+        }
+    }
+
+    /// Names of the groups in a group; empty when they cannot be listed.
+    pub(super) fn groups(&self, path: &str) -> Vec<String> {
+        let path = path.trim_matches('/');
+        let group = if path.is_empty() { Ok(self.file.root()) } else { self.file.group(path) };
+        let mut names = group.and_then(|group| group.groups()).unwrap_or_default();
+        names.sort();
+        names
+    }
+
+    /// Names and shapes of the arrays of the file, at most `most`.
+    pub(super) fn contents(&self, most: usize) -> Vec<String> {
+        let mut found = Vec::new();
+        self.collect("", 0, most, &mut found);
+        found
+    }
+
+    fn collect(&self, path: &str, depth: usize, most: usize, found: &mut Vec<String>) {
+        const DEEPEST: usize = 6;
+        if depth > DEEPEST || found.len() >= most {
+            return;
+        }
+        let group = if path.is_empty() { Ok(self.file.root()) } else { self.file.group(path) };
+        let Ok(group) = group else { return };
+        let inside =
+            |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}/{name}") };
+        let mut datasets = group.datasets().unwrap_or_default();
+        datasets.sort();
+        for name in datasets {
+            if found.len() >= most {
+                return;
+            }
+            let full = inside(&name);
+            let shape = self.file.dataset(&full).and_then(|dataset| dataset.shape());
+            found.push(match shape {
+                Ok(shape) => format!("{full} ({})", shape_text(&shape)),
+                Err(_) => full,
+            });
+        }
+        for name in self.groups(path) {
+            self.collect(&inside(&name), depth + 1, most, found);
+        }
+    }
+
+    /// The fault of a file that is shorter than its own header says, if it is.
+    pub(super) fn cut_off(&self) -> Option<Fault> {
+        let needed = self.file.superblock().eof_address;
+        let present = self.length as u64;
+        (needed > present).then(|| Fault::Truncated {
+            what: "the file".to_owned(),
+            needed,
+            present,
+        })
+    }
+}
+
+fn not_readable(what: &str) -> Fault {
+    super::assemble::not_numbers(what, "records of another type")
+}
+
+/// Whether a path simply leads nowhere.
+fn is_absent(error: &Error) -> bool {
+    matches!(
+        error,
+        Error::Format(Low::PathNotFound(_)) | Error::NotAGroup(_) | Error::NotADataset(_)
+    )
+}
+
+/// What an error of the HDF5 reader means for the person with the file of `length` bytes.
+fn fault_of(error: &Error, what: &str, length: usize) -> Fault {
+    let what = what.to_owned();
+    let layout = |layout: &str| Fault::Layout { what: what.clone(), layout: layout.to_owned() };
+    match error {
+        Error::Format(Low::UnsupportedFilter(id)) => {
+            Fault::Filter { what, filter: filter_name(*id) }
+        }
+        Error::Format(Low::InvalidLayoutVersion(version)) => {
+            layout(&format!("a layout of version {version} (HDF5 2.0)"))
+        }
+        Error::Format(Low::UnsupportedVirtualLayout) => {
+            layout("a virtual dataset, which points to other files")
+        }
+        Error::Format(Low::UnsupportedExternalStorage) => layout("numbers in another file"),
+        Error::Format(Low::UnexpectedEof { expected, available }) if *expected > *available => {
+            Fault::Truncated {
+                what,
+                needed: *expected as u64,
+                present: (*available).min(length) as u64,
+            }
+        }
+        other => {
+            Fault::Damaged { what, reason: other.to_string().trim_end_matches('.').to_owned() }
+        }
+    }
+}
+
+fn filter_name(id: u16) -> String {
+    match id {
+        4 => "SZIP".to_owned(),
+        5 => "N-bit".to_owned(),
+        32_001 => "Blosc".to_owned(),
+        32_004 => "LZ4".to_owned(),
+        32_013 => "ZFP".to_owned(),
+        32_015 => "Zstandard".to_owned(),
+        32_026 => "Blosc2".to_owned(),
+        other => format!("HDF5 filter {other}"),
+    }
+}

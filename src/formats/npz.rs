@@ -1,0 +1,197 @@
+//! NumPy archives (`.npz`): a ZIP of `.npy` members, read and written.
+//!
+//! The ZIP's central directory is believed, not the headers before each member: NumPy leaves the
+//! sizes there at 2³² − 1. A member is unpacked only when it is asked for, and never beyond the size
+//! its own header states, which is bounded in turn: an archive that unpacks to more than the file
+//! can reasonably hold is refused.
+
+use std::collections::BTreeMap;
+use std::io::{Cursor, Read, Write};
+
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipArchive, ZipWriter};
+
+use super::FormatError;
+use super::array::{Array, largest_array};
+use super::error::{Fault, shape_text};
+use super::npy::{self, Header, NpyError};
+
+/// An open archive: what its members hold, not yet unpacked.
+pub(super) struct Archive<'a> {
+    zip: ZipArchive<Cursor<&'a [u8]>>,
+    members: BTreeMap<String, (usize, Result<Header, NpyError>)>,
+    limit: u64,
+}
+
+impl<'a> Archive<'a> {
+    /// Opens an archive held in memory and reads the headers of its arrays.
+    pub(super) fn open(bytes: &'a [u8]) -> Result<Self, Fault> {
+        let mut zip = ZipArchive::new(Cursor::new(bytes)).map_err(|error| {
+            if bytes.windows(4).any(|window| window == b"PK\x05\x06") {
+                damaged("The ZIP archive", error)
+            } else {
+                Fault::TruncatedArchive
+            }
+        })?;
+        let mut members = BTreeMap::new();
+        for index in 0..zip.len() {
+            let mut member =
+                zip.by_index(index).map_err(|error| damaged("The ZIP archive", error))?;
+            let name = String::from_utf8_lossy(member.name_raw()).into_owned();
+            if let Some(name) = name.strip_suffix(".npy") {
+                members.insert(name.to_owned(), (index, npy::read_header(&mut member)));
+            }
+        }
+        Ok(Self { zip, members, limit: largest_array(bytes.len()) })
+    }
+
+    /// Names of the arrays.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        self.members.keys().map(String::as_str)
+    }
+
+    /// Names and shapes of the arrays, at most `most`.
+    pub(super) fn contents(&self, most: usize) -> Vec<String> {
+        let described =
+            |(name, (_, header)): (&String, &(usize, Result<Header, NpyError>))| match header {
+                Ok(header) => format!("{name} ({})", shape_text(&header.shape)),
+                Err(_) => name.clone(),
+            };
+        self.members.iter().take(most).map(described).collect()
+    }
+
+    /// The sides of an array of numbers or text; `None` when there is none of that name.
+    pub(super) fn shape(&self, name: &str) -> Option<&[u64]> {
+        let header = self.members.get(name)?.1.as_ref().ok()?;
+        header.check_readable().is_ok().then_some(header.shape.as_slice())
+    }
+
+    /// Why an array that is there holds no numbers and no text; `None` when it does or is absent.
+    pub(super) fn unreadable(&self, name: &str) -> Option<Fault> {
+        let error = match &self.members.get(name)?.1 {
+            Ok(header) => header.check_readable().err()?,
+            Err(error) => error.clone(),
+        };
+        Some(self.fault(name, error))
+    }
+
+    /// Unpacks an array; `None` when there is none of that name.
+    pub(super) fn array(&mut self, name: &str) -> Result<Option<Array>, Fault> {
+        let Some((index, header)) = self.members.get(name) else { return Ok(None) };
+        let fault = |error| self.fault(name, error);
+        let header = header.as_ref().map_err(|error| fault(error.clone()))?.clone();
+        let (index, limit) = (*index, self.limit);
+        let mut read = || -> Result<Array, NpyError> {
+            const CORRUPT: NpyError = NpyError::Damaged("its compressed bytes are corrupt");
+            let mut member = self.zip.by_index(index).map_err(|_| CORRUPT)?;
+            npy::read_header(&mut member)?;
+            let array = npy::read_values(&header, &mut member, limit)?;
+            // The checksum is compared when the end of the member is read.
+            member.read(&mut [0]).map_err(|_| CORRUPT)?;
+            Ok(array)
+        };
+        let array = read();
+        array.map(Some).map_err(|error| self.fault(name, error))
+    }
+
+    fn fault(&self, name: &str, error: NpyError) -> Fault {
+        let what = name.to_owned();
+        match error {
+            NpyError::Damaged(reason) => Fault::Damaged { what, reason: reason.to_owned() },
+            NpyError::NotNumbers(found) => Fault::NotNumbers { what, found },
+            NpyError::Truncated(needed, present) => Fault::Truncated { what, needed, present },
+            NpyError::TooLarge(claimed) => Fault::Size { what, claimed, limit: self.limit },
+        }
+    }
+}
+
+fn damaged(what: &str, error: impl core::fmt::Display) -> Fault {
+    Fault::Damaged {
+        what: what.to_owned(),
+        reason: error.to_string().trim_end_matches('.').to_owned(),
+    }
+}
+
+/// Reads all arrays of numbers or text of an archive. Python objects are skipped.
+///
+/// # Errors
+/// [`FormatError`] when this is no archive, an array is cut off or corrupt, or all of them together
+/// would take more memory than a file of this size may.
+pub fn read_arrays(name: &str, bytes: &[u8]) -> Result<BTreeMap<String, Array>, FormatError> {
+    let read = || -> Result<BTreeMap<String, Array>, Fault> {
+        let mut archive = Archive::open(bytes)?;
+        let names: Vec<String> = archive.names().map(str::to_owned).collect();
+        let mut arrays = BTreeMap::new();
+        for member in names {
+            if let Some(Fault::NotNumbers { .. }) = archive.unreadable(&member) {
+                continue;
+            }
+            if let Some(array) = archive.array(&member)? {
+                archive.limit = archive.limit.saturating_sub(4 * array.data.len() as u64);
+                arrays.insert(member, array);
+            }
+        }
+        Ok(arrays)
+    };
+    read().map_err(|fault| fault.of(name))
+}
+
+/// Writes arrays under their names, uncompressed: floating-point numbers hardly shrink.
+///
+/// # Panics
+/// When two arrays have the same name.
+pub fn write_arrays(arrays: &[(&str, Array)]) -> Vec<u8> {
+    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
+    for (name, array) in arrays {
+        let bytes = npy::write(array);
+        let options = SimpleFileOptions::default()
+            .compression_method(CompressionMethod::Stored)
+            .large_file(u32::try_from(bytes.len()).is_err());
+        zip.start_file(format!("{name}.npy"), options).expect("names of arrays are unique");
+        zip.write_all(&bytes).expect("memory takes every byte");
+    }
+    zip.finish().expect("memory takes every byte").into_inner()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::array::Data;
+    use super::*;
+
+    #[test]
+    fn arrays_come_back_as_they_were_written() {
+        let arrays = [
+            (
+                "draws",
+                Array { shape: vec![2, 3], data: Data::F32(vec![0.5, 1.0, -2.0, 3.0, 4.0, 5.0]) },
+            ),
+            ("weights", Array::list(vec![0.1, f64::MAX])),
+            ("count", Array { shape: vec![], data: Data::I64(vec![i64::MIN]) }),
+            ("faces", Array { shape: vec![1, 3], data: Data::I32(vec![0, 1, 2]) }),
+            ("unit", Array::text("µm")),
+            ("names", Array { shape: vec![2], data: Data::Text(vec!["a".into(), "bcd".into()]) }),
+            ("none", Array { shape: vec![0, 4], data: Data::F32(vec![]) }),
+        ];
+        let bytes = write_arrays(&arrays);
+        let read = read_arrays("arrays.npz", &bytes).unwrap();
+        assert_eq!(read.len(), arrays.len(), "all of them");
+        for (name, array) in arrays {
+            assert_eq!(read[name], array, "{name}");
+        }
+        assert!(bytes.windows(4).filter(|window| window == b"PK\x03\x04").count() == 7, "stored");
+    }
+
+    #[test]
+    fn a_claim_beyond_the_file_is_refused_before_memory_is_taken() {
+        let mut bytes = write_arrays(&[("basis", Array::list(vec![1.0; 4]))]);
+        let place = bytes.windows(4).position(|window| window == b"(4,)").unwrap();
+        bytes.splice(place..place + 14, *b"(5000000000,)}");
+        let error = read_arrays("bomb.npz", &bytes).unwrap_err();
+        assert_eq!(error.code(), "size", "{error}");
+        assert_eq!(
+            error.to_string(),
+            "bomb.npz: basis claims 40.0 GB; at most 16.8 MB are read from this file.",
+            "what is claimed and what is possible"
+        );
+    }
+}

@@ -1,0 +1,149 @@
+//! Writes a model as Scalismo writes its own `.h5` files.
+//!
+//! Version 0.9: orthonormal modes, λ beside them, everything in single precision. Points are d × n
+//! and cells k × m, 32-bit signed: the Scala reader casts and accepts no other type. Version numbers
+//! are scalars, noise variance is a list of one, attributes are lists of one text with its NUL.
+//! The file has the layout of HDF5 1.8, so that old readers open it too.
+//!
+//! **Limits.** There is no clock in the core: build times say so instead. The reference is the mean.
+
+use hdf5_pure::{AttrValue, DatasetBuilder, FileBuilder, GroupBuilder, LibVer};
+
+use super::FormatError;
+use super::error::{Fault, short};
+use crate::model::{Cells, Kind, LinearModel, Unit};
+
+/// Writes `model` as statismo HDF5, version 0.9.
+///
+/// # Errors
+/// [`FormatError`] with code `write` when a number does not fit into single precision.
+pub fn write_model(model: &LinearModel) -> Result<Vec<u8>, FormatError> {
+    file_of(model).map_err(|fault| fault.of(model.name()))
+}
+
+fn file_of(model: &LinearModel) -> Result<Vec<u8>, Fault> {
+    let refused = |error: &dyn core::fmt::Display| Fault::Write { reason: error.to_string() };
+    let (dimension, points, modes) = (model.dimension(), model.point_count(), model.mode_count());
+    let mean = single(model.mean().iter().copied())?;
+    let basis = single(
+        (0..mean.len()).flat_map(|row| model.basis().row(row).iter().copied().collect::<Vec<_>>()),
+    )?;
+    let variances = single(model.standard_deviations().iter().map(|value| value * value))?;
+    if variances.contains(&0.0) {
+        return Err(Fault::Write {
+            reason: "a variance is too small for single precision".to_owned(),
+        });
+    }
+
+    let mut file = FileBuilder::new();
+    file.with_libver_bounds(LibVer::Earliest, LibVer::V18);
+
+    let mut group = file.create_group("version");
+    group.create_dataset("majorVersion").with_i32_data(&[0]).with_shape(&[]);
+    group.create_dataset("minorVersion").with_i32_data(&[9]).with_shape(&[]);
+    file.add_group(group.finish());
+
+    let mut group = file.create_group("model");
+    floats(&mut group, "mean", &mean, &[mean.len()]);
+    floats(&mut group, "pcaBasis", &basis, &[mean.len(), modes]);
+    floats(&mut group, "pcaVariance", &variances, &[modes]);
+    floats(&mut group, "noiseVariance", &[0.0], &[1]);
+    file.add_group(group.finish());
+
+    let mut group = file.create_group("representer");
+    let (cell_type, corners, cells) = cells_of(model.cells());
+    let name = match model.kind() {
+        Kind::Shape => "itkStandardMeshRepresenter",
+        Kind::Color => "gravis::MeshColorRepresenter",
+    };
+    for (key, value) in [
+        ("name", name),
+        ("version/majorVersion", "0"),
+        ("version/minorVersion", "9"),
+        ("datasetType", cell_type),
+    ] {
+        let width = u32::try_from(value.len() + 1).map_err(|error| refused(&error))?;
+        let text = AttrValue::ascii_string_array_sized(vec![value.to_owned()], width);
+        group.set_attr(key, text.map_err(|error| refused(&error))?);
+    }
+    let by_axis: Vec<f32> = (0..dimension)
+        .flat_map(|axis| mean.iter().skip(axis).step_by(dimension).copied())
+        .collect();
+    floats(&mut group, "points", &by_axis, &[dimension, points]);
+    if !cells.is_empty() {
+        let shape = [corners, cells.len() / corners];
+        sized(group.create_dataset("cells").with_i32_data(&cells), &shape);
+    }
+    if let Some(metres) = metres(model.unit()) {
+        group.create_dataset("length-unit").with_f32_data(&[metres]).with_shape(&[]);
+    }
+    file.add_group(group.finish());
+
+    let mut group = file.create_group("modelinfo");
+    text(&mut group, "build-time", "not recorded")?;
+    let mut builder = group.create_group("modelBuilder-0");
+    text(&mut builder, "buildTime", "not recorded")?;
+    text(&mut builder, "builderName", concat!("Shapevenn ", env!("CARGO_PKG_VERSION")))?;
+    for inner in ["parameters", "dataInfo"] {
+        let empty = builder.create_group(inner);
+        builder.add_group(empty.finish());
+    }
+    group.add_group(builder.finish());
+    file.add_group(group.finish());
+
+    file.finish().map_err(|error| refused(&error))
+}
+
+/// In single precision, refusing what overflows.
+fn single(values: impl Iterator<Item = f64>) -> Result<Vec<f32>, Fault> {
+    values
+        .map(|value| {
+            #[allow(clippy::cast_possible_truncation, reason = "the format is single precision")]
+            let narrow = value as f32;
+            narrow.is_finite().then_some(narrow).ok_or_else(|| Fault::Write {
+                reason: format!("{} does not fit into single precision", short(value)),
+            })
+        })
+        .collect()
+}
+
+fn floats(group: &mut GroupBuilder, name: &str, values: &[f32], shape: &[usize]) {
+    sized(group.create_dataset(name).with_f32_data(values), shape);
+}
+
+fn sized(dataset: &mut DatasetBuilder, shape: &[usize]) {
+    let sides: Vec<u64> = shape.iter().map(|&side| side as u64).collect();
+    dataset.with_shape(&sides);
+}
+
+fn text(group: &mut GroupBuilder, name: &str, value: &str) -> Result<(), Fault> {
+    group
+        .create_dataset(name)
+        .with_ascii_strings(&[value])
+        .map(|_| ())
+        .map_err(|error| Fault::Write { reason: error.to_string() })
+}
+
+/// Type, corners and k × m indices.
+fn cells_of(cells: &Cells) -> (&'static str, usize, Vec<i32>) {
+    #[allow(clippy::cast_possible_wrap, reason = "more than 2³¹ points do not fit into memory")]
+    fn by_corner<const K: usize>(cells: &[[u32; K]]) -> Vec<i32> {
+        (0..K).flat_map(|corner| cells.iter().map(move |cell| cell[corner] as i32)).collect()
+    }
+    match cells {
+        Cells::None => ("POINT_SET", 1, Vec::new()),
+        Cells::Segments(segments) => ("LINE_MESH", 2, by_corner(segments)),
+        Cells::Triangles(triangles) => ("POLYGON_MESH", 3, by_corner(triangles)),
+    }
+}
+
+fn metres(unit: Unit) -> Option<f32> {
+    Some(match unit {
+        Unit::Micrometre => 1e-6,
+        Unit::Millimetre => 1e-3,
+        Unit::Centimetre => 1e-2,
+        Unit::Decimetre => 1e-1,
+        Unit::Metre => 1.0,
+        Unit::Unknown => return None,
+    })
+}

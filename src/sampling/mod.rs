@@ -1,0 +1,172 @@
+//! Draws from a density: chains, exact rejection, diagnostics. Knows nothing of shapes.
+//!
+//! A [`Target`] evaluates many points at once, because that is where the time goes. Every chain
+//! has its own stream of random numbers, so that its draws do not depend on how the work is cut.
+
+mod diagnostics;
+mod gaussian;
+mod independence;
+mod normal_quantile;
+mod pareto;
+mod random;
+mod random_walk;
+mod rejection;
+
+pub use diagnostics::{ChainSummary, split_r_hat, summarise};
+pub use gaussian::Gaussian;
+pub use independence::IndependenceChains;
+pub use normal_quantile::normal_quantile;
+pub use pareto::pareto_k;
+pub use random::{Stream, fill_normal, stream, uniform};
+pub use random_walk::{RandomWalkChains, Scaling};
+pub use rejection::{Rejection, RejectionTarget};
+
+/// What a target says of one point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Evaluation {
+    /// Logarithm of the density, up to a constant.
+    pub log_density: f64,
+    /// A number that the target computes on the way and a caller may want for each draw.
+    pub statistic: f64,
+}
+
+/// A density on R^q, known up to a constant.
+pub trait Target: Sync {
+    /// q.
+    fn dimension(&self) -> usize;
+
+    /// Evaluates B points, given row by row (B × q).
+    fn evaluate(&self, points: &[f64]) -> Vec<Evaluation>;
+}
+
+/// Kept draws of an ensemble of chains, and how they came about.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Draws {
+    /// q.
+    pub dimension: usize,
+    /// Per chain, draw after draw, q numbers each.
+    pub values: Vec<Vec<f64>>,
+    /// Per chain, the statistic of each draw.
+    pub statistics: Vec<Vec<f64>>,
+    /// Proposals that were accepted, after the burn-in.
+    pub accepted: u64,
+    /// Proposals that were made, after the burn-in.
+    pub proposed: u64,
+    /// Evaluations of the density, the burn-in included.
+    pub evaluations: u64,
+    /// log target − log proposal of every proposal, where proposals are independent.
+    pub log_weights: Vec<f64>,
+}
+
+impl Draws {
+    /// No draws yet.
+    pub fn new(dimension: usize, chains: usize) -> Self {
+        Self {
+            dimension,
+            values: vec![Vec::new(); chains],
+            statistics: vec![Vec::new(); chains],
+            accepted: 0,
+            proposed: 0,
+            evaluations: 0,
+            log_weights: Vec::new(),
+        }
+    }
+
+    /// Draws kept, over all chains.
+    pub fn len(&self) -> usize {
+        self.statistics.iter().map(Vec::len).sum()
+    }
+
+    /// Whether nothing was kept.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Share of proposals accepted after the burn-in; 0 before there are any.
+    pub fn acceptance_rate(&self) -> f64 {
+        if self.proposed == 0 { 0.0 } else { self.accepted as f64 / self.proposed as f64 }
+    }
+
+    /// All draws, chain after chain.
+    pub fn iter_slices(&self) -> impl Iterator<Item = &[f64]> + Clone {
+        self.values.iter().flat_map(|chain| chain.chunks_exact(self.dimension))
+    }
+}
+
+/// An ensemble of chains that can be advanced step by step.
+pub trait Chains: core::fmt::Debug + Send {
+    /// Makes `steps` more steps of every chain (fewer when that ends the run).
+    fn advance(&mut self, target: &dyn Target, steps: usize);
+
+    /// Steps each chain still has to make.
+    fn remaining(&self) -> usize;
+
+    /// What was drawn so far.
+    fn draws(&self) -> &Draws;
+}
+
+/// Chains that have ended, known by their draws.
+#[derive(Debug, Clone)]
+pub struct EndedChains(pub Draws);
+
+impl Chains for EndedChains {
+    fn advance(&mut self, _: &dyn Target, _: usize) {}
+
+    fn remaining(&self) -> usize {
+        0
+    }
+
+    fn draws(&self) -> &Draws {
+        &self.0
+    }
+}
+
+/// How long chains run and which of their states are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Schedule {
+    /// Number of chains.
+    pub chains: usize,
+    /// Steps of each chain thrown away at its start.
+    pub burn_in: usize,
+    /// Steps of each chain for every draw kept.
+    pub thin: usize,
+    /// Draws kept of each chain.
+    pub kept: usize,
+}
+
+impl Schedule {
+    /// Steps of each chain, the burn-in included.
+    pub fn steps(&self) -> usize {
+        self.burn_in + self.thin * self.kept
+    }
+
+    /// Whether the state after step number `step` (from 0) is kept.
+    fn keeps(&self, step: usize) -> bool {
+        step >= self.burn_in && (step - self.burn_in + 1).is_multiple_of(self.thin)
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod test_targets {
+    use super::{Evaluation, Target};
+
+    /// N(0, I) on R^q; the statistic is ‖a‖².
+    #[derive(Debug)]
+    pub(crate) struct StandardNormal(pub(crate) usize);
+
+    impl Target for StandardNormal {
+        fn dimension(&self) -> usize {
+            self.0
+        }
+
+        fn evaluate(&self, points: &[f64]) -> Vec<Evaluation> {
+            points
+                .chunks_exact(self.0)
+                .map(|point| {
+                    let square: f64 = point.iter().map(|value| value * value).sum();
+                    Evaluation { log_density: -0.5 * square, statistic: square }
+                })
+                .collect()
+        }
+    }
+}

@@ -1,0 +1,287 @@
+//! The engine as the page's worker sees it: the only file that names wasm-bindgen.
+//!
+//! Small things cross as plain objects, shapes as typed arrays (copies, since views into this
+//! memory die when it grows), errors as `{ code, message, hint }`. The worker owns the one
+//! [`Engine`] and measures time; nothing here knows a clock.
+
+use std::collections::BTreeMap;
+
+use js_sys::{Float32Array, Object, Reflect, Uint8Array, Uint32Array};
+use serde::Serialize;
+use wasm_bindgen::prelude::*;
+
+use crate::comparison::{Comparison, Region, Settings, ShapeSource, Stage};
+use crate::files::{self, Described, Download, Error};
+use crate::model::{Cells, LinearModel};
+use crate::report::{ModelReport, Seconds};
+
+#[cfg(feature = "threads")]
+pub use wasm_bindgen_rayon::init_thread_pool;
+
+/// Writes the text of a panic to the console before the instance dies.
+#[wasm_bindgen(start)]
+pub fn install_panic_hook() {
+    std::panic::set_hook(Box::new(|panic| {
+        web_sys::console::error_1(&JsValue::from_str(&panic.to_string()));
+    }));
+}
+
+/// Models by handle and the current comparison.
+#[wasm_bindgen]
+#[derive(Debug, Default)]
+pub struct Engine {
+    models: BTreeMap<u32, Described>,
+    next_handle: u32,
+    comparison: Option<Comparison>,
+    seconds: Seconds,
+}
+
+#[derive(Serialize)]
+struct OpenedPart<'a> {
+    model: u32,
+    part: &'a str,
+    report: &'a ModelReport,
+}
+
+#[derive(Serialize)]
+struct Fault {
+    code: String,
+    message: String,
+    hint: String,
+}
+
+fn fault(code: &str, message: impl ToString, hint: impl ToString) -> JsValue {
+    plain(&Fault { code: code.to_owned(), message: message.to_string(), hint: hint.to_string() })
+}
+
+fn thrown(error: impl Into<Error>) -> JsValue {
+    let error = error.into();
+    fault(error.code(), &error, error.hint())
+}
+
+/// A plain object; `null` for `None`.
+fn plain(value: &impl Serialize) -> JsValue {
+    let serializer = serde_wasm_bindgen::Serializer::json_compatible();
+    value.serialize(&serializer).unwrap_or(JsValue::UNDEFINED)
+}
+
+/// An object with these members.
+fn object(members: &[(&str, JsValue)]) -> JsValue {
+    let object = Object::new();
+    for (name, value) in members {
+        // Setting a member of a fresh object cannot fail.
+        let _ = Reflect::set(&object, &JsValue::from_str(name), value);
+    }
+    object.into()
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "maps to look at are single precision")]
+fn single(values: &[f64]) -> JsValue {
+    let single: Vec<f32> = values.iter().map(|value| *value as f32).collect();
+    Float32Array::from(&single[..]).into()
+}
+
+fn indices<const N: usize>(cells: &[[u32; N]]) -> JsValue {
+    Uint32Array::from(cells.as_flattened()).into()
+}
+
+fn parsed<T: for<'de> serde::Deserialize<'de>>(value: JsValue, what: &str) -> Result<T, JsValue> {
+    serde_wasm_bindgen::from_value(value).map_err(|error| {
+        fault("settings", format!("The {what} cannot be read: {error}."), "Reload the page.")
+    })
+}
+
+#[wasm_bindgen]
+impl Engine {
+    /// An engine without models.
+    #[wasm_bindgen(constructor)]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// The engine's version.
+    pub fn version() -> String {
+        env!("CARGO_PKG_VERSION").to_owned()
+    }
+
+    /// A seed that nobody has had before, decimal.
+    #[wasm_bindgen(js_name = freshSeed)]
+    pub fn fresh_seed() -> String {
+        getrandom::u64().map_or_else(|_| "1".to_owned(), |seed| (seed >> 32).to_string())
+    }
+
+    /// Opens a file: `{ format, parts: [{ model, part, report }] }`.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }`.
+    pub fn open(&mut self, name: &str, bytes: &[u8]) -> Result<JsValue, JsValue> {
+        files::open(name, bytes).map(|parts| self.keep(parts)).map_err(thrown)
+    }
+
+    /// Opens a demo model; `bytes` is its packaged file where it is one.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }`.
+    #[wasm_bindgen(js_name = openDemo)]
+    pub fn open_demo(&mut self, demo: &str, bytes: Option<Box<[u8]>>) -> Result<JsValue, JsValue> {
+        let parts = files::open_demo(demo, bytes.as_deref()).map_err(thrown)?;
+        Ok(self.keep(parts))
+    }
+
+    fn keep(&mut self, parts: Vec<Described>) -> JsValue {
+        let format = parts.first().map_or(String::new(), |part| part.report.format.clone());
+        let first = self.next_handle;
+        for part in parts {
+            self.models.insert(self.next_handle, part);
+            self.next_handle += 1;
+        }
+        let opened: Vec<OpenedPart<'_>> = self
+            .models
+            .range(first..)
+            .map(|(&model, kept)| OpenedPart { model, part: &kept.part, report: &kept.report })
+            .collect();
+        object(&[("format", JsValue::from_str(&format)), ("parts", plain(&opened))])
+    }
+
+    fn model(&self, handle: u32) -> Result<&Described, JsValue> {
+        self.models
+            .get(&handle)
+            .ok_or_else(|| fault("closed", "This model is no longer open.", "Open the file again."))
+    }
+
+    /// How a model is drawn: `{ dimension, kind, mean, triangles, segments, vertexSd }`.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }` when the model is closed.
+    pub fn geometry(&self, model: u32) -> Result<JsValue, JsValue> {
+        let kept = self.model(model)?;
+        let (triangles, segments) = match kept.model.cells() {
+            Cells::Triangles(triangles) => (indices(triangles), JsValue::NULL),
+            Cells::Segments(segments) => (JsValue::NULL, indices(segments)),
+            Cells::None => (JsValue::NULL, JsValue::NULL),
+        };
+        Ok(object(&[
+            ("dimension", plain(&kept.report.dimension)),
+            ("kind", plain(&kept.report.kind)),
+            ("mean", single(kept.model.mean().as_slice())),
+            ("triangles", triangles),
+            ("segments", segments),
+            ("vertexSd", single(&kept.model.vertex_standard_deviations())),
+        ]))
+    }
+
+    /// Begins the comparison of two models; the one before it is given up. A setting that is left out
+    /// has the default of the sampler.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }` when the two cannot be compared; the comparison before stays.
+    pub fn start(&mut self, a: u32, b: u32, settings: JsValue) -> Result<(), JsValue> {
+        let settings = Settings::parse(parsed(settings, "settings")?)
+            .map_err(|error| fault("settings", error, "Reload the page."))?;
+        let (first, second) = (self.model(a)?, self.model(b)?);
+        let described = [first.report.clone(), second.report.clone()];
+        let comparison = Comparison::new(&first.model, &second.model, described, settings);
+        self.comparison = Some(comparison.map_err(thrown)?);
+        self.seconds = Seconds::default();
+        Ok(())
+    }
+
+    fn current(&self) -> Result<&Comparison, JsValue> {
+        self.comparison.as_ref().ok_or_else(|| thrown(Error::NothingYet))
+    }
+
+    /// Does about `evaluations` evaluations of the distance and says how far the run is.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }` when the run cannot go on.
+    pub fn advance(&mut self, evaluations: usize) -> Result<JsValue, JsValue> {
+        let comparison = self.comparison.as_mut().ok_or_else(|| thrown(Error::NothingYet))?;
+        comparison.advance(evaluations).map(|progress| plain(&progress)).map_err(thrown)
+    }
+
+    /// Ends the run with what was drawn so far; afterwards there is a report.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }` when there is nothing to report.
+    pub fn cancel(&mut self) -> Result<(), JsValue> {
+        let Some(comparison) = self.comparison.as_mut() else { return Ok(()) };
+        comparison.cancel();
+        while comparison.stage() != Stage::Done {
+            comparison.advance(1).map_err(thrown)?;
+        }
+        Ok(())
+    }
+
+    /// The report as JSON text, with the seconds that the worker's clock measured.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }` while there is none.
+    pub fn report(
+        &mut self,
+        total: f64,
+        sample: f64,
+        load: Option<f64>,
+    ) -> Result<String, JsValue> {
+        let load = load.unwrap_or(0.0);
+        self.seconds = Seconds { load, prepare: (total - sample).max(0.0), sample, total };
+        let report = self.current()?.report(self.seconds);
+        report.map(|report| files::json(&report)).ok_or_else(|| thrown(Error::NothingYet))
+    }
+
+    /// Puts back a finished run from its report and draws.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }` when they do not belong to the two models.
+    pub fn restore(&mut self, a: u32, b: u32, report: &str, draws: &[u8]) -> Result<(), JsValue> {
+        let models: [&LinearModel; 2] = [&self.model(a)?.model, &self.model(b)?.model];
+        let (comparison, seconds) =
+            files::restore(models[0], models[1], report, draws).map_err(thrown)?;
+        self.comparison = Some(comparison);
+        self.seconds = seconds;
+        Ok(())
+    }
+
+    /// Shapes of a region: `{ region, mean, vertexSd, samples, count, source }`.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }` while there is nothing of it.
+    pub fn region(&self, region: JsValue, count: usize, seed: &str) -> Result<JsValue, JsValue> {
+        let which: Region = parsed(region.clone(), "region")?;
+        let seed = seed.parse().unwrap_or(0);
+        let shapes =
+            self.current()?.region(which, count, seed).ok_or_else(|| thrown(Error::NothingYet))?;
+        let array = |values: &[f32]| JsValue::from(Float32Array::from(values));
+        let source = match shapes.source {
+            ShapeSource::Model => "model",
+            ShapeSource::Fit => "fit",
+            ShapeSource::Draws => "draws",
+        };
+        Ok(object(&[
+            ("region", region),
+            ("mean", array(&shapes.mean)),
+            ("vertexSd", array(&shapes.vertex_sd)),
+            ("samples", array(&shapes.samples)),
+            ("count", plain(&shapes.count)),
+            ("source", JsValue::from_str(source)),
+        ]))
+    }
+
+    /// A file to be saved: `{ name, mime, bytes }`.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }` while there is nothing to save.
+    pub fn export(&self, what: JsValue) -> Result<JsValue, JsValue> {
+        let what: Download = parsed(what, "kind of file")?;
+        let written = files::write(self.current()?, self.seconds, &what).map_err(thrown)?;
+        Ok(object(&[
+            ("name", JsValue::from_str(&written.name)),
+            ("mime", JsValue::from_str(written.mime)),
+            ("bytes", Uint8Array::from(&written.bytes[..]).into()),
+        ]))
+    }
+
+    /// Forgets a model. A comparison that uses it keeps its own copy.
+    pub fn close(&mut self, model: u32) {
+        self.models.remove(&model);
+    }
+}

@@ -1,0 +1,356 @@
+//! Every file of `tests/fixtures` against the numbers that its writer noted, the corpus of broken
+//! files against the sentences that they must give, and our own exports against ourselves, h5py
+//! and numpy.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use proptest::prelude::*;
+use serde::Deserialize;
+use shapevenn::formats::{self, Array, Data};
+use shapevenn::model::{Cells, Kind, LinearModel, Unit};
+
+/// What `make_fixtures.py` noted about one model.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Expected {
+    format: String,
+    part: String,
+    kind: Kind,
+    unit: Unit,
+    dimension: usize,
+    points: usize,
+    modes: usize,
+    cells: usize,
+    mean: Vec<f64>,
+    variances: Vec<f64>,
+    covariance_of_probe: Vec<f64>,
+    notes: Vec<String>,
+    tolerance: f64,
+}
+
+/// One row of the corpus.
+#[derive(Deserialize)]
+struct Row {
+    file: String,
+    origin: String,
+    format: Option<String>,
+    error: Option<Failure>,
+}
+
+#[derive(Deserialize, PartialEq, Debug)]
+struct Failure {
+    code: String,
+    message: String,
+    hint: String,
+}
+
+fn tests() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests")
+}
+
+fn fixture(name: &str) -> Vec<u8> {
+    std::fs::read(tests().join("fixtures").join(name))
+        .unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+fn json<T: for<'a> Deserialize<'a>>(path: &str) -> T {
+    let text = std::fs::read_to_string(tests().join(path)).unwrap();
+    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+fn expected() -> BTreeMap<String, Vec<Expected>> {
+    json("fixtures/expected.json")
+}
+
+fn cell_count(cells: &Cells) -> usize {
+    match cells {
+        Cells::None => 0,
+        Cells::Segments(segments) => segments.len(),
+        Cells::Triangles(triangles) => triangles.len(),
+    }
+}
+
+/// C·v for the fixed vector v of `make_fixtures.py`.
+fn covariance_of_probe(model: &LinearModel) -> Vec<f64> {
+    let length = model.mean().len();
+    let probe = nalgebra::DVector::from_fn(length, |place, _| (7 * place % 11) as f64 - 5.0);
+    let scaled = model.scaled_basis();
+    (&scaled * scaled.tr_mul(&probe)).as_slice().to_vec()
+}
+
+fn assert_close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
+    assert_eq!(found.len(), expected.len(), "{what}: length");
+    let size = expected.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
+    for (place, (found, expected)) in found.iter().zip(expected).enumerate() {
+        assert!(
+            (found - expected).abs() <= tolerance * size,
+            "{what}: {found} at {place}, {expected} was written"
+        );
+    }
+}
+
+#[test]
+fn every_variant_gives_the_numbers_that_were_written() {
+    let files = expected();
+    assert!(files.len() > 60, "all variants are there");
+    for (file, parts) in &files {
+        let opened = formats::open(file, &fixture(file)).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(opened.parts.len(), parts.len(), "{file}: parts");
+        for (part, expected) in opened.parts.iter().zip(parts) {
+            let what = format!("{file}#{}", expected.part);
+            let model = &part.model;
+            assert_eq!(opened.format, expected.format, "{what}: format");
+            assert_eq!(part.name, expected.part, "{what}: part");
+            assert_eq!(model.kind(), expected.kind, "{what}: kind");
+            assert_eq!(model.unit(), expected.unit, "{what}: unit");
+            assert_eq!(model.dimension(), expected.dimension, "{what}: dimension");
+            assert_eq!(model.point_count(), expected.points, "{what}: points");
+            assert_eq!(model.mode_count(), expected.modes, "{what}: modes");
+            assert_eq!(cell_count(model.cells()), expected.cells, "{what}: cells");
+            assert_close(model.mean().as_slice(), &expected.mean, expected.tolerance, &what);
+            let variances: Vec<f64> =
+                model.standard_deviations().iter().map(|value| value * value).collect();
+            assert_close(&variances, &expected.variances, expected.tolerance, &what);
+            let product = covariance_of_probe(model);
+            assert_close(&product, &expected.covariance_of_probe, expected.tolerance, &what);
+            assert_eq!(part.notes.len(), expected.notes.len(), "{what}: {:?}", part.notes);
+            for (note, words) in part.notes.iter().zip(&expected.notes) {
+                assert!(note.contains(words), "{what}: “{note}” does not say “{words}”");
+                assert!(note.ends_with('.'), "{what}: “{note}” is a sentence");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_icosahedron_points_outwards_however_it_was_stored() {
+    let triangles = |file: &str| {
+        let opened = formats::open(file, &fixture(file)).unwrap();
+        let Cells::Triangles(triangles) = opened.parts[0].model.cells().clone() else {
+            panic!("{file} has triangles")
+        };
+        triangles
+    };
+    let whole = triangles("cpp-0.9.h5");
+    assert_eq!(whole[0], [0, 11, 5], "as written");
+    for file in
+        ["rows.h5", "cells-from-one.h5", "inward.h5", "plain.npz", "sigma.npz", "fortran.npz"]
+    {
+        assert_eq!(triangles(file), whole, "{file}");
+    }
+}
+
+#[test]
+fn the_name_is_the_files_and_the_parts_or_what_the_archive_says() {
+    let names = |file: &str| -> Vec<String> {
+        let opened = formats::open(file, &fixture(file)).unwrap();
+        opened.parts.iter().map(|part| part.model.name().to_owned()).collect()
+    };
+    assert_eq!(names("cpp-0.9.h5"), ["cpp-0.9.h5"], "one model");
+    assert_eq!(
+        names("bfm-catalog.h5"),
+        ["bfm-catalog.h5#shape", "bfm-catalog.h5#expression", "bfm-catalog.h5#color"],
+        "several"
+    );
+    assert_eq!(names("packed.npz"), ["Packed"], "the archive's own name");
+}
+
+#[test]
+fn the_corpus_gives_the_format_or_the_exact_sentence() {
+    let rows: Vec<Row> = json("corpus/models.json");
+    let mut missing: Vec<String> = std::fs::read_dir(tests().join("fixtures"))
+        .unwrap()
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .filter(|name| !name.ends_with(".py") && name != "expected.json")
+        .collect();
+    for row in rows {
+        assert!(!row.origin.is_empty(), "{}: a case has an origin", row.file);
+        match (formats::open(&row.file, &fixture(&row.file)), &row.format, &row.error) {
+            (Ok(opened), Some(format), None) => assert_eq!(&opened.format, format, "{}", row.file),
+            (Err(error), None, Some(expected)) => {
+                let found = Failure {
+                    code: error.code().to_owned(),
+                    message: error.to_string(),
+                    hint: error.hint().to_owned(),
+                };
+                assert_eq!(&found, expected, "{}", row.file);
+            }
+            (Ok(_), ..) => panic!("{} should not have been read", row.file),
+            (Err(error), ..) => panic!("{error}"),
+        }
+        missing.retain(|name| *name != row.file);
+    }
+    assert!(missing.is_empty(), "not in the corpus: {missing:?}");
+}
+
+/// Models of every kind of cells, dimension and unit.
+fn models_to_write() -> Vec<LinearModel> {
+    ["variable-text.h5", "two-dimensional.h5", "points-only.h5", "flat-two-dimensional.npz"]
+        .into_iter()
+        .map(|file| formats::open(file, &fixture(file)).unwrap().parts.remove(0).model)
+        .chain(
+            formats::open("bfm", &fixture("bfm-catalog.h5")).unwrap().parts.pop().map(|p| p.model),
+        )
+        .collect()
+}
+
+#[test]
+fn what_is_written_is_read_back_by_ourselves() {
+    for model in models_to_write() {
+        let exports = [
+            ("h5", formats::write_statismo(&model).unwrap(), 1e-6),
+            ("npz", formats::write_npz(&model).unwrap(), 1e-12),
+        ];
+        for (format, bytes, tolerance) in exports {
+            let what = format!("{} as {format}", model.name());
+            let mut opened = formats::open(model.name(), &bytes).unwrap();
+            let part = opened.parts.remove(0);
+            assert!(part.notes.is_empty(), "{what}: nothing to say, but {:?}", part.notes);
+            assert_eq!(part.model.name(), model.name(), "{what}: name");
+            assert_eq!(part.model.cells(), model.cells(), "{what}: cells");
+            assert_eq!(part.model.dimension(), model.dimension(), "{what}: dimension");
+            assert_eq!(part.model.unit(), model.unit(), "{what}: unit");
+            assert_eq!(part.model.kind(), model.kind(), "{what}: kind");
+            let mean = part.model.mean().as_slice();
+            assert_close(mean, model.mean().as_slice(), tolerance, &what);
+            let deviations = part.model.standard_deviations().as_slice();
+            assert_close(deviations, model.standard_deviations().as_slice(), tolerance, &what);
+            let product = covariance_of_probe(&part.model);
+            assert_close(&product, &covariance_of_probe(&model), tolerance, &what);
+        }
+    }
+}
+
+/// What `read_back.py` found in one exported file.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct ReadBack {
+    mean: Vec<f64>,
+    variances: Vec<f64>,
+    covariance_of_probe: Vec<f64>,
+    cells: Vec<u32>,
+    unit: String,
+}
+
+#[test]
+fn what_is_written_is_read_back_by_h5py_and_numpy() {
+    let python = std::env::var("SHAPEVENN_PYTHON").expect(
+        "SHAPEVENN_PYTHON must name a Python with h5py and numpy: run `npm test`, which makes one",
+    );
+    let folder = std::env::temp_dir().join(format!("shapevenn-formats-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    for (index, model) in models_to_write().into_iter().enumerate() {
+        let exports = [
+            (format!("{index}.h5"), formats::write_statismo(&model).unwrap(), 1e-6),
+            (format!("{index}.npz"), formats::write_npz(&model).unwrap(), 1e-12),
+        ];
+        for (name, bytes, tolerance) in exports {
+            let path = folder.join(&name);
+            std::fs::write(&path, bytes).unwrap();
+            let script = tests().join("fixtures/read_back.py");
+            let output = Command::new(&python).arg(script).arg(&path).output().unwrap();
+            let complaint = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{name} of {}: {complaint}", model.name());
+            let found: ReadBack = serde_json::from_slice(&output.stdout).unwrap();
+            let what = format!("{} as {name}", model.name());
+            assert_close(&found.mean, model.mean().as_slice(), tolerance, &what);
+            let variances: Vec<f64> =
+                model.standard_deviations().iter().map(|value| value * value).collect();
+            assert_close(&found.variances, &variances, tolerance, &what);
+            let product = covariance_of_probe(&model);
+            assert_close(&found.covariance_of_probe, &product, tolerance, &what);
+            let cells: Vec<u32> = match model.cells() {
+                Cells::None => Vec::new(),
+                Cells::Segments(segments) => segments.as_flattened().to_vec(),
+                Cells::Triangles(triangles) => triangles.as_flattened().to_vec(),
+            };
+            assert_eq!(found.cells, cells, "{what}: cells");
+            assert_eq!(found.unit, model.unit().symbol(), "{what}: unit");
+        }
+    }
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn single_precision_draws_are_not_doubled() {
+    let draws = Array { shape: vec![1000, 10], data: Data::F32(vec![0.25; 10_000]) };
+    let bytes = formats::write_arrays(&[("draws", draws.clone())]);
+    assert!(bytes.len() < 41_000, "{} bytes for 40 000", bytes.len());
+    assert_eq!(formats::read_arrays("draws.npz", &bytes).unwrap()["draws"], draws, "unchanged");
+}
+
+#[test]
+fn numbers_beyond_single_precision_are_refused_by_name() {
+    let mean = nalgebra::DVector::from_vec(vec![1e300, 0.0, 0.0]);
+    let basis = nalgebra::DMatrix::from_element(3, 1, 1.0);
+    let (model, _) = LinearModel::from_scaled_basis(3, mean, basis).unwrap();
+    let error = formats::write_statismo(&model.with_name("far")).unwrap_err();
+    assert_eq!(error.code(), "write", "{error}");
+    assert_eq!(
+        error.to_string(),
+        "far: The model cannot be written: 1.0e300 does not fit into single precision.",
+        "which number"
+    );
+}
+
+/// Small valid files of each kind, to be damaged.
+fn victims() -> Vec<(String, Vec<u8>)> {
+    [
+        "scalismo-0.9.h5",
+        "gzip-shuffle.h5",
+        "libver-latest.h5",
+        "bfm-groups.h5",
+        "by-point.npz",
+        "packed.npz",
+    ]
+    .map(|name| (name.to_owned(), fixture(name)))
+    .into()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..Default::default() })]
+
+    #[test]
+    fn arbitrary_bytes_never_panic(
+        start in prop::sample::select(vec![
+            &b""[..], b"\x89HDF\r\n\x1a\n", b"PK\x03\x04", b"PK\x05\x06", b"\x93NUMPY\x01\x00",
+        ]),
+        rest in prop::collection::vec(any::<u8>(), 0..2000),
+    ) {
+        let bytes = [start, &rest].concat();
+        let _ = formats::open("arbitrary", &bytes);
+        let _ = formats::read_arrays("arbitrary", &bytes);
+    }
+
+    #[test]
+    fn damaged_files_never_panic(
+        which in 0..6_usize,
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..6),
+        length in prop::option::weighted(0.2, any::<prop::sample::Index>()),
+    ) {
+        let (name, mut bytes) = victims().swap_remove(which);
+        for (place, value) in changes {
+            let place = place.index(bytes.len());
+            bytes[place] = value;
+        }
+        if let Some(length) = length {
+            bytes.truncate(length.index(bytes.len()));
+        }
+        let _ = formats::open(&name, &bytes);
+        let _ = formats::read_arrays(&name, &bytes);
+    }
+}
+
+#[test]
+#[ignore = "prints the corpus as it is, to be compared with what it should be"]
+fn print_corpus() {
+    for entry in std::fs::read_dir(tests().join("fixtures")).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        match formats::open(&name, &fixture(&name)) {
+            Ok(opened) => println!("{name}\t{}", opened.format),
+            Err(error) => println!("{name}\t{}\t{error}\t{}", error.code(), error.hint()),
+        }
+    }
+}
