@@ -1,0 +1,64 @@
+/** Opens the page: numbers first, then the engine, the models and their shapes. */
+import { batch, effect } from "@preact/signals";
+import { storedResult, watchChoices } from "./comparison";
+import { FIRST_DEMO, findDemo } from "./demos";
+import { engineClient } from "./engine";
+import { apply, keepLink } from "./history";
+import { type LinkState, readLink } from "./link";
+import { openDemo, openPair } from "./models";
+import { settingsKey } from "./settings";
+import { nouns, pageState, result, run } from "./state";
+import { fetchStored } from "./stored";
+import { watchTheme } from "./theme";
+
+export async function boot(): Promise<void> {
+  const link = readLink(location.hash);
+  apply(link);
+  watchTheme();
+  watchDocument();
+  engineClient();
+  const models = openModels(link);
+  const stored = await fetchStored();
+  if (stored && wants(link, settingsKey(stored.settings))) {
+    batch(() => {
+      apply({ ...link, settings: stored.settings });
+      result.value = storedResult(stored);
+    });
+  }
+  watchChoices(stored);
+  await models;
+  keepLink();
+}
+
+/** Whether the address asks for the stored comparison, as an address that says nothing does. */
+function wants(link: LinkState, storedKey: string): boolean {
+  if (link.urls || link.demo !== FIRST_DEMO.id) return false;
+  const asked = new URLSearchParams(location.hash.slice(1));
+  const silent = !["sigma", "seed", "sampler", "align", "modes"].some((key) => asked.has(key));
+  return silent || settingsKey(link.settings) === storedKey;
+}
+
+async function openModels(link: LinkState): Promise<void> {
+  if (link.urls) {
+    await openPair({ kind: "url", url: link.urls.a }, { kind: "url", url: link.urls.b });
+  } else {
+    await openDemo(findDemo(link.demo) ?? FIRST_DEMO);
+  }
+}
+
+/** What the document itself shows of the state. */
+function watchDocument(): void {
+  effect(() => {
+    document.documentElement.dataset.state = pageState.value;
+  });
+  effect(() => {
+    const fraction = run.value?.progress?.fraction;
+    const name = `${nouns.value.a} and ${nouns.value.b}`;
+    document.title = run.value
+      ? `${Math.round(100 * (fraction ?? 0))}\u202f% – Shapevenn`
+      : `Shapevenn: ${name}`;
+  });
+  addEventListener("beforeunload", (event) => {
+    if (run.value) event.preventDefault();
+  });
+}

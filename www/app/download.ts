@@ -1,0 +1,27 @@
+/** Files that the visitor takes away. */
+import type { ExportKind } from "../worker/protocol";
+import { engineClient, report } from "./engine";
+import { dismiss } from "./state";
+
+export async function download(what: ExportKind): Promise<void> {
+  try {
+    const { name, mime, bytes } = await engineClient().export(new AbortController().signal, what);
+    dismiss("page");
+    saveBlob(name, new Blob([bytes], { type: mime }));
+  } catch (thrown) {
+    report("page", thrown);
+  }
+}
+
+export function saveText(name: string, text: string): void {
+  saveBlob(name, new Blob([text], { type: "application/json" }));
+}
+
+export function saveBlob(name: string, blob: Blob): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  // Some browsers begin to read only after the click.
+  setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
+}

@@ -1,0 +1,12 @@
+import { render } from "preact";
+import { boot } from "./boot";
+import { acceptDrops } from "./drop";
+import { App } from "./views/App";
+import "../styles/page.css";
+import "../styles/stage.css";
+import "../styles/panels.css";
+
+acceptDrops();
+const root = document.getElementById("app");
+if (root) render(<App />, root);
+void boot();

@@ -1,0 +1,19 @@
+/** A sentence whose numbers keep where in the report they come from. */
+
+export interface Figure {
+  /** Path in the report, as in `data-metric`. */
+  metric: string;
+  /** Unrounded. */
+  value: number;
+  text: string;
+}
+
+export type Phrase = (string | Figure)[];
+
+export function figure(metric: string, value: number, text: string): Figure {
+  return { metric, value, text };
+}
+
+export function plain(phrase: Phrase): string {
+  return phrase.map((part) => (typeof part === "string" ? part : part.text)).join("");
+}

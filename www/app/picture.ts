@@ -1,0 +1,77 @@
+/** The panes as a picture, with labels, colour bar and caption. */
+import { viridis } from "./colormap";
+import { saveBlob } from "./download";
+import { number } from "./format";
+import { plain } from "./phrase";
+import { nouns, region, result, unit, view } from "./state";
+import { isDark } from "./theme";
+import { layoutOf, range, viewer } from "./viewer/stage-controller";
+import { REGION_NAMES } from "./views/names";
+import { headline, settingsSentence } from "./words";
+
+const SCALE = 2;
+const FOOT = 84;
+const FONT = "system-ui, sans-serif";
+const INK = { light: "#20242c", dark: "#e9e7e2" } as const;
+
+/** White on the light theme; transparent on the dark one, with light lettering. */
+export async function savePicture(): Promise<void> {
+  const canvas = document.querySelector<HTMLCanvasElement>("canvas.shapes");
+  const made = viewer.peek();
+  if (!canvas || !made) return;
+  const [width, height, panes] = layoutOf(canvas);
+  const picture = document.createElement("canvas");
+  picture.width = width * SCALE;
+  picture.height = (height + FOOT) * SCALE;
+  const pen = picture.getContext("2d");
+  if (!pen) return;
+  pen.scale(SCALE, SCALE);
+  const dark = isDark();
+  if (!dark) {
+    pen.fillStyle = "#fff";
+    pen.fillRect(0, 0, width, height + FOOT);
+  }
+  pen.drawImage(made.capture(SCALE), 0, 0, width, height);
+  pen.fillStyle = INK[dark ? "dark" : "light"];
+  pen.font = `600 14px ${FONT}`;
+  for (const [name, rect] of panes) {
+    if (region.peek() === null || region.peek() === name) {
+      pen.fillText(REGION_NAMES[name].sign, rect.x + 10, rect.y + 20);
+    }
+  }
+  foot(pen, width, height);
+  const blob = await new Promise<Blob | null>((resolve) => picture.toBlob(resolve));
+  if (blob) saveBlob(`shapevenn-${view.peek()}.png`, blob);
+}
+
+function foot(pen: CanvasRenderingContext2D, width: number, top: number): void {
+  const report = result.peek()?.report;
+  const shown = range.peek();
+  const line = (text: string, y: number, font: string) => {
+    pen.font = font;
+    pen.fillText(text, 12, top + y, width - 24);
+  };
+  if (report) {
+    line(plain(headline(report, nouns.peek())), 52, `500 13px ${FONT}`);
+    line(`${settingsSentence(report)} · Shapevenn`, 72, `11px ${FONT}`);
+  }
+  if (!shown) return;
+  const [left, length] = [70, Math.min(260, width - 330)];
+  pen.font = `12px ${FONT}`;
+  pen.textAlign = "right";
+  pen.fillText(number(shown[0]), left - 8, top + 20);
+  pen.textAlign = "left";
+  pen.fillText(
+    `${number(shown[1])} ${unit.peek()}, standard deviation per vertex`,
+    left + length + 8,
+    top + 20,
+  );
+  const ink = pen.fillStyle;
+  for (let i = 0; i < length; i += 1) {
+    pen.fillStyle = `rgb(${viridis(i / length)
+      .map(Math.round)
+      .join(",")})`;
+    pen.fillRect(left + i, top + 10, 1.5, 12);
+  }
+  pen.fillStyle = ink;
+}

@@ -1,0 +1,33 @@
+/** The comparison that is stored with the page: made by the same engine, shown before it runs. */
+import type { Report, Settings } from "../worker/protocol";
+import { FIRST_DEMO } from "./demos";
+import { settingsOf } from "./settings";
+import { comparisonKey } from "./state";
+
+export interface Stored {
+  report: Report;
+  text: string;
+  settings: Settings;
+  key: string;
+  draws: Promise<ArrayBuffer>;
+}
+
+/** Null where there is none: the page then simply runs. */
+export async function fetchStored(): Promise<Stored | null> {
+  const draws = fetch("first/draws.npz").then((response) =>
+    response.ok ? response.arrayBuffer() : Promise.reject(new Error("no stored draws")),
+  );
+  // Whoever awaits it later sees the failure; until then it is not unhandled.
+  draws.catch(() => undefined);
+  try {
+    const response = await fetch("first/report.json");
+    if (!response.ok) return null;
+    const text = await response.text();
+    const report = JSON.parse(text) as Report;
+    const settings = settingsOf(report.settings);
+    const key = comparisonKey(`demo:${FIRST_DEMO.a}#0`, `demo:${FIRST_DEMO.b}#0`, settings);
+    return { report, text, settings, key, draws };
+  } catch {
+    return null;
+  }
+}

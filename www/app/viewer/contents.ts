@@ -1,0 +1,131 @@
+/** From the state to what the panes show. Pure. */
+import type { Geometry, Region, RegionShapes } from "../../worker/protocol";
+import type { ViewMode } from "../link";
+import { rimFade } from "./rim";
+import { type Frame, frameOf, type PaneContent } from "./viewer";
+
+export interface Scene {
+  geometry: { a: Geometry | null; b: Geometry | null };
+  shapes: Partial<Record<Region, RegionShapes>>;
+  mode: ViewMode;
+  dark: boolean;
+  /** Packaged heads are cut at the neck. */
+  fadeRim: boolean;
+}
+
+const RIM_RINGS = 5;
+
+type Rgb = readonly [number, number, number];
+const CLAY: Record<"light" | "dark", Record<Region, Rgb>> = {
+  light: {
+    a: [173, 190, 220],
+    aWithoutB: [173, 190, 220],
+    intersection: [205, 182, 211],
+    bWithoutA: [229, 196, 164],
+    b: [229, 196, 164],
+  },
+  dark: {
+    a: [146, 170, 214],
+    aWithoutB: [146, 170, 214],
+    intersection: [196, 164, 205],
+    bWithoutA: [222, 180, 138],
+    b: [222, 180, 138],
+  },
+};
+/** Lines need the full hue where surfaces only need a hint of it. */
+const INK: Record<"light" | "dark", Record<Region, Rgb>> = {
+  light: {
+    a: [37, 99, 190],
+    aWithoutB: [37, 99, 190],
+    intersection: [150, 66, 158],
+    bWithoutA: [196, 98, 16],
+    b: [196, 98, 16],
+  },
+  dark: {
+    a: [122, 170, 255],
+    aWithoutB: [122, 170, 255],
+    intersection: [226, 150, 232],
+    bWithoutA: [255, 176, 96],
+    b: [255, 176, 96],
+  },
+};
+
+const fades = new WeakMap<Uint32Array, Float32Array | null>();
+
+export function contentsOf(scene: Scene, regions: readonly Region[]): PaneContent[] {
+  return regions.flatMap((region) => contentOf(scene, region) ?? []);
+}
+
+export function contentOf(scene: Scene, region: Region): PaneContent | null {
+  const found = scene.shapes[region];
+  const own = ownGeometry(scene, region);
+  const current = found && geometryFor(scene, found.mean.length);
+  // A model that was just opened is shown before anything was compared.
+  const alone = region === "a" || region === "b";
+  const geometry = current ?? (alone ? own : null);
+  if (!geometry) return null;
+  const shown = current && found ? found : { mean: geometry.mean, vertexSd: geometry.vertexSd };
+  const many = scene.mode === "samples" && current && found;
+  const surface = geometry.triangles !== null;
+  const cloud = !surface && geometry.segments === null;
+  const shapes = many || (cloud && found && current) ? withSamples(found) : [shown.mean];
+  const shade = scene.dark ? "dark" : "light";
+  return {
+    region,
+    shapes,
+    overlaid: !surface,
+    triangles: geometry.triangles,
+    segments: geometry.segments,
+    fade: scene.fadeRim && geometry.triangles ? fadeOf(geometry) : null,
+    values: scene.mode === "sd" ? shown.vertexSd : null,
+    tint: (surface ? CLAY : INK)[shade][region],
+  };
+}
+
+/** One card's picture: the model's own mean. */
+export function cardContent(geometry: Geometry, side: Region, scene: Scene): PaneContent | null {
+  const alone = { ...scene, shapes: {}, mode: "mean" as const };
+  return contentOf({ ...alone, geometry: { a: geometry, b: geometry } }, side);
+}
+
+export function sceneFrame(scene: Scene): Frame {
+  const geometry = scene.geometry.a ?? scene.geometry.b;
+  const dimension = geometry?.dimension ?? 3;
+  const means: Float32Array[] = [];
+  for (const side of ["a", "b"] as const) {
+    const content = contentOf(
+      { ...scene, mode: scene.mode === "samples" ? "samples" : "mean" },
+      side,
+    );
+    if (content) means.push(...(content.overlaid ? content.shapes : content.shapes.slice(0, 1)));
+  }
+  const fade = contentOf({ ...scene, mode: "mean" }, "a")?.fade ?? null;
+  return frameOf(means, dimension, fade);
+}
+
+function withSamples(found: RegionShapes): Float32Array[] {
+  const length = found.mean.length;
+  const samples = Array.from({ length: found.count }, (_, i) =>
+    found.samples.subarray(i * length, (i + 1) * length),
+  ).filter((sample) => sample.length === length);
+  return samples;
+}
+
+function ownGeometry(scene: Scene, region: Region): Geometry | null {
+  return region === "b" || region === "bWithoutA" ? scene.geometry.b : scene.geometry.a;
+}
+
+function geometryFor(scene: Scene, length: number): Geometry | null {
+  const fits = [scene.geometry.a, scene.geometry.b].filter((g) => g?.mean.length === length);
+  return fits.find((g) => g?.triangles || g?.segments) ?? fits[0] ?? null;
+}
+
+function fadeOf(geometry: Geometry): Float32Array | null {
+  const { triangles, mean, dimension } = geometry;
+  if (!triangles) return null;
+  const known = fades.get(triangles);
+  if (known !== undefined) return known;
+  const fade = rimFade(triangles, mean.length / dimension, RIM_RINGS);
+  fades.set(triangles, fade);
+  return fade;
+}

@@ -1,0 +1,183 @@
+/** Drawings in the plane, on a 2-D canvas: outlines, over one another where there are several. */
+import type { Region } from "../../worker/protocol";
+import { viridis } from "../colormap";
+import { type Camera, HOME } from "./camera";
+import { pickVertex } from "./pick";
+import {
+  cellsOf,
+  type Frame,
+  type Hit,
+  halfHeightIn,
+  type PaneContent,
+  type Rect,
+  type Viewer,
+} from "./viewer";
+
+export class FlatViewer implements Viewer {
+  #canvas: HTMLCanvasElement;
+  #panes: PaneContent[] = [];
+  #frame: Frame = { centre: [0, 0, 0], halfWidth: 1, halfHeight: 1 };
+  #layout: ReadonlyMap<Region, Rect> = new Map();
+  #size = { width: 1, height: 1 };
+  #range: readonly [number, number] | null = null;
+  #camera: Camera = HOME;
+  #scheduled = 0;
+
+  constructor(canvas: HTMLCanvasElement) {
+    this.#canvas = canvas;
+  }
+
+  setLayout(width: number, height: number, panes: ReadonlyMap<Region, Rect>): void {
+    this.#layout = panes;
+    this.#size = { width, height };
+    this.#request();
+  }
+
+  setMesh(panes: PaneContent[], frame: Frame): void {
+    this.#panes = panes;
+    this.#frame = frame;
+    this.#request();
+  }
+
+  setColors(range: readonly [number, number] | null): void {
+    this.#range = range;
+    this.#request();
+  }
+
+  setCamera(camera: Camera): void {
+    this.#camera = camera;
+    this.#request();
+  }
+
+  pick(x: number, y: number): Hit | null {
+    for (const pane of this.#panes) {
+      const rect = this.#layout.get(pane.region);
+      const shape = pane.shapes[0];
+      if (!rect || !shape) continue;
+      const at = { x: x - rect.x, y: y - rect.y, width: rect.width, height: rect.height };
+      if (at.x < 0 || at.y < 0 || at.x >= at.width || at.y >= at.height) continue;
+      const hit = pickVertex(shape, 2, this.#matrix(rect, this.#frame, this.#camera), at);
+      return hit && { region: pane.region, vertex: hit.vertex, shape: 0 };
+    }
+    return null;
+  }
+
+  capture(scale: number): HTMLCanvasElement {
+    const copy = document.createElement("canvas");
+    this.#render(copy, scale);
+    return copy;
+  }
+
+  thumbnail(content: PaneContent, frame: Frame, size: number): HTMLCanvasElement {
+    const copy = document.createElement("canvas");
+    const scale = Math.min(devicePixelRatio, 2);
+    copy.width = copy.height = Math.round(size * scale);
+    const pen = copy.getContext("2d");
+    if (pen) {
+      pen.scale(scale, scale);
+      this.#pane(pen, content, { x: 0, y: 0, width: size, height: size }, frame, HOME);
+    }
+    return copy;
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.#scheduled);
+  }
+
+  #request(): void {
+    if (this.#scheduled !== 0) return;
+    this.#scheduled = requestAnimationFrame(() => {
+      this.#scheduled = 0;
+      this.#render(this.#canvas, Math.min(devicePixelRatio, 2));
+    });
+  }
+
+  #render(canvas: HTMLCanvasElement, scale: number): void {
+    canvas.width = Math.round(this.#size.width * scale);
+    canvas.height = Math.round(this.#size.height * scale);
+    const pen = canvas.getContext("2d");
+    if (!pen) return;
+    pen.scale(scale, scale);
+    for (const pane of this.#panes) {
+      const rect = this.#layout.get(pane.region);
+      if (!rect || rect.width < 2) continue;
+      const cells = cellsOf(rect, pane.overlaid ? 1 : pane.shapes.length, this.#frame);
+      cells.forEach((cell, i) => {
+        const shapes = pane.overlaid ? pane.shapes : pane.shapes.slice(i, i + 1);
+        this.#pane(pen, { ...pane, shapes }, cell, this.#frame, this.#camera);
+      });
+    }
+  }
+
+  #pane(
+    pen: CanvasRenderingContext2D,
+    pane: PaneContent,
+    rect: Rect,
+    frame: Frame,
+    camera: Camera,
+  ): void {
+    const matrix = this.#matrix(rect, frame, camera);
+    const place = (shape: Float32Array, point: number): [number, number] => [
+      rect.x + ((matrix[0] * (shape[2 * point] ?? 0) + matrix[12] + 1) * rect.width) / 2,
+      rect.y + ((1 - matrix[5] * (shape[2 * point + 1] ?? 0) - matrix[13]) * rect.height) / 2,
+    ];
+    pen.save();
+    pen.beginPath();
+    pen.rect(rect.x, rect.y, rect.width, rect.height);
+    pen.clip();
+    pen.lineJoin = pen.lineCap = "round";
+    const many = pane.shapes.length > 1;
+    for (const shape of pane.shapes) {
+      const colour = `rgb(${pane.tint.join(" ")} / ${many ? 0.22 : 1})`;
+      this.#outline(pen, pane, shape, place, colour, many ? 1 : 2.25);
+    }
+    pen.restore();
+  }
+
+  #outline(
+    pen: CanvasRenderingContext2D,
+    pane: PaneContent,
+    shape: Float32Array,
+    place: (shape: Float32Array, point: number) => [number, number],
+    colour: string,
+    width: number,
+  ): void {
+    const values = this.#range ? pane.values : null;
+    const [low, high] = this.#range ?? [0, 1];
+    const share = (point: number) => ((values?.[point] ?? 0) - low) / Math.max(high - low, 1e-30);
+    const segments = pane.segments;
+    if (!segments) {
+      for (let point = 0; point < shape.length / 2; point += 1) {
+        pen.fillStyle = values ? `rgb(${viridis(share(point)).join(" ")})` : colour;
+        const [x, y] = place(shape, point);
+        pen.fillRect(x - width, y - width, 2 * width, 2 * width);
+      }
+      return;
+    }
+    pen.lineWidth = values ? 4 : width;
+    pen.strokeStyle = colour;
+    pen.beginPath();
+    for (let i = 0; i + 1 < segments.length; i += 2) {
+      const [from = 0, to = 0] = [segments[i], segments[i + 1]];
+      if (values) pen.beginPath();
+      // A path that goes on from where it ended is joined, not begun anew.
+      if (values || i === 0 || segments[i - 1] !== from) pen.moveTo(...place(shape, from));
+      pen.lineTo(...place(shape, to));
+      if (values) {
+        pen.strokeStyle = `rgb(${viridis((share(from) + share(to)) / 2).join(" ")})`;
+        pen.stroke();
+      }
+    }
+    if (!values) pen.stroke();
+  }
+
+  /** To clip space, column major; only its scale and shift are not zero or one. */
+  #matrix(rect: Rect, frame: Frame, camera: Camera) {
+    const halfHeight = halfHeightIn(rect, frame) / camera.zoom;
+    const halfWidth = (halfHeight * rect.width) / rect.height;
+    const x = frame.centre[0] + camera.x * frame.halfHeight;
+    const y = frame.centre[1] + camera.y * frame.halfHeight;
+    const [sx, sy] = [1 / halfWidth, 1 / halfHeight];
+    return [sx, 0, 0, 0, 0, sy, 0, 0, 0, 0, 1, 0, -x * sx, -y * sy, 0, 1] as const;
+  }
+}

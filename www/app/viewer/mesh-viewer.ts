@@ -1,0 +1,324 @@
+/** Shapes in space: one WebGL context, a scissored viewport per shape, drawn only on demand. */
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DirectionalLight,
+  DoubleSide,
+  HemisphereLight,
+  LineBasicMaterial,
+  LineSegments,
+  type Material,
+  Matrix4,
+  Mesh,
+  MeshLambertMaterial,
+  NoBlending,
+  type Object3D,
+  PerspectiveCamera,
+  Points,
+  PointsMaterial,
+  Scene,
+  SRGBColorSpace,
+  WebGLRenderer,
+} from "three";
+import type { Region } from "../../worker/protocol";
+import { viridis } from "../colormap";
+import { type Camera, HOME } from "./camera";
+import { pickVertex } from "./pick";
+import {
+  cellsOf,
+  type Frame,
+  type Hit,
+  halfHeightIn,
+  type PaneContent,
+  type Rect,
+  type Viewer,
+} from "./viewer";
+
+const FIELD_OF_VIEW = 22;
+
+interface Pane {
+  content: PaneContent;
+  objects: Object3D[];
+}
+
+export class MeshViewer implements Viewer {
+  #renderer: WebGLRenderer;
+  #canvas: HTMLCanvasElement;
+  #scene = new Scene();
+  #eye = new PerspectiveCamera(FIELD_OF_VIEW);
+  #sky = new HemisphereLight();
+  #key = new DirectionalLight();
+  #rim = new DirectionalLight();
+  #panes: Pane[] = [];
+  #frame: Frame = { centre: [0, 0, 0], halfWidth: 1, halfHeight: 1 };
+  #layout: ReadonlyMap<Region, Rect> = new Map();
+  #size = { width: 1, height: 1 };
+  #range: readonly [number, number] | null = null;
+  #camera: Camera = HOME;
+  #scheduled = 0;
+  #indices = new WeakMap<Uint32Array, BufferAttribute>();
+
+  constructor(canvas: HTMLCanvasElement) {
+    this.#canvas = canvas;
+    this.#renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true });
+    this.#renderer.setClearAlpha(0);
+    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.#renderer.autoClear = false;
+    this.#eye.add(this.#key, this.#key.target, this.#rim, this.#rim.target);
+    this.#key.position.set(-0.55, 0.75, 1);
+    this.#rim.position.set(0.9, 0.5, -0.8);
+    this.#scene.add(this.#eye, this.#sky);
+    canvas.addEventListener("webglcontextrestored", () => this.#request());
+  }
+
+  setLayout(width: number, height: number, panes: ReadonlyMap<Region, Rect>): void {
+    this.#layout = panes;
+    if (width !== this.#size.width || height !== this.#size.height) {
+      this.#size = { width, height };
+      this.#renderer.setSize(width, height, false);
+    }
+    this.#request();
+  }
+
+  setMesh(panes: PaneContent[], frame: Frame): void {
+    for (const pane of this.#panes) discard(pane.objects);
+    this.#frame = frame;
+    this.#panes = panes.map((content) => ({ content, objects: this.#objectsOf(content) }));
+    this.#paint();
+    for (const pane of this.#panes) this.#scene.add(...pane.objects);
+    this.#request();
+  }
+
+  setColors(range: readonly [number, number] | null): void {
+    this.#range = range;
+    this.#paint();
+    this.#request();
+  }
+
+  setCamera(camera: Camera): void {
+    this.#camera = camera;
+    this.#request();
+  }
+
+  pick(x: number, y: number): Hit | null {
+    for (const { content } of this.#panes) {
+      const rect = this.#layout.get(content.region);
+      if (!rect || !contains(rect, x, y)) continue;
+      const cells = cellsOf(rect, content.overlaid ? 1 : content.shapes.length, this.#frame);
+      const index = cells.findIndex((cell) => contains(cell, x, y));
+      const cell = cells[index];
+      const shape = content.shapes[index];
+      if (!cell || !shape) return null;
+      this.#aim(cell, this.#frame);
+      const matrix = new Matrix4().multiplyMatrices(
+        this.#eye.projectionMatrix,
+        this.#eye.matrixWorldInverse,
+      );
+      const { width, height } = cell;
+      const at = { x: x - cell.x, y: y - cell.y, width, height };
+      const hit = pickVertex(shape, 3, matrix.elements, at);
+      return hit && { region: content.region, vertex: hit.vertex, shape: index };
+    }
+    return null;
+  }
+
+  capture(scale: number): HTMLCanvasElement {
+    const before = this.#renderer.getPixelRatio();
+    this.#renderer.setPixelRatio(scale);
+    this.#render();
+    const copy = document.createElement("canvas");
+    copy.width = this.#canvas.width;
+    copy.height = this.#canvas.height;
+    copy.getContext("2d")?.drawImage(this.#canvas, 0, 0);
+    this.#renderer.setPixelRatio(before);
+    this.#render();
+    return copy;
+  }
+
+  thumbnail(content: PaneContent, frame: Frame, size: number): HTMLCanvasElement {
+    const objects = this.#objectsOf(content);
+    this.#paintPane({ content, objects });
+    this.#scene.add(...objects);
+    this.#hideAll();
+    for (const object of objects) object.visible = true;
+    const ratio = this.#renderer.getPixelRatio();
+    const side = Math.min(size, this.#size.width, this.#size.height);
+    const cell = { x: 0, y: 0, width: side, height: side };
+    this.#renderer.setScissorTest(false);
+    this.#renderer.clear();
+    const camera = this.#camera;
+    this.#camera = HOME;
+    this.#draw(cell, frame);
+    this.#camera = camera;
+    const copy = document.createElement("canvas");
+    copy.width = copy.height = Math.round(side * ratio);
+    copy.getContext("2d")?.drawImage(this.#canvas, 0, 0);
+    discard(objects);
+    this.#render();
+    return copy;
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.#scheduled);
+    for (const pane of this.#panes) discard(pane.objects);
+    this.#renderer.dispose();
+  }
+
+  #request(): void {
+    if (this.#scheduled !== 0) return;
+    this.#scheduled = requestAnimationFrame(() => this.#render());
+  }
+
+  #render(): void {
+    cancelAnimationFrame(this.#scheduled);
+    this.#scheduled = 0;
+    this.#renderer.setScissorTest(false);
+    this.#renderer.clear();
+    this.#light();
+    for (const { content, objects } of this.#panes) {
+      const rect = this.#layout.get(content.region);
+      if (!rect || rect.width < 2 || rect.height < 2) continue;
+      const side = content.overlaid ? 1 : objects.length;
+      cellsOf(rect, side, this.#frame).forEach((cell, i) => {
+        this.#hideAll();
+        const shown = content.overlaid ? objects : objects.slice(i, i + 1);
+        for (const object of shown) object.visible = true;
+        this.#draw(cell, this.#frame);
+      });
+    }
+  }
+
+  #hideAll(): void {
+    for (const pane of this.#panes) for (const object of pane.objects) object.visible = false;
+  }
+
+  #draw(cell: Rect, frame: Frame): void {
+    const bottom = this.#size.height - cell.y - cell.height;
+    this.#renderer.setViewport(cell.x, bottom, cell.width, cell.height);
+    this.#renderer.setScissor(cell.x, bottom, cell.width, cell.height);
+    this.#renderer.setScissorTest(true);
+    this.#aim(cell, frame);
+    this.#renderer.render(this.#scene, this.#eye);
+  }
+
+  #aim(cell: Rect, frame: Frame): void {
+    const { yaw, pitch, zoom, x, y } = this.#camera;
+    const halfHeight = halfHeightIn(cell, frame) / zoom;
+    const distance = halfHeight / Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
+    const reach = Math.hypot(frame.halfWidth, frame.halfHeight) * 1.6;
+    // Never nearer than the shape's own size, whatever the zoom: the lens narrows instead.
+    const away = Math.max(distance, reach * 1.5);
+    const eye = this.#eye;
+    eye.fov = (360 / Math.PI) * Math.atan(halfHeight / away);
+    eye.aspect = cell.width / cell.height;
+    eye.near = Math.max(away - reach * 1.4, away * 0.01);
+    eye.far = away + reach * 1.4;
+    const [cx, cy, cz] = frame.centre;
+    eye.rotation.set(-pitch, yaw, 0, "YXZ");
+    eye.position.set(x * frame.halfHeight, y * frame.halfHeight, away).applyEuler(eye.rotation);
+    eye.position.x += cx;
+    eye.position.y += cy;
+    eye.position.z += cz;
+    eye.updateProjectionMatrix();
+    eye.updateMatrixWorld();
+  }
+
+  /** Flatter light where colours are to be read. */
+  #light(): void {
+    const read = this.#range !== null;
+    this.#sky.color.set(0xffffff);
+    this.#sky.groundColor.set(read ? 0xb8b8b8 : 0x8a8177);
+    this.#sky.intensity = read ? 2.5 : 1.55;
+    this.#key.intensity = read ? 0.9 : 2.0;
+    this.#rim.intensity = read ? 0.2 : 0.9;
+  }
+
+  #objectsOf(content: PaneContent): Object3D[] {
+    const { triangles, segments } = content;
+    return content.shapes.map((shape, i) => {
+      const geometry = new BufferGeometry();
+      geometry.setAttribute("position", new BufferAttribute(shape, 3));
+      const colours = new Float32Array((shape.length / 3) * 4);
+      geometry.setAttribute("color", new BufferAttribute(colours, 4));
+      if (triangles) {
+        geometry.setIndex(this.#index(triangles));
+        geometry.computeVertexNormals();
+        return new Mesh(geometry, clay(content.fade !== null));
+      }
+      if (segments) {
+        geometry.setIndex(this.#index(segments));
+        return new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true }));
+      }
+      const size = content.shapes.length > 1 && i > 0 ? 4 : 9;
+      return new Points(
+        geometry,
+        new PointsMaterial({ vertexColors: true, size, sizeAttenuation: false }),
+      );
+    });
+  }
+
+  #index(cells: Uint32Array): BufferAttribute {
+    const known = this.#indices.get(cells);
+    if (known) return known;
+    const index = new BufferAttribute(cells, 1);
+    this.#indices.set(cells, index);
+    return index;
+  }
+
+  #paint(): void {
+    for (const pane of this.#panes) this.#paintPane(pane);
+  }
+
+  #paintPane({ content, objects }: Pane): void {
+    const colour = new Color();
+    const [low, high] = this.#range ?? [0, 1];
+    for (const object of objects) {
+      const attribute = (object as Mesh).geometry.getAttribute("color") as BufferAttribute;
+      for (let i = 0; i < attribute.count; i += 1) {
+        const value = content.values?.[i];
+        const [r, g, b] =
+          this.#range && value !== undefined
+            ? viridis((value - low) / Math.max(high - low, 1e-30))
+            : content.tint;
+        colour.setRGB(r / 255, g / 255, b / 255, SRGBColorSpace);
+        const opacity = content.fade?.[i] ?? 1;
+        attribute.setXYZW(i, colour.r, colour.g, colour.b, opacity);
+      }
+      attribute.needsUpdate = true;
+    }
+  }
+}
+
+/**
+ * Opacity goes straight into the canvas instead of being blended: the front surface always wins,
+ * so a fading rim never shows the far side through it.
+ */
+function clay(fades: boolean): MeshLambertMaterial {
+  const material = new MeshLambertMaterial({
+    vertexColors: true,
+    side: DoubleSide,
+    ...(fades ? { transparent: true, blending: NoBlending, premultipliedAlpha: true } : {}),
+  });
+  // A back face that shows at the outline would be lit from its other side: dark specks.
+  material.onBeforeCompile = (shader) => {
+    shader.fragmentShader = shader.fragmentShader.replace(
+      "#include <normal_fragment_begin>",
+      "#include <normal_fragment_begin>\nnormal = normalize( vNormal );",
+    );
+  };
+  return material;
+}
+
+function contains(rect: Rect, x: number, y: number): boolean {
+  return x >= rect.x && y >= rect.y && x < rect.x + rect.width && y < rect.y + rect.height;
+}
+
+function discard(objects: Object3D[]): void {
+  for (const object of objects) {
+    object.removeFromParent();
+    const { geometry, material } = object as Mesh;
+    geometry.dispose();
+    (material as Material).dispose();
+  }
+}

@@ -1,0 +1,161 @@
+/** Keeps a viewer in step with the state: which one, what it shows, and how it is turned. */
+import { computed, effect, signal } from "@preact/signals";
+import type { Region } from "../../worker/protocol";
+import { commonRange } from "../colormap";
+import { REGIONS } from "../link";
+import { camera, demo, lockedRange, region, type Side, shapes, slots, view } from "../state";
+import { isDark } from "../theme";
+import { cardContent, contentsOf, type Scene, sceneFrame } from "./contents";
+import { listen } from "./gestures";
+import type { Hit, Rect, Viewer } from "./viewer";
+
+/** What is under the pointer, with its place on the canvas. */
+export const hover = signal<(Hit & { x: number; y: number }) | null>(null);
+/** Set while a viewer is there, for pictures. */
+export const viewer = signal<Viewer | null>(null);
+/** Bumped when a card should ask for its picture again. */
+export const drawable = signal(0);
+
+export const scene = computed<Scene>(() => ({
+  geometry: { a: slots.a.value?.geometry ?? null, b: slots.b.value?.geometry ?? null },
+  shapes: shapes.value,
+  mode: view.value,
+  dark: isDark(),
+  fadeRim: demo.value?.id.startsWith("heads") ?? false,
+}));
+
+export const dimension = computed(
+  () => (scene.value.geometry.a ?? scene.value.geometry.b)?.dimension ?? null,
+);
+
+const regionsShown = computed<readonly Region[]>(() =>
+  region.value === null ? REGIONS : [region.value],
+);
+
+/** One range for all regions, whether or not they are on show. */
+export const ownRange = computed<[number, number] | null>(() => {
+  const { geometry } = scene.value;
+  const maps = Object.values(scene.value.shapes).map((found) => found.vertexSd);
+  if (maps.length > 0) return commonRange(maps);
+  return commonRange([geometry.a, geometry.b].flatMap((g) => (g ? [g.vertexSd] : [])));
+});
+
+export const range = computed(() =>
+  view.value === "sd" ? (lockedRange.value ?? ownRange.value) : null,
+);
+
+let panes = new Map<Region, HTMLElement>();
+
+/** Takes over a canvas; returns how to let go of it. */
+export function takeCanvas(
+  canvas: HTMLCanvasElement,
+  elements: Map<Region, HTMLElement>,
+): () => void {
+  panes = elements;
+  const stops: (() => void)[] = [];
+  let gone = false;
+  void createViewer(canvas).then((made) => {
+    if (gone) return made.dispose();
+    viewer.value = made;
+    stops.push(
+      effect(() => {
+        made.setMesh(contentsOf(scene.value, regionsShown.value), sceneFrame(scene.value));
+        drawable.value = drawable.peek() + 1;
+      }),
+      effect(() => made.setColors(range.value)),
+      effect(() => made.setCamera(camera.value)),
+    );
+    const lay = () => made.setLayout(...layoutOf(canvas));
+    const observer = new ResizeObserver(lay);
+    observer.observe(canvas);
+    for (const pane of panes.values()) observer.observe(pane);
+    stops.push(
+      effect(() => {
+        regionsShown.value;
+        requestAnimationFrame(lay);
+      }),
+      () => observer.disconnect(),
+    );
+    stops.push(listen(canvas, gestures(canvas, made)));
+  });
+  return () => {
+    gone = true;
+    for (const stop of stops) stop();
+    viewer.peek()?.dispose();
+    viewer.value = null;
+    hover.value = null;
+  };
+}
+
+async function createViewer(canvas: HTMLCanvasElement): Promise<Viewer> {
+  if (dimension.peek() === 2) {
+    const { FlatViewer } = await import("./flat-viewer");
+    return new FlatViewer(canvas);
+  }
+  const { MeshViewer } = await import("./mesh-viewer");
+  return new MeshViewer(canvas);
+}
+
+function gestures(canvas: HTMLCanvasElement, made: Viewer) {
+  const wide = matchMedia("(min-width: 1100px)");
+  return {
+    camera: () => camera.peek(),
+    setCamera: (next: typeof camera.value) => {
+      camera.value = next;
+    },
+    flat: () => dimension.peek() === 2,
+    ownsWheel: () => wide.matches || region.peek() !== null,
+    pixelsPerRadius: () => {
+      const pane = panes.get(region.peek() ?? "intersection");
+      return Math.max(40, (pane?.clientHeight ?? 200) / 2.2);
+    },
+    hover: (x: number, y: number) => {
+      const hit = made.pick(x, y);
+      hover.value = hit && { ...hit, x, y };
+      canvas.style.cursor = "";
+    },
+    leave: () => {
+      hover.value = null;
+    },
+    tap: (x: number, y: number) => {
+      if (region.peek() !== null) return;
+      for (const [name, rect] of layoutOf(canvas)[2]) {
+        const inside =
+          x >= rect.x && y >= rect.y && x < rect.x + rect.width && y < rect.y + rect.height;
+        if (inside) region.value = name;
+      }
+    },
+  };
+}
+
+export function layoutOf(canvas: HTMLCanvasElement): [number, number, Map<Region, Rect>] {
+  const whole = canvas.getBoundingClientRect();
+  const rects = new Map<Region, Rect>();
+  for (const [name, pane] of panes) {
+    const rect = pane.getBoundingClientRect();
+    if (rect.width === 0) continue;
+    rects.set(name, {
+      x: rect.x - whole.x,
+      y: rect.y - whole.y,
+      width: rect.width,
+      height: rect.height,
+    });
+  }
+  return [whole.width, whole.height, rects];
+}
+
+/** A picture of one model for its card; null until there is something to draw with. */
+export function cardPicture(side: Side, size: number): HTMLCanvasElement | null {
+  const geometry = slots[side].value?.geometry;
+  const made = viewer.value;
+  if (!geometry || !made || geometry.dimension !== dimension.peek()) return null;
+  const content = cardContent(geometry, side, scene.peek());
+  if (!content) return null;
+  const alone: Scene = {
+    ...scene.peek(),
+    shapes: {},
+    mode: "mean",
+    geometry: { a: geometry, b: null },
+  };
+  return made.thumbnail(content, sceneFrame(alone), size);
+}

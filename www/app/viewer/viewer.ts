@@ -1,0 +1,121 @@
+/**
+ * What the page knows of drawing. Two implementations: meshes in space with three.js (a chunk of
+ * its own), drawings in the plane with a 2-D canvas.
+ */
+import type { Region } from "../../worker/protocol";
+import type { Camera } from "./camera";
+
+export interface Rect {
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+}
+
+/** What one pane shows. */
+export interface PaneContent {
+  region: Region;
+  /** Points of each shape, d·n numbers. */
+  shapes: Float32Array[];
+  /** All shapes over one another rather than side by side. */
+  overlaid: boolean;
+  triangles: Uint32Array | null;
+  segments: Uint32Array | null;
+  /** Opacity per vertex, where an open rim fades out. */
+  fade: Float32Array | null;
+  /** One number per vertex, coloured by `range`. */
+  values: Float32Array | null;
+  /** sRGB, 0 … 255. */
+  tint: readonly [number, number, number];
+}
+
+/** The part of space that a pane must show. */
+export interface Frame {
+  centre: [number, number, number];
+  /** Half of the width, seen from anywhere round the upright axis, and of the height. */
+  halfWidth: number;
+  halfHeight: number;
+}
+
+export interface Hit {
+  region: Region;
+  vertex: number;
+  shape: number;
+}
+
+export interface Viewer {
+  /** Where the panes are on the canvas, in CSS pixels. */
+  setLayout(width: number, height: number, panes: ReadonlyMap<Region, Rect>): void;
+  setMesh(panes: PaneContent[], frame: Frame): void;
+  setColors(range: readonly [number, number] | null): void;
+  setCamera(camera: Camera): void;
+  /** The vertex at a place on the canvas. */
+  pick(x: number, y: number): Hit | null;
+  /** All panes, `scale` pixels to a CSS pixel, drawn and copied in one task. */
+  capture(scale: number): HTMLCanvasElement;
+  /** One shape alone, for a card. */
+  thumbnail(content: PaneContent, frame: Frame, size: number): HTMLCanvasElement;
+  dispose(): void;
+}
+
+/** Cells of a pane with several shapes side by side. */
+export function cellsOf(rect: Rect, count: number, frame: Frame): Rect[] {
+  if (count <= 1) return [rect];
+  const shape = frame.halfWidth / Math.max(frame.halfHeight, 1e-12);
+  let best = { columns: 1, size: 0 };
+  for (let columns = 1; columns <= count; columns += 1) {
+    const rows = Math.ceil(count / columns);
+    const size = Math.min(rect.width / columns / shape, rect.height / rows);
+    if (size > best.size) best = { columns, size };
+  }
+  const rows = Math.ceil(count / best.columns);
+  const [width, height] = [rect.width / best.columns, rect.height / rows];
+  return Array.from({ length: count }, (_, i) => ({
+    x: rect.x + (i % best.columns) * width,
+    y: rect.y + Math.floor(i / best.columns) * height,
+    width,
+    height,
+  }));
+}
+
+/** Room round the shapes. */
+const MARGIN = 1.05;
+
+/** Half of the height that a cell must show to hold the frame. */
+export function halfHeightIn(rect: Rect, frame: Frame): number {
+  const aspect = rect.width / Math.max(1, rect.height);
+  return MARGIN * Math.max(frame.halfHeight, frame.halfWidth / Math.max(aspect, 1e-6));
+}
+
+/** The frame that holds all of these shapes, but for what fades away. */
+export function frameOf(
+  shapes: Float32Array[],
+  dimension: 2 | 3,
+  fade: Float32Array | null = null,
+): Frame {
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  for (const shape of shapes) {
+    for (let i = 0; i < shape.length; i += 1) {
+      const axis = i % dimension;
+      if ((fade?.[(i - axis) / dimension] ?? 1) < 0.6) continue;
+      const value = shape[i] ?? 0;
+      if (value < (low[axis] ?? 0)) low[axis] = value;
+      if (value > (high[axis] ?? 0)) high[axis] = value;
+    }
+  }
+  const middle = (axis: number) => {
+    const sum = (low[axis] ?? 0) + (high[axis] ?? 0);
+    return Number.isFinite(sum) ? sum / 2 : 0;
+  };
+  const half = (axis: number) => {
+    const extent = (high[axis] ?? 0) - (low[axis] ?? 0);
+    return Number.isFinite(extent) ? extent / 2 : 0;
+  };
+  const across = dimension === 2 ? half(0) : Math.max(half(0), half(2));
+  return {
+    centre: [middle(0), middle(1), middle(2)],
+    halfWidth: Math.max(across, half(1) * 0.05, 1e-9),
+    halfHeight: Math.max(half(1), across * 0.05, 1e-9),
+  };
+}

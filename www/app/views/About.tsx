@@ -1,0 +1,29 @@
+import { demo } from "../state";
+
+export function About() {
+  const note = demo.value?.note;
+  return (
+    <footer class="about">
+      {note && <p class="demo-note">{note}</p>}
+      <details>
+        <summary>What is this?</summary>
+        <p>
+          A statistical shape model is a mean shape and the directions in which shapes vary. Given
+          two such models on the same points, Shapevenn draws the shapes that both can make (A∩B),
+          and those that only one of them can (A∖B, B∖A), and says how large each part is.
+        </p>
+        <p>
+          The method is that of M. Weiherer, F. Klein and B. Egger,{" "}
+          <cite>
+            Approximating Intersections and Differences Between Linear Statistical Shape Models
+            Using Markov Chain Monte Carlo
+          </cite>
+          , WACV 2024, with a faster sampler by default; the published one can be chosen. A shape
+          counts as one the other model can make when it lies about σ or less from its nearest shape
+          there, on average per point.
+        </p>
+        <p>Everything is computed in this page. Your files stay on this computer.</p>
+      </details>
+    </footer>
+  );
+}

@@ -1,0 +1,42 @@
+import { spoken } from "../state";
+import { About } from "./About";
+import { Downloads } from "./Downloads";
+import { DropOverlay } from "./DropOverlay";
+import { Header } from "./Header";
+import { ModelCard } from "./ModelCard";
+import { Notices } from "./Notices";
+import { Headline, Results } from "./Results";
+import { RunPanel } from "./RunPanel";
+import { SettingsPanel } from "./SettingsPanel";
+import { Stage } from "./Stage";
+
+export function App() {
+  return (
+    <>
+      <Header />
+      <main>
+        <div class="centre">
+          <Notices place="page" />
+          <Headline />
+          <Stage />
+        </div>
+        <div class="rail models">
+          <ModelCard side="a" />
+          <ModelCard side="b" />
+          <p class="privacy">Drop files anywhere. Your files stay on this computer.</p>
+          <RunPanel />
+          <SettingsPanel />
+        </div>
+        <div class="rail reading">
+          <Results />
+          <Downloads />
+          <About />
+        </div>
+      </main>
+      <DropOverlay />
+      <p class="unseen" aria-live="polite">
+        {spoken.value}
+      </p>
+    </>
+  );
+}

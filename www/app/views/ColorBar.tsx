@@ -1,0 +1,26 @@
+import { viridisGradient } from "../colormap";
+import { number } from "../format";
+import { lockedRange, unit } from "../state";
+
+interface Props {
+  range: readonly [number, number] | null;
+  own: readonly [number, number] | null;
+}
+
+/** One scale for all panes. */
+export function ColorBar({ range, own }: Props) {
+  if (!range) return null;
+  const [low, high] = range;
+  const beyond = own !== null && (own[0] < low || own[1] > high);
+  return (
+    <figure class="color-bar">
+      <figcaption>
+        Standard deviation per vertex, {unit.value}
+        {lockedRange.value ? (beyond ? " (locked; some values lie beyond)" : " (locked)") : ""}
+      </figcaption>
+      <span class="num">{number(low)}</span>
+      <span class="ramp" style={{ background: viridisGradient() }} />
+      <span class="num">{number(high)}</span>
+    </figure>
+  );
+}

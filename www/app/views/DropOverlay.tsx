@@ -1,0 +1,18 @@
+import { dropSide } from "../drop";
+
+/** Two halves while files are dragged over the window. */
+export function DropOverlay() {
+  const side = dropSide.value;
+  if (side === null) return null;
+  return (
+    <div class="drop" aria-hidden="true">
+      {(["a", "b"] as const).map((half) => (
+        <div key={half} class="drop-half" data-side={half} data-on={side === half}>
+          <span class="drop-letter">{half.toUpperCase()}</span>
+          <span>Drop here to open as model {half.toUpperCase()}</span>
+        </div>
+      ))}
+      <p class="drop-note">Two files at once fill both. Your files stay on this computer.</p>
+    </div>
+  );
+}

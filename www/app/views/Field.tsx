@@ -1,0 +1,39 @@
+import type { ComponentChildren } from "preact";
+
+interface FieldProps {
+  label: string;
+  changed: boolean;
+  onReset: () => void;
+  help?: string | undefined;
+  /** What its default is called. */
+  standardWord?: string | undefined;
+  children: ComponentChildren;
+}
+
+/** One setting: its name, its input, and the way back to the default. */
+export function Field({
+  label,
+  changed,
+  onReset,
+  help,
+  standardWord = "default",
+  children,
+}: FieldProps) {
+  return (
+    <div class="field" data-changed={changed} title={help}>
+      <span class="field-label" aria-hidden="true">
+        {label}
+      </span>
+      <div class="field-input">{children}</div>
+      <button
+        type="button"
+        class="reset"
+        onClick={onReset}
+        disabled={!changed}
+        aria-label={changed ? `reset ${label} to its default` : `${standardWord}: ${label}`}
+      >
+        {changed ? "reset" : standardWord}
+      </button>
+    </div>
+  );
+}

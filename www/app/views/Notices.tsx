@@ -1,0 +1,27 @@
+import { dismiss, type Notice, notices } from "../state";
+import { CloseIcon } from "./icons";
+
+/** What went wrong, beside what it concerns. */
+export function Notices({ place }: { place: Notice["place"] }) {
+  const found = notices.value.filter((notice) => notice.place === place);
+  return (
+    <>
+      {found.map((notice) => (
+        <div key={notice.id} class="notice" role="alert" data-code={notice.code}>
+          <div>
+            <p class="notice-message">{notice.message}</p>
+            {notice.hint && <p class="notice-hint">{notice.hint}</p>}
+          </div>
+          <button
+            type="button"
+            class="quiet icon-only"
+            onClick={() => dismiss(place)}
+            aria-label="Dismiss"
+          >
+            <CloseIcon />
+          </button>
+        </div>
+      ))}
+    </>
+  );
+}

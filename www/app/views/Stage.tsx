@@ -1,0 +1,151 @@
+import { useEffect, useRef } from "preact/hooks";
+import type { Region } from "../../worker/protocol";
+import { number } from "../format";
+import { emptyRegions, outOfDate, region, run, shapes, slots, unit, view } from "../state";
+import { dimension, hover, ownRange, range, scene, takeCanvas } from "../viewer/stage-controller";
+import { ColorBar } from "./ColorBar";
+import { BackIcon, ExpandIcon } from "./icons";
+import { REGION_NAMES, regionLabel } from "./names";
+import { Toolbar } from "./Toolbar";
+import { VennMap } from "./VennMap";
+
+/** Left is A, right is B, what they share is between them; the map lies under A∩B. */
+const ORDER: (Region | "map")[] = ["a", "intersection", "b", "aWithoutB", "map", "bWithoutA"];
+
+export function Stage() {
+  // A canvas cannot change from a 2-D to a WebGL context: another kind of model gets another one.
+  const kind = dimension.value;
+  return (
+    <section
+      class="stage"
+      aria-label="Shapes"
+      data-region={region.value ?? "all"}
+      data-view={view.value}
+      data-stale={outOfDate.value && !run.value?.progress?.hasIntersection}
+    >
+      <Toolbar />
+      <div class="field-of-view">
+        <Panes key={kind === 2 ? "flat" : "space"} live={kind !== null} />
+        <Tooltip />
+      </div>
+      <ColorBar range={range.value} own={ownRange.value} />
+    </section>
+  );
+}
+
+function Panes({ live }: { live: boolean }) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const panes = useRef(new Map<Region, HTMLElement>());
+  useEffect(() => {
+    if (!live || !canvas.current) return;
+    return takeCanvas(canvas.current, panes.current);
+  }, [live]);
+  const flat = dimension.value === 2;
+  return (
+    <>
+      {/* biome-ignore lint/a11y/noInteractiveElementToNoninteractiveRole: arrow keys are ours here, and role="img" would take them away in screen readers */}
+      <canvas
+        ref={canvas}
+        class="shapes"
+        tabIndex={0}
+        role="application"
+        aria-label={canvasLabel()}
+        aria-describedby="canvas-help"
+      />
+      <p id="canvas-help" class="unseen">
+        {flat
+          ? "Drag or use the arrow keys to shift"
+          : "Drag or use the arrow keys to turn all shapes at once"}
+        , plus and minus to zoom, 0 to go back to the first view.
+      </p>
+      <div class="panes">
+        {ORDER.map((name) =>
+          name === "map" ? (
+            <VennMap key={name} />
+          ) : (
+            <Pane key={name} name={name} panes={panes.current} />
+          ),
+        )}
+      </div>
+    </>
+  );
+}
+
+function canvasLabel(): string {
+  const what = { mean: "Mean shapes", samples: "Random shapes", sd: "Standard deviations" }[
+    view.value
+  ];
+  return region.value === null
+    ? `${what} of the five regions`
+    : `${what} of ${regionLabel(region.value)}`;
+}
+
+function Pane({ name, panes }: { name: Region; panes: Map<Region, HTMLElement> }) {
+  const alone = region.value === name;
+  const away = region.value !== null && !alone;
+  const { sign, meaning } = REGION_NAMES[name];
+  return (
+    <div class="pane" data-pane={name} data-away={away}>
+      <div
+        class="pane-view"
+        ref={(element) => {
+          if (element) panes.set(name, element);
+          else panes.delete(name);
+        }}
+      />
+      <p class="pane-label">
+        <strong>{sign}</strong> <span class="pane-meaning">{meaning}</span>
+      </p>
+      <button
+        type="button"
+        class="quiet icon-only pane-zoom"
+        onClick={() => {
+          region.value = alone ? null : name;
+        }}
+        aria-label={alone ? "Show all five regions" : `Show ${sign} alone`}
+        title={alone ? "Show all five regions" : `Show ${sign} alone`}
+      >
+        {alone ? <BackIcon /> : <ExpandIcon />}
+      </button>
+      <PaneNote name={name} />
+    </div>
+  );
+}
+
+function PaneNote({ name }: { name: Region }) {
+  const empty = emptyRegions.value[name];
+  const own = name === "a" || name === "b";
+  if (empty) return <p class="pane-note">{empty}</p>;
+  if (shapes.value[name] || (own && slots[name].value)) {
+    return shapes.value[name]?.source === "fit" ? <p class="pane-note">first guess</p> : null;
+  }
+  return (
+    <p class="pane-note">{run.value ? "waiting for draws" : slots.a.value ? "" : "loading"}</p>
+  );
+}
+
+function Tooltip() {
+  const hit = hover.value;
+  if (!hit) return null;
+  const { geometry } = scene.value;
+  const own = hit.region === "b" || hit.region === "bWithoutA" ? geometry.b : geometry.a;
+  const deviation = shapes.value[hit.region]?.vertexSd[hit.vertex] ?? own?.vertexSd[hit.vertex];
+  return (
+    <output class="tip" style={{ left: `${hit.x}px`, top: `${hit.y}px` }} aria-hidden="true">
+      {REGION_NAMES[hit.region].sign} · vertex {hit.vertex}
+      {view.value === "samples" && hit.shape >= 0 && !dimensionIsFlat()
+        ? ` · shape ${hit.shape + 1}`
+        : ""}
+      {deviation !== undefined && view.value !== "samples" ? (
+        <strong>
+          {" "}
+          SD {number(deviation)} {unit.value}
+        </strong>
+      ) : null}
+    </output>
+  );
+}
+
+function dimensionIsFlat(): boolean {
+  return dimension.value === 2;
+}

@@ -1,0 +1,203 @@
+/**
+ * Owns one engine and answers the page. Plain functions of messages: the worker's entry hands it
+ * an engine and a way to post, tests hand it others.
+ *
+ * A run is done in slices of about 50 ms with a macrotask between them, because a worker that is
+ * busy reads no messages and would not see a cancel.
+ */
+import { isEngineError, sentenceOf } from "./engine-errors";
+import type { Engine, FromEngine, Stage, ToEngine } from "./protocol";
+import { firstBudget, isIndivisible, nextBudget } from "./slices";
+
+export type Post = (message: FromEngine, transfer?: Transferable[]) => void;
+
+interface Run {
+  id: number;
+  begun: number;
+  /** Milliseconds spent drawing. */
+  drawing: number;
+  budget: number;
+  stage: Stage;
+  posted: number;
+}
+
+/** Messages that are answered at once. */
+type Question = Exclude<ToEngine, { t: "run" | "cancel" | "close" }>;
+
+const BUSY_WITH: Record<Question["t"], string> = {
+  open: "reading the file",
+  openDemo: "preparing the demo",
+  geometry: "drawing the model",
+  restore: "restoring the comparison",
+  region: "drawing shapes",
+  export: "writing the file",
+};
+
+const POST_EVERY_MS = 90;
+
+export class Coordinator {
+  #engine: Engine;
+  #post: Post;
+  #later: (work: () => void) => void;
+  #run: Run | null = null;
+
+  constructor(engine: Engine, post: Post, later: (work: () => void) => void) {
+    this.#engine = engine;
+    this.#post = post;
+    this.#later = later;
+  }
+
+  receive(message: ToEngine): void {
+    this.#guard("id" in message ? message.id : 0, () => this.#answer(message));
+  }
+
+  #guard(id: number, work: () => void): void {
+    try {
+      work();
+    } catch (thrown) {
+      if (this.#run?.id === id) this.#run = null;
+      if (isEngineError(thrown)) {
+        const { code, message, hint } = thrown;
+        this.#post({ t: "error", id, code, message, hint: hint ?? "" });
+      } else {
+        this.#run = null;
+        this.#post({ t: "fatal", message: sentenceOf(thrown) });
+      }
+    }
+  }
+
+  #answer(message: ToEngine): void {
+    switch (message.t) {
+      case "run":
+        this.#start(message);
+        break;
+      case "cancel":
+        if (this.#run?.id !== message.id) break;
+        this.#engine.cancel();
+        this.#finish(this.#run, true);
+        break;
+      case "close":
+        this.#engine.close(message.model);
+        break;
+      default: {
+        this.#busy(BUSY_WITH[message.t]);
+        const reply = this.#reply(message);
+        this.#post(reply, buffersOf(reply));
+      }
+    }
+  }
+
+  #reply(message: Question): FromEngine {
+    const engine = this.#engine;
+    const { id } = message;
+    switch (message.t) {
+      case "open": {
+        const opened = engine.open(message.name, new Uint8Array(message.bytes));
+        return { t: "opened", id, ...opened };
+      }
+      case "openDemo": {
+        const bytes = message.bytes === null ? undefined : new Uint8Array(message.bytes);
+        return { t: "opened", id, ...engine.openDemo(message.demo, bytes) };
+      }
+      case "geometry":
+        return { t: "geometry", id, geometry: engine.geometry(message.model) };
+      case "restore":
+        this.#supersede();
+        engine.restore(message.a, message.b, message.report, new Uint8Array(message.draws));
+        return { t: "restored", id };
+      case "region": {
+        const shapes = engine.region(message.region, message.count, message.seed);
+        return { t: "region", id, shapes };
+      }
+      case "export": {
+        const { name, mime, bytes } = engine.export(message.what);
+        // A copy of its own: what the engine hands out may be a view of its memory.
+        return { t: "exported", id, name, mime, bytes: bytes.slice().buffer };
+      }
+    }
+  }
+
+  #start(message: Extract<ToEngine, { t: "run" }>): void {
+    this.#supersede();
+    this.#busy("preparing the comparison");
+    const run: Run = {
+      id: message.id,
+      begun: performance.now(),
+      drawing: 0,
+      budget: firstBudget(),
+      stage: "prepare",
+      posted: 0,
+    };
+    this.#engine.start(message.a, message.b, message.settings);
+    this.#run = run;
+    this.#later(() => this.#slice(run));
+  }
+
+  /** A new run ends the one before it. */
+  #supersede(): void {
+    const run = this.#run;
+    if (run === null) return;
+    this.#run = null;
+    this.#engine.cancel();
+    this.#post({
+      t: "error",
+      id: run.id,
+      code: "superseded",
+      message: "Another run has begun.",
+      hint: "",
+    });
+  }
+
+  #slice(run: Run): void {
+    if (this.#run !== run) return;
+    this.#guard(run.id, () => {
+      if (isIndivisible(run.stage)) this.#busy(run.stage);
+      const begun = performance.now();
+      const progress = this.#engine.advance(run.budget);
+      const now = performance.now();
+      if (run.stage === "intersection" || run.stage === "differences") run.drawing += now - begun;
+      run.budget = nextBudget(run.budget, now - begun);
+      const changed = progress.stage !== run.stage;
+      run.stage = progress.stage;
+      if (progress.stage === "done") {
+        this.#finish(run, false);
+        return;
+      }
+      if (changed || now - run.posted >= POST_EVERY_MS) {
+        run.posted = now;
+        const seconds = (now - run.begun) / 1000;
+        this.#post({ t: "progress", id: run.id, progress, seconds });
+      } else {
+        this.#post({ t: "beat" });
+      }
+      this.#later(() => this.#slice(run));
+    });
+  }
+
+  #finish(run: Run, cancelled: boolean): void {
+    this.#busy("measuring");
+    const total = (performance.now() - run.begun) / 1000;
+    const report = this.#engine.report(total, run.drawing / 1000);
+    this.#run = null;
+    this.#post({ t: "done", id: run.id, cancelled, report });
+  }
+
+  #busy(what: string): void {
+    this.#post({ t: "busy", what });
+  }
+}
+
+/** Buffers that a reply may give away instead of copying, wherever in it they are. */
+function buffersOf(reply: FromEngine): Transferable[] {
+  const buffers = new Set<ArrayBuffer>();
+  for (const value of Object.values(reply) as unknown[]) {
+    if (value instanceof ArrayBuffer) buffers.add(value);
+    if (typeof value !== "object" || value === null) continue;
+    for (const inner of Object.values(value)) {
+      if (ArrayBuffer.isView(inner) && inner.buffer instanceof ArrayBuffer) {
+        buffers.add(inner.buffer);
+      }
+    }
+  }
+  return [...buffers];
+}

@@ -1,0 +1,35 @@
+import type { EngineError } from "./protocol";
+
+/** An error of the engine as the page's promises reject with it. */
+export class EngineFailure extends Error implements EngineError {
+  readonly code: string;
+  readonly hint: string;
+
+  constructor(error: EngineError) {
+    super(error.message);
+    this.name = "EngineFailure";
+    this.code = error.code;
+    this.hint = error.hint;
+  }
+}
+
+/** The engine throws plain `{code, message, hint}`; anything else is a panic or out of memory. */
+export function isEngineError(thrown: unknown): thrown is EngineError {
+  return (
+    typeof thrown === "object" &&
+    thrown !== null &&
+    "code" in thrown &&
+    "message" in thrown &&
+    typeof thrown.code === "string" &&
+    typeof thrown.message === "string"
+  );
+}
+
+/** Whatever was thrown, as one sentence. */
+export function sentenceOf(thrown: unknown): string {
+  return thrown instanceof Error ? thrown.message : String(thrown);
+}
+
+export function wasAborted(thrown: unknown): boolean {
+  return thrown instanceof DOMException && thrown.name === "AbortError";
+}

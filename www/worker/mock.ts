@@ -1,0 +1,202 @@
+/**
+ * Development only (`?mock`): an engine that invents its numbers and is slow on purpose, so that
+ * loading, running, cancelling and failing can be seen without the real one.
+ */
+import { type MockModel, packagedHeads, plane, star } from "./mock-models";
+import { mockReport, mockReportOf } from "./mock-report";
+import type {
+  Engine,
+  EngineError,
+  ExportKind,
+  Geometry,
+  Handle,
+  Progress,
+  Region,
+  RegionShapes,
+  Settings,
+  Stage,
+} from "./protocol";
+
+const RUN_EVALUATIONS = 6000;
+
+export async function mockEngine(base: string): Promise<Engine> {
+  const heads = await packagedHeads(base);
+  const models = new Map<Handle, MockModel>();
+  let next: Handle = 1;
+  let pair: { a: MockModel; b: MockModel; settings: Partial<Settings> } | null = null;
+  let done = 0;
+
+  const keep = (model: MockModel) => {
+    models.set(next, model);
+    next += 1;
+    return {
+      format: model.format,
+      parts: [{ model: next - 1, part: "shape", report: mockReportOf(model) }],
+    };
+  };
+  const find = (handle: Handle) => models.get(handle) ?? fail("handle", "No such model.", "");
+  const current = () => pair ?? fail("no-run", "There is no run.", "Start one.");
+
+  return {
+    open(name, bytes) {
+      work(300);
+      if (name.endsWith(".txt")) {
+        fail(
+          "unknown-format",
+          `“${name}” is not a shape model that Shapevenn can read (${bytes.length} bytes of text).`,
+          "Open a statismo or Scalismo .h5, a .mat, .npz or .pkl model.",
+        );
+      }
+      return keep({
+        ...(heads.get("heads-identity") as MockModel),
+        name,
+        format: "HDF5, Scalismo model",
+      });
+    },
+    openDemo(demo) {
+      work(120);
+      if (demo.startsWith("stars")) return keep(star(demo, demo.endsWith("a") ? 0 : 1));
+      if (demo.startsWith("planes")) return keep(plane(demo, demo.endsWith("a") ? 0 : 1));
+      return keep(heads.get(demo) ?? fail("demo", `There is no demo “${demo}”.`, ""));
+    },
+    geometry(handle): Geometry {
+      const { dimension, mean, triangles, segments, modes } = find(handle);
+      return {
+        dimension,
+        kind: "shape",
+        mean: mean.slice(),
+        triangles: triangles?.slice() ?? null,
+        segments: segments?.slice() ?? null,
+        vertexSd: deviation(modes, dimension, 1),
+      };
+    },
+    start(a, b, settings) {
+      const [first, second] = [find(a), find(b)];
+      if (first.mean.length !== second.mean.length) {
+        fail(
+          "point-count-mismatch",
+          `A has ${first.mean.length / first.dimension} points, B has ${second.mean.length / second.dimension}.`,
+          "Load models built on the same template.",
+        );
+      }
+      pair = { a: first, b: second, settings };
+      done = 0;
+    },
+    advance(evaluations): Progress {
+      work(Math.min(evaluations, 400) * 0.8);
+      done += Math.min(evaluations, 400);
+      const fraction = Math.min(1, done / RUN_EVALUATIONS);
+      return {
+        stage: stageAt(fraction),
+        fraction,
+        evaluations: done,
+        draws: Math.round(8000 * fraction),
+        acceptance: fraction > 0.05 ? 0.83 + 0.02 * Math.sin(done) : null,
+        rHatMax: fraction > 0.1 ? 1 + 0.004 / fraction : null,
+        essBulkMin: fraction > 0.1 ? 7600 * fraction : null,
+        sigma: fraction > 0.02 ? 0.61 : null,
+        hasIntersection: fraction > 0.04,
+      };
+    },
+    cancel() {},
+    report(total, sample) {
+      const { a, b, settings } = current();
+      return JSON.stringify(mockReport(a, b, settings, { load: 0.1, prepare: 0.4, sample, total }));
+    },
+    restore(a, b) {
+      work(150);
+      pair = { a: find(a), b: find(b), settings: {} };
+    },
+    region(region, count, seed) {
+      work(20);
+      const { a, b } = current();
+      return shapesOf(region, a, b, count, Number(seed));
+    },
+    export(what: ExportKind) {
+      const text = what.kind === "report-json" ? "{}" : `mock ${what.kind}`;
+      return {
+        name: `${what.kind}.txt`,
+        mime: "text/plain",
+        bytes: new TextEncoder().encode(text),
+      };
+    },
+    close: (handle) => {
+      models.delete(handle);
+    },
+  };
+}
+
+function stageAt(fraction: number): Stage {
+  if (fraction >= 1) return "done";
+  if (fraction < 0.02) return "prepare";
+  if (fraction < 0.05) return "fit";
+  if (fraction < 0.7) return "intersection";
+  return fraction < 0.97 ? "differences" : "measure";
+}
+
+function shapesOf(
+  region: Region,
+  a: MockModel,
+  b: MockModel,
+  count: number,
+  seed: number,
+): RegionShapes {
+  const own = region === "b" || region === "bWithoutA" ? b : a;
+  const shared = region === "intersection";
+  const mean = shared
+    ? own.mean.map((value, i) => (value + (b.mean[i] ?? 0)) / 2)
+    : own.mean.slice();
+  const factor = shared ? 0.45 : 1;
+  const samples = new Float32Array(count * mean.length);
+  const random = mulberry(seed * 7919 + region.length);
+  for (let i = 0; i < count; i += 1) {
+    const shape = samples.subarray(i * mean.length, (i + 1) * mean.length);
+    shape.set(mean);
+    for (const mode of own.modes) {
+      const z = factor * normal(random);
+      for (let k = 0; k < shape.length; k += 1) shape[k] = (shape[k] ?? 0) + z * (mode[k] ?? 0);
+    }
+  }
+  const source = region === "a" || region === "b" ? "model" : "draws";
+  return {
+    region,
+    mean,
+    vertexSd: deviation(own.modes, own.dimension, factor),
+    samples,
+    count,
+    source,
+  };
+}
+
+export function deviation(modes: Float32Array[], dimension: number, factor: number): Float32Array {
+  const points = (modes[0]?.length ?? 0) / dimension;
+  return Float32Array.from({ length: points }, (_, point) => {
+    let sum = 0;
+    for (const mode of modes) {
+      for (let axis = 0; axis < dimension; axis += 1)
+        sum += (mode[point * dimension + axis] ?? 0) ** 2;
+    }
+    return factor * Math.sqrt(sum);
+  });
+}
+
+function work(milliseconds: number): void {
+  const until = performance.now() + milliseconds;
+  while (performance.now() < until);
+}
+
+function mulberry(seed: number): () => number {
+  let state = seed >>> 0;
+  return () => {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    return state / 2 ** 32;
+  };
+}
+
+function normal(random: () => number): number {
+  return Math.sqrt(-2 * Math.log(random() + 1e-12)) * Math.cos(2 * Math.PI * random());
+}
+
+function fail(code: string, message: string, hint: string): never {
+  throw { code, message, hint } satisfies EngineError;
+}
