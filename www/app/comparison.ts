@@ -169,10 +169,11 @@ function refiner(key: string): (progress: Progress, now: number) => void {
   };
 }
 
-/** How many shapes of a region are asked for: a grid of meshes, a cloud of drawings. */
+/** How many shapes of a region are asked for: a grid of surfaces, a heap of drawings, a cloud. */
 export function shapeCount(): number {
   const geometry = slots.a.value?.geometry;
-  return geometry?.triangles ? 9 : 60;
+  if (!geometry || geometry.triangles) return 9;
+  return geometry.segments ? 60 : 600;
 }
 
 async function showRegions(regions: Region[]): Promise<void> {
