@@ -2,6 +2,7 @@
 import { batch, effect } from "@preact/signals";
 import { wasAborted } from "../worker/engine-errors";
 import type { Progress, Region, Report } from "../worker/protocol";
+import { FIRST_DEMO } from "./demos";
 import { engineClient, onEngineRestart, report as reportError } from "./engine";
 import { REGIONS } from "./link";
 import { plain } from "./phrase";
@@ -11,6 +12,7 @@ import {
   dismiss,
   emptyRegions,
   failedKey,
+  nouns,
   opening,
   type Result,
   result,
@@ -80,7 +82,7 @@ async function restore(key: string): Promise<void> {
 
 export function storedResult(first: Stored): Result {
   const { report, text, key } = first;
-  return { report, text, key, stored: true, cancelled: false };
+  return { report, text, key, nouns: FIRST_DEMO.nouns, stored: true, cancelled: false };
 }
 
 export async function start(): Promise<void> {
@@ -143,7 +145,7 @@ function cancelQuietly(): void {
 function finish(key: string, text: string, cancelled: boolean): void {
   const report = JSON.parse(text) as Report;
   batch(() => {
-    result.value = { report, text, key, stored: false, cancelled };
+    result.value = { report, text, key, nouns: nouns.value, stored: false, cancelled };
     run.value = null;
   });
   heldKey = key;

@@ -40,6 +40,7 @@ export interface Result {
   /** As downloaded. */
   text: string;
   key: string;
+  nouns: Nouns;
   /** Made beforehand, by the same engine. */
   stored: boolean;
   cancelled: boolean;

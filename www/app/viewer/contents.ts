@@ -1,6 +1,6 @@
 /** From the state to what the panes show. Pure. */
 import type { Geometry, Region, RegionShapes } from "../../worker/protocol";
-import type { ViewMode } from "../link";
+import { REGIONS, type ViewMode } from "../link";
 import { rimFade } from "./rim";
 import { type Frame, frameOf, type PaneContent } from "./viewer";
 
@@ -88,19 +88,18 @@ export function cardContent(geometry: Geometry, side: Region, scene: Scene): Pan
   return contentOf({ ...alone, geometry: { a: geometry, b: geometry } }, side);
 }
 
+/** One frame for all panes, whatever they show just now. */
 export function sceneFrame(scene: Scene): Frame {
-  const geometry = scene.geometry.a ?? scene.geometry.b;
-  const dimension = geometry?.dimension ?? 3;
-  const means: Float32Array[] = [];
-  for (const side of ["a", "b"] as const) {
-    const content = contentOf(
-      { ...scene, mode: scene.mode === "samples" ? "samples" : "mean" },
-      side,
-    );
-    if (content) means.push(...(content.overlaid ? content.shapes : content.shapes.slice(0, 1)));
-  }
-  const fade = contentOf({ ...scene, mode: "mean" }, "a")?.fade ?? null;
-  return frameOf(means, dimension, fade);
+  const dimension = (scene.geometry.a ?? scene.geometry.b)?.dimension ?? 3;
+  const means = contentsOf({ ...scene, mode: "mean" }, ["a", "b"]);
+  const overlaid = means.some((content) => content.overlaid);
+  const shown = overlaid ? contentsOf({ ...scene, mode: "samples" }, REGIONS) : means;
+  const fade = means[0]?.fade ?? null;
+  return frameOf(
+    [...means, ...shown].flatMap((content) => content.shapes),
+    dimension,
+    fade,
+  );
 }
 
 function withSamples(found: RegionShapes): Float32Array[] {

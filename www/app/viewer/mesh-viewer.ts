@@ -236,7 +236,7 @@ export class MeshViewer implements Viewer {
 
   #objectsOf(content: PaneContent): Object3D[] {
     const { triangles, segments } = content;
-    return content.shapes.map((shape, i) => {
+    return content.shapes.map((shape) => {
       const geometry = new BufferGeometry();
       geometry.setAttribute("position", new BufferAttribute(shape, 3));
       const colours = new Float32Array((shape.length / 3) * 4);
@@ -250,11 +250,7 @@ export class MeshViewer implements Viewer {
         geometry.setIndex(this.#index(segments));
         return new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true }));
       }
-      const size = content.shapes.length > 1 && i > 0 ? 4 : 9;
-      return new Points(
-        geometry,
-        new PointsMaterial({ vertexColors: true, size, sizeAttenuation: false }),
-      );
+      return new Points(geometry, dot(content.shapes.length > 1 ? 3.5 : 9));
     });
   }
 
@@ -305,6 +301,19 @@ function clay(fades: boolean): MeshLambertMaterial {
     shader.fragmentShader = shader.fragmentShader.replace(
       "#include <normal_fragment_begin>",
       "#include <normal_fragment_begin>\nnormal = normalize( vNormal );",
+    );
+  };
+  return material;
+}
+
+/** A round point, `size` CSS pixels wide. */
+function dot(size: number): PointsMaterial {
+  const width = size * Math.min(devicePixelRatio, 2);
+  const material = new PointsMaterial({ vertexColors: true, size: width, sizeAttenuation: false });
+  material.onBeforeCompile = (shader) => {
+    shader.fragmentShader = shader.fragmentShader.replace(
+      "#include <clipping_planes_fragment>",
+      "#include <clipping_planes_fragment>\nif ( distance( gl_PointCoord, vec2( 0.5 ) ) > 0.5 ) discard;",
     );
   };
   return material;

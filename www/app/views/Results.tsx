@@ -1,32 +1,36 @@
 import type { Report } from "../../worker/protocol";
 import { count } from "../format";
 import { DIAGNOSTICS, GROUPS, type Group, valueAt } from "../numbers";
-import { nouns, outOfDate, result } from "../state";
+import { outOfDate, result } from "../state";
 import { belief, differences, headline, shared, spaces } from "../words";
 import { Metric, Phrase } from "./Phrase";
 
 export function Headline() {
-  const report = result.value?.report;
+  const held = result.value;
   return (
     <h2 class="headline" data-stale={outOfDate.value}>
-      {report ? <Phrase parts={headline(report, nouns.value)} /> : "Comparing two models of shape."}
+      {held ? (
+        <Phrase parts={headline(held.report, held.nouns)} />
+      ) : (
+        "Comparing two models of shape."
+      )}
     </h2>
   );
 }
 
 export function Results() {
-  const report = result.value?.report;
-  if (!report) return null;
+  const held = result.value;
+  if (!held) return null;
+  const { report, nouns } = held;
   const { converged, phrase } = belief(report);
   return (
     <section class="results" aria-label="Results" data-stale={outOfDate.value}>
-      {outOfDate.value && <p class="stale-note">Out of date: these numbers are of another run.</p>}
       <ul class="says">
         <li data-about="intersection">
           <Phrase parts={shared(report)} />
         </li>
         <li data-about="differences">
-          <Phrase parts={differences(report, nouns.value)} />
+          <Phrase parts={differences(report, nouns)} />
         </li>
         <li data-about="spaces">
           <Phrase parts={spaces(report)} />
