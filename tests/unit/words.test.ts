@@ -1,5 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { FIRST_DEMO } from "../../www/app/demos";
 import { DIAGNOSTICS, GROUPS, valueAt } from "../../www/app/numbers";
 import { plain } from "../../www/app/phrase";
 import * as words from "../../www/app/words";
@@ -9,7 +10,7 @@ import type { Progress } from "../../www/worker/protocol";
 
 const seconds = { load: 0, prepare: 0, sample: 0, total: 0 };
 const report = mockReport(star("a", 0), star("b", 1), {}, seconds);
-const nouns = { a: "male heads", b: "female heads" };
+const { nouns } = FIRST_DEMO;
 
 test("the headline says what each can make of the other", () => {
   assert.equal(
@@ -51,7 +52,10 @@ test("differences are told apart by how much differs", () => {
   };
   assert.match(said(0.999, 0.998), /nearly everything differs/);
   assert.match(said(0.001, 0.002), /almost nothing differs/);
-  assert.match(said(0.3, 0.6), /30\u202f% of male heads are out of B’s reach/);
+  assert.match(
+    said(0.3, 0.6),
+    /30\u202f% of male heads and 60\u202f% of female heads are out of the other model’s reach/,
+  );
 });
 
 test("convergence is only claimed on both counts", () => {
@@ -61,4 +65,16 @@ test("convergence is only claimed on both counts", () => {
   assert.equal(at(1.002, 900), "converged");
   assert.equal(at(1.002, 100), "not converged yet");
   assert.equal(at(1.05, 900), "not converged yet");
+});
+
+test("models that only come near one another are not said to share shapes", () => {
+  const apart = { ...report, settings: { ...report.settings, sigma: 0.01 } };
+  assert.match(plain(words.shared(report)), /^A shape that both can make/);
+  assert.match(plain(words.shared(apart)), /^The shapes that come nearest to both/);
+});
+
+test("a warning that the sentences say already is not shown twice", () => {
+  const warning = (code: string) => ({ code, message: "", hint: "" });
+  const warned = { ...report, warnings: ["nearly-all-differs", "unit"].map(warning) };
+  assert.deepEqual(words.furtherWarnings(warned), [warning("unit")]);
 });

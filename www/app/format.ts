@@ -37,6 +37,12 @@ export function plusMinus(mean: number, spread: number): { mean: string; spread:
   return { mean: minus(mean.toFixed(decimals)), spread: spread.toFixed(decimals) };
 }
 
+/** An angle; what is only rounding error is none. */
+export function degrees(angle: number): string {
+  if (angle < 0.005) return "0°";
+  return `${angle.toFixed(angle < 1 ? 2 : angle < 10 ? 1 : 0)}°`;
+}
+
 /** “about 12 s”, “about 3 min”. */
 export function duration(seconds: number): string {
   if (!Number.isFinite(seconds) || seconds < 0) return "–";

@@ -68,7 +68,7 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
   const many = scene.mode === "samples" && current && found;
   const surface = geometry.triangles !== null;
   const cloud = !surface && geometry.segments === null;
-  const shapes = many || (cloud && found && current) ? withSamples(found) : [shown.mean];
+  const shapes = many || (cloud && found && current) ? samplesOf(found) : [shown.mean];
   const shade = scene.dark ? "dark" : "light";
   return {
     region,
@@ -92,8 +92,8 @@ export function cardContent(geometry: Geometry, side: Region, scene: Scene): Pan
 export function sceneFrame(scene: Scene): Frame {
   const dimension = (scene.geometry.a ?? scene.geometry.b)?.dimension ?? 3;
   const means = contentsOf({ ...scene, mode: "mean" }, ["a", "b"]);
-  const overlaid = means.some((content) => content.overlaid);
-  const shown = overlaid ? contentsOf({ ...scene, mode: "samples" }, REGIONS) : means;
+  const many = scene.mode === "samples" || means.some((content) => content.overlaid);
+  const shown = many ? contentsOf({ ...scene, mode: "samples" }, REGIONS) : means;
   const fade = means[0]?.fade ?? null;
   return frameOf(
     [...means, ...shown].flatMap((content) => content.shapes),
@@ -102,11 +102,17 @@ export function sceneFrame(scene: Scene): Frame {
   );
 }
 
-function withSamples(found: RegionShapes): Float32Array[] {
+const split = new WeakMap<RegionShapes, Float32Array[]>();
+
+/** Always the same arrays for the same shapes, so that a viewer can keep what it made of them. */
+function samplesOf(found: RegionShapes): Float32Array[] {
+  const known = split.get(found);
+  if (known) return known;
   const length = found.mean.length;
   const samples = Array.from({ length: found.count }, (_, i) =>
     found.samples.subarray(i * length, (i + 1) * length),
   ).filter((sample) => sample.length === length);
+  split.set(found, samples);
   return samples;
 }
 

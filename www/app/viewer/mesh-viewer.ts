@@ -82,11 +82,16 @@ export class MeshViewer implements Viewer {
   }
 
   setMesh(panes: PaneContent[], frame: Frame): void {
-    for (const pane of this.#panes) discard(pane.objects);
+    const former = this.#panes;
     this.#frame = frame;
-    this.#panes = panes.map((content) => ({ content, objects: this.#objectsOf(content) }));
+    this.#panes = panes.map((content) => {
+      const kept = former.find((pane) => sameShapes(pane.content, content));
+      return { content, objects: kept?.objects ?? this.#objectsOf(content) };
+    });
+    const used = new Set(this.#panes.flatMap((pane) => pane.objects));
+    discard(former.flatMap((pane) => pane.objects).filter((object) => !used.has(object)));
     this.#paint();
-    for (const pane of this.#panes) this.#scene.add(...pane.objects);
+    this.#scene.add(...used);
     this.#request();
   }
 
@@ -143,7 +148,7 @@ export class MeshViewer implements Viewer {
     this.#hideAll();
     for (const object of objects) object.visible = true;
     const ratio = this.#renderer.getPixelRatio();
-    const side = Math.min(size, this.#size.width, this.#size.height);
+    const side = Math.floor(Math.min(size, this.#size.width, this.#size.height));
     const cell = { x: 0, y: 0, width: side, height: side };
     this.#renderer.setScissorTest(false);
     this.#renderer.clear();
@@ -317,6 +322,17 @@ function dot(size: number): PointsMaterial {
     );
   };
   return material;
+}
+
+function sameShapes(one: PaneContent, other: PaneContent): boolean {
+  return (
+    one.region === other.region &&
+    one.triangles === other.triangles &&
+    one.segments === other.segments &&
+    one.fade === other.fade &&
+    one.shapes.length === other.shapes.length &&
+    one.shapes.every((shape, i) => shape === other.shapes[i])
+  );
 }
 
 function contains(rect: Rect, x: number, y: number): boolean {

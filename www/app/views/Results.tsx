@@ -1,8 +1,8 @@
 import type { Report } from "../../worker/protocol";
-import { count } from "../format";
+import { count, degrees } from "../format";
 import { DIAGNOSTICS, GROUPS, type Group, valueAt } from "../numbers";
 import { outOfDate, result } from "../state";
-import { belief, differences, headline, shared, spaces } from "../words";
+import { belief, differences, furtherWarnings, headline, shared, spaces } from "../words";
 import { Metric, Phrase } from "./Phrase";
 
 export function Headline() {
@@ -39,7 +39,7 @@ export function Results() {
           <Phrase parts={phrase} />
         </li>
       </ul>
-      {report.warnings.map(({ code, message, hint }) => (
+      {furtherWarnings(report).map(({ code, message, hint }) => (
         <p key={code} class="warning" data-code={code}>
           {message} <span class="dim">{hint}</span>
         </p>
@@ -55,7 +55,7 @@ export function Results() {
           below 0.7. A difference is sampled exactly, so its draws are independent and have no
           R-hat.
         </p>
-        <Angles degrees={report.overlap.principalAnglesDegrees} />
+        <Angles angles={report.overlap.principalAnglesDegrees} />
       </details>
     </section>
   );
@@ -100,17 +100,17 @@ function Numbers({ group, report }: { group: Group; report: Report }) {
   );
 }
 
-function Angles({ degrees }: { degrees: number[] }) {
-  if (degrees.length === 0) return null;
+function Angles({ angles }: { angles: number[] }) {
+  if (angles.length === 0) return null;
   return (
     <div class="angles">
       <h3>Principal angles between the two spaces</h3>
       <ol>
-        {degrees.map((angle, i) => {
+        {angles.map((angle, i) => {
           const path = `overlap.principalAnglesDegrees.${i}`;
           return (
             <li key={path}>
-              <Metric path={path} value={angle} text={`${angle.toFixed(1)}°`} />
+              <Metric path={path} value={angle} text={degrees(angle)} />
             </li>
           );
         })}
