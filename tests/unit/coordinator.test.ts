@@ -139,7 +139,13 @@ test("arrays are given away, not copied", () => {
 test("the budget of a slice settles where a slice takes the wanted time", () => {
   let budget = 64;
   const perEvaluation = 0.31;
-  for (let i = 0; i < 20; i += 1) budget = nextBudget(budget, budget * perEvaluation);
+  for (let i = 0; i < 20; i += 1) budget = nextBudget(budget, budget, budget * perEvaluation);
   assert.ok(Math.abs(budget * perEvaluation - SLICE_MS) < 1);
-  assert.equal(nextBudget(1, 5000), 1, "never less than one");
+  assert.equal(nextBudget(1, 1, 5000), 1, "never less than one");
+});
+
+test("work without evaluations leaves the budget alone", () => {
+  // Regression: it grew while the run was prepared, and the first slice of sampling took 20 s.
+  assert.equal(nextBudget(64, 0, 0.1), 64);
+  assert.equal(nextBudget(64, 64, 0.001), 256, "grows no more than fourfold at a time");
 });

@@ -19,6 +19,7 @@ interface Run {
   /** Milliseconds spent drawing. */
   drawing: number;
   budget: number;
+  evaluated: number;
   stage: Stage;
   posted: number;
 }
@@ -77,6 +78,8 @@ export class Coordinator {
         break;
       case "cancel":
         if (this.#run?.id !== message.id) break;
+        // The engine measures what there is before it returns.
+        this.#busy("measuring");
         this.#engine.cancel();
         this.#finish(this.#run, true);
         break;
@@ -137,6 +140,7 @@ export class Coordinator {
       loading: (this.#loading.get(message.a) ?? 0) + (this.#loading.get(message.b) ?? 0),
       drawing: 0,
       budget: firstBudget(),
+      evaluated: 0,
       stage: "prepare",
       posted: 0,
     };
@@ -150,7 +154,6 @@ export class Coordinator {
     const run = this.#run;
     if (run === null) return;
     this.#run = null;
-    this.#engine.cancel();
     this.#post({
       t: "error",
       id: run.id,
@@ -168,7 +171,8 @@ export class Coordinator {
       const progress = this.#engine.advance(run.budget);
       const now = performance.now();
       if (run.stage === "intersection" || run.stage === "differences") run.drawing += now - begun;
-      run.budget = nextBudget(run.budget, now - begun);
+      run.budget = nextBudget(run.budget, progress.evaluations - run.evaluated, now - begun);
+      run.evaluated = progress.evaluations;
       const changed = progress.stage !== run.stage;
       run.stage = progress.stage;
       if (progress.stage === "done") {
