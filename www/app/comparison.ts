@@ -2,6 +2,7 @@
 import { batch, effect } from "@preact/signals";
 import { wasAborted } from "../worker/engine-errors";
 import type { Progress, Region, Report } from "../worker/protocol";
+import { FIRST_DEMO } from "./demos";
 import { engineClient, onEngineRestart, report as reportError } from "./engine";
 import { REGIONS } from "./link";
 import { plain } from "./phrase";
@@ -11,6 +12,7 @@ import {
   dismiss,
   emptyRegions,
   failedKey,
+  nouns,
   opening,
   type Result,
   result,
@@ -80,7 +82,7 @@ async function restore(key: string): Promise<void> {
 
 export function storedResult(first: Stored): Result {
   const { report, text, key } = first;
-  return { report, text, key, stored: true, cancelled: false };
+  return { report, text, key, nouns: FIRST_DEMO.nouns, stored: true, cancelled: false };
 }
 
 export async function start(): Promise<void> {
@@ -143,7 +145,7 @@ function cancelQuietly(): void {
 function finish(key: string, text: string, cancelled: boolean): void {
   const report = JSON.parse(text) as Report;
   batch(() => {
-    result.value = { report, text, key, stored: false, cancelled };
+    result.value = { report, text, key, nouns: nouns.value, stored: false, cancelled };
     run.value = null;
   });
   heldKey = key;
@@ -169,10 +171,11 @@ function refiner(key: string): (progress: Progress, now: number) => void {
   };
 }
 
-/** How many shapes of a region are asked for: a grid of meshes, a cloud of drawings. */
+/** How many shapes of a region are asked for: a grid of surfaces, a heap of drawings, a cloud. */
 export function shapeCount(): number {
   const geometry = slots.a.value?.geometry;
-  return geometry?.triangles ? 9 : 60;
+  if (!geometry || geometry.triangles) return 9;
+  return geometry.segments ? 60 : 600;
 }
 
 async function showRegions(regions: Region[]): Promise<void> {

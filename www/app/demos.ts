@@ -1,13 +1,24 @@
 /** The pairs of models that come with the page. */
 
+/** What two models, and the shapes that they make, are called in a sentence. */
+export interface Nouns {
+  a: string;
+  b: string;
+  shapesOfA: string;
+  shapesOfB: string;
+}
+
+export function nounsOf(a: string, b: string): Nouns {
+  return { a, b, shapesOfA: `the shapes of ${a}`, shapesOfB: `the shapes of ${b}` };
+}
+
 export interface Demo {
   /** As in the link. */
   id: string;
   label: string;
   a: string;
   b: string;
-  /** What the two are called in a sentence. */
-  nouns: { a: string; b: string };
+  nouns: Nouns;
   note: string;
 }
 
@@ -20,7 +31,12 @@ const heads: Demo[] = [
     label: "Heads: male and female",
     a: "heads-male",
     b: "heads-female",
-    nouns: { a: "male heads", b: "female heads" },
+    nouns: {
+      a: "male heads",
+      b: "female heads",
+      shapesOfA: "male heads",
+      shapesOfB: "female heads",
+    },
     note: HEADS_NOTE,
   },
   {
@@ -28,7 +44,7 @@ const heads: Demo[] = [
     label: "Heads: identity and expression",
     a: "heads-identity",
     b: "heads-expression",
-    nouns: { a: "the identity model", b: "the expression model" },
+    nouns: nounsOf("identity", "expression"),
     note: HEADS_NOTE,
   },
 ];
@@ -38,7 +54,7 @@ const stars: Demo[] = [1, 2, 3, 4, 5, 6].map((pair) => ({
   label: `Stars, pair ${pair}`,
   a: `stars-${pair}-a`,
   b: `stars-${pair}-b`,
-  nouns: { a: "star A", b: "star B" },
+  nouns: nounsOf("star A", "star B"),
   note: "One of the paper’s six pairs of stars, whose true intersection is known.",
 }));
 
@@ -47,7 +63,7 @@ const planes: Demo = {
   label: "Two planes in space",
   a: "planes-a",
   b: "planes-b",
-  nouns: { a: "plane A", b: "plane B" },
+  nouns: nounsOf("plane A", "plane B"),
   note: "Two ellipses in two planes: the smallest case in which two models meet.",
 };
 

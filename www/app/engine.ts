@@ -46,7 +46,7 @@ function spawn(serial: boolean): Worker {
   const start = writeStart({
     base: new URL(".", document.baseURI).href,
     serial: serial || query.has("serial"),
-    mock: query.has("mock"),
+    mock: import.meta.env.DEV && query.has("mock"),
   });
   return new Worker(new URL("../worker/worker.ts", import.meta.url), {
     type: "module",

@@ -4,7 +4,8 @@
 export function number(value: number, digits = 3): string {
   if (!Number.isFinite(value)) return "–";
   if (value === 0) return "0";
-  const size = Math.abs(value);
+  // Of the rounded value: 0.9999 is shown as 1.00.
+  const size = Math.abs(Number(value.toPrecision(digits)));
   if (size >= 1e6 || size < 1e-3) return scientific(value, digits);
   const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
   return minus(group(value.toFixed(Math.min(decimals, 6))));
@@ -34,6 +35,12 @@ export function plusMinus(mean: number, spread: number): { mean: string; spread:
   const finest = Math.max(Math.abs(spread), 1e-3);
   const decimals = Math.min(6, Math.max(0, 1 - Math.floor(Math.log10(finest))));
   return { mean: minus(mean.toFixed(decimals)), spread: spread.toFixed(decimals) };
+}
+
+/** An angle; what is only rounding error is none. */
+export function degrees(angle: number): string {
+  if (angle < 0.005) return "0°";
+  return `${angle.toFixed(angle < 1 ? 2 : angle < 10 ? 1 : 0)}°`;
 }
 
 /** “about 12 s”, “about 3 min”. */

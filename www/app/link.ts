@@ -8,7 +8,7 @@ import type { Alignment, Region, SamplerName, Settings } from "../worker/protoco
 import { FIRST_DEMO, findDemo } from "./demos";
 import {
   ALIGNMENTS,
-  chainLength,
+  budgetOf,
   DEFAULTS,
   parseCount,
   parseSeed,
@@ -93,19 +93,19 @@ function readSettings(given: URLSearchParams): Settings {
   const samplers = Object.keys(SAMPLERS) as SamplerName[];
   const alignments = Object.keys(ALIGNMENTS) as Alignment[];
   const sampler = oneOf(given.get("sampler"), samplers) ?? DEFAULTS.sampler;
-  const length = chainLength(sampler);
+  const budget = budgetOf(sampler);
   const count = (key: string, least: number, most: number, fallback: number) =>
     valid(parseCount(given.get(key) ?? "", least, most), fallback);
   const modes = count("modes", 1, 100_000, 0);
-  const chains = count("chains", 2, 1024, DEFAULTS.chains);
+  const chains = count("chains", 2, 1024, budget.chains);
   return {
     sigma: valid(parseSigma(given.get("sigma") ?? "auto"), null),
     seed: valid(parseSeed(given.get("seed") ?? ""), DEFAULTS.seed),
     sampler,
     chains,
-    draws: count("draws", 8 * chains, 10_000_000, Math.max(DEFAULTS.draws, 8 * chains)),
-    burnIn: count("burnin", 0, 10_000_000, length.burnIn),
-    thin: count("thin", 1, 100_000, length.thin),
+    draws: count("draws", 8 * chains, 10_000_000, Math.max(budget.draws, 8 * chains)),
+    burnIn: count("burnin", 0, 10_000_000, budget.burnIn),
+    thin: count("thin", 1, 100_000, budget.thin),
     modes: modes === 0 ? null : modes,
     align: oneOf(given.get("align"), alignments) ?? DEFAULTS.align,
   };

@@ -3,7 +3,7 @@ import { viridis } from "./colormap";
 import { saveBlob } from "./download";
 import { number } from "./format";
 import { plain } from "./phrase";
-import { nouns, region, result, unit, view } from "./state";
+import { region, result, unit, view } from "./state";
 import { isDark } from "./theme";
 import { layoutOf, range, viewer } from "./viewer/stage-controller";
 import { REGION_NAMES } from "./views/names";
@@ -45,15 +45,15 @@ export async function savePicture(): Promise<void> {
 }
 
 function foot(pen: CanvasRenderingContext2D, width: number, top: number): void {
-  const report = result.peek()?.report;
+  const held = result.peek();
   const shown = range.peek();
   const line = (text: string, y: number, font: string) => {
     pen.font = font;
     pen.fillText(text, 12, top + y, width - 24);
   };
-  if (report) {
-    line(plain(headline(report, nouns.peek())), 52, `500 13px ${FONT}`);
-    line(`${settingsSentence(report)} · Shapevenn`, 72, `11px ${FONT}`);
+  if (held) {
+    line(plain(headline(held.report, held.nouns)), 52, `500 13px ${FONT}`);
+    line(`${settingsSentence(held.report)} · Shapevenn`, 72, `11px ${FONT}`);
   }
   if (!shown) return;
   const [left, length] = [70, Math.min(260, width - 330)];

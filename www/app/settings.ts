@@ -5,10 +5,7 @@ export const DEFAULTS: Settings = {
   sigma: null,
   seed: "1",
   sampler: "independence",
-  chains: 16,
-  draws: 4000,
-  burnIn: 10,
-  thin: 1,
+  ...budgetOf("independence"),
   modes: null,
   align: "none",
 };
@@ -34,9 +31,13 @@ export const ALIGNMENTS: Record<Alignment, { label: string; help: string }> = {
   similarity: { label: "With scale", help: "Turn, shift and scale B onto A." },
 };
 
-/** The random walk needs far longer chains than independent proposals. */
-export function chainLength(sampler: SamplerName): Pick<Settings, "burnIn" | "thin"> {
-  return sampler === "independence" ? { burnIn: 10, thin: 1 } : { burnIn: 2000, thin: 10 };
+/** What each sampler runs unless told otherwise: the random walk has the paper’s budget. */
+export function budgetOf(
+  sampler: SamplerName,
+): Pick<Settings, "chains" | "draws" | "burnIn" | "thin"> {
+  return sampler === "independence"
+    ? { chains: 16, draws: 4000, burnIn: 10, thin: 1 }
+    : { chains: 25, draws: 2500, burnIn: 2000, thin: 30 };
 }
 
 export const SEED_LIMIT = 2n ** 64n;

@@ -10,11 +10,10 @@ import type {
   Report,
   Settings,
 } from "../worker/protocol";
-import { FIRST_DEMO, findDemo } from "./demos";
+import { FIRST_DEMO, findDemo, type Nouns, nounsOf } from "./demos";
 import { defaultLink, type LinkState, type ViewMode } from "./link";
 import { DEFAULTS, settingsKey } from "./settings";
 import { type Camera, HOME } from "./viewer/camera";
-import type { Nouns } from "./words";
 
 export type Side = "a" | "b";
 export const SIDES: Side[] = ["a", "b"];
@@ -40,6 +39,7 @@ export interface Result {
   /** As downloaded. */
   text: string;
   key: string;
+  nouns: Nouns;
   /** Made beforehand, by the same engine. */
   stored: boolean;
   cancelled: boolean;
@@ -100,7 +100,7 @@ export const demo = computed(() => {
   return found?.b === b.name ? found : null;
 });
 
-export const nouns = computed<Nouns>(() => demo.value?.nouns ?? { a: "model A", b: "model B" });
+export const nouns = computed<Nouns>(() => demo.value?.nouns ?? nounsOf("model A", "model B"));
 
 export function sourceKey(source: Source): string {
   if (source.kind === "demo") return `demo:${source.name}`;

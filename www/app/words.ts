@@ -1,12 +1,8 @@
 /** What a report says, in plain words. Pure: no DOM, no engine. */
 import type { Progress, Report, SamplerName } from "../worker/protocol";
-import { count, length, number, percent, plusMinus } from "./format";
+import type { Nouns } from "./demos";
+import { count, degrees, length, number, percent, plusMinus } from "./format";
 import { figure, type Phrase } from "./phrase";
-
-export interface Nouns {
-  a: string;
-  b: string;
-}
 
 /** The thresholds of src/report.rs. */
 const R_HAT = 1.01;
@@ -26,23 +22,28 @@ export function headline(report: Report, nouns: Nouns): Phrase {
   ];
 }
 
+/** How far, in σ, a shape may lie from the other model for “both can make” to be a fair word. */
+const WITHIN = 2;
+
 export function shared(report: Report): Phrase {
   const { meanDistance, vertexSd } = report.intersection;
   const unit = report.models.a.unit;
   const [a, b] = [report.models.a.vertexSd.mean, report.models.b.vertexSd.mean];
   const away = plusMinus(meanDistance.mean, meanDistance.sd);
+  const meet = meanDistance.mean <= WITHIN * (report.settings.sigma ?? Number.POSITIVE_INFINITY);
   return [
-    "A shape that both can make lies ",
+    meet ? "A shape that both can make lies " : "The shapes that come nearest to both lie ",
     figure("intersection.meanDistance.mean", meanDistance.mean, away.mean),
     " ± ",
     figure("intersection.meanDistance.sd", meanDistance.sd, `${away.spread}\u202f${unit}`),
-    " from the nearest shape of the other model. Its points vary by ",
+    meet ? " from the nearest shape of the other model. Its" : " from the other model. Their",
+    " points vary by ",
     figure("intersection.vertexSd.mean", vertexSd.mean, length(vertexSd.mean, unit)),
     " on average, against ",
     figure("models.a.vertexSd.mean", a, number(a)),
     " in A and ",
     figure("models.b.vertexSd.mean", b, number(b)),
-    " in B.",
+    " in\u202fB.",
   ];
 }
 
@@ -51,29 +52,30 @@ export function differences(report: Report, nouns: Nouns): Phrase {
   const b = report.differences.bWithoutA.probability;
   const ofA = figure("differences.aWithoutB.probability", a, percent(a));
   const ofB = figure("differences.bWithoutA.probability", b, percent(b));
-  if (Math.min(a, b) >= NEARLY_ALL) {
+  const each: Phrase = [ofA, ` of ${nouns.shapesOfA} and `, ofB, ` of ${nouns.shapesOfB}`];
+  if (nearlyAllDiffers(report)) {
     return [
-      ofA,
-      ` of ${nouns.a} and `,
-      ofB,
-      ` of ${nouns.b} lie further than σ from the other model: at this σ nearly everything differs.`,
+      ...each,
+      " lie further than σ from the other model: at this σ nearly everything differs. ",
+      "Choose a larger σ to see what is special to one of them.",
     ];
   }
   if (Math.max(a, b) <= 1 - NEARLY_ALL) {
-    return [
-      "At this σ almost nothing differs: only ",
-      ofA,
-      ` of ${nouns.a} and `,
-      ofB,
-      ` of ${nouns.b} are out of the other’s reach.`,
-    ];
+    return ["At this σ almost nothing differs: only ", ...each, " are out of the other’s reach."];
   }
-  return [
-    ofA,
-    ` of ${nouns.a} are out of B’s reach at this σ, and `,
-    ofB,
-    ` of ${nouns.b} out of A’s.`,
-  ];
+  return [...each, " are out of the other model’s reach at this σ."];
+}
+
+function nearlyAllDiffers(report: Report): boolean {
+  const { aWithoutB, bWithoutA } = report.differences;
+  return Math.min(aWithoutB.probability, bWithoutA.probability) >= NEARLY_ALL;
+}
+
+/** The warnings that the sentences above do not say already. */
+export function furtherWarnings(report: Report): Report["warnings"] {
+  const said = new Set(["not-converged"]);
+  if (nearlyAllDiffers(report)) said.add("nearly-all-differs");
+  return report.warnings.filter(({ code }) => !said.has(code));
 }
 
 export function spaces(report: Report): Phrase {
@@ -90,9 +92,9 @@ export function spaces(report: Report): Phrase {
   return [
     ...sentence,
     " The directions of change they have most in common differ by ",
-    figure("overlap.principalAnglesDegrees.0", first, `${number(first, 2)}°`),
+    figure("overlap.principalAnglesDegrees.0", first, degrees(first)),
     ", those least so by ",
-    figure(`overlap.principalAnglesDegrees.${angles.length - 1}`, last, `${number(last, 2)}°`),
+    figure(`overlap.principalAnglesDegrees.${angles.length - 1}`, last, degrees(last)),
     ".",
   ];
 }

@@ -130,6 +130,11 @@ export class EngineClient {
     this.#send({ t: "close", model });
   }
 
+  dispose(): void {
+    this.#watch.stop();
+    this.#worker.terminate();
+  }
+
   async #opened(
     signal: AbortSignal,
     request: Request,

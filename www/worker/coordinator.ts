@@ -6,7 +6,7 @@
  * busy reads no messages and would not see a cancel.
  */
 import { isEngineError, sentenceOf } from "./engine-errors";
-import type { Engine, FromEngine, Stage, ToEngine } from "./protocol";
+import type { Engine, FromEngine, Handle, Stage, ToEngine } from "./protocol";
 import { firstBudget, isIndivisible, nextBudget } from "./slices";
 
 export type Post = (message: FromEngine, transfer?: Transferable[]) => void;
@@ -14,9 +14,12 @@ export type Post = (message: FromEngine, transfer?: Transferable[]) => void;
 interface Run {
   id: number;
   begun: number;
+  /** Seconds spent reading the two models. */
+  loading: number;
   /** Milliseconds spent drawing. */
   drawing: number;
   budget: number;
+  evaluated: number;
   stage: Stage;
   posted: number;
 }
@@ -40,6 +43,8 @@ export class Coordinator {
   #post: Post;
   #later: (work: () => void) => void;
   #run: Run | null = null;
+  /** Seconds that reading each model took. */
+  #loading = new Map<Handle, number>();
 
   constructor(engine: Engine, post: Post, later: (work: () => void) => void) {
     this.#engine = engine;
@@ -73,11 +78,14 @@ export class Coordinator {
         break;
       case "cancel":
         if (this.#run?.id !== message.id) break;
+        // The engine measures what there is before it returns.
+        this.#busy("measuring");
         this.#engine.cancel();
         this.#finish(this.#run, true);
         break;
       case "close":
         this.#engine.close(message.model);
+        this.#loading.delete(message.model);
         break;
       default: {
         this.#busy(BUSY_WITH[message.t]);
@@ -91,13 +99,11 @@ export class Coordinator {
     const engine = this.#engine;
     const { id } = message;
     switch (message.t) {
-      case "open": {
-        const opened = engine.open(message.name, new Uint8Array(message.bytes));
-        return { t: "opened", id, ...opened };
-      }
+      case "open":
+        return this.#opened(id, () => engine.open(message.name, new Uint8Array(message.bytes)));
       case "openDemo": {
         const bytes = message.bytes === null ? undefined : new Uint8Array(message.bytes);
-        return { t: "opened", id, ...engine.openDemo(message.demo, bytes) };
+        return this.#opened(id, () => engine.openDemo(message.demo, bytes));
       }
       case "geometry":
         return { t: "geometry", id, geometry: engine.geometry(message.model) };
@@ -117,14 +123,24 @@ export class Coordinator {
     }
   }
 
+  #opened(id: number, open: () => ReturnType<Engine["open"]>): FromEngine {
+    const begun = performance.now();
+    const opened = open();
+    const seconds = (performance.now() - begun) / 1000;
+    for (const { model } of opened.parts) this.#loading.set(model, seconds);
+    return { t: "opened", id, ...opened };
+  }
+
   #start(message: Extract<ToEngine, { t: "run" }>): void {
     this.#supersede();
     this.#busy("preparing the comparison");
     const run: Run = {
       id: message.id,
       begun: performance.now(),
+      loading: (this.#loading.get(message.a) ?? 0) + (this.#loading.get(message.b) ?? 0),
       drawing: 0,
       budget: firstBudget(),
+      evaluated: 0,
       stage: "prepare",
       posted: 0,
     };
@@ -138,7 +154,6 @@ export class Coordinator {
     const run = this.#run;
     if (run === null) return;
     this.#run = null;
-    this.#engine.cancel();
     this.#post({
       t: "error",
       id: run.id,
@@ -156,7 +171,8 @@ export class Coordinator {
       const progress = this.#engine.advance(run.budget);
       const now = performance.now();
       if (run.stage === "intersection" || run.stage === "differences") run.drawing += now - begun;
-      run.budget = nextBudget(run.budget, now - begun);
+      run.budget = nextBudget(run.budget, progress.evaluations - run.evaluated, now - begun);
+      run.evaluated = progress.evaluations;
       const changed = progress.stage !== run.stage;
       run.stage = progress.stage;
       if (progress.stage === "done") {
@@ -177,7 +193,7 @@ export class Coordinator {
   #finish(run: Run, cancelled: boolean): void {
     this.#busy("measuring");
     const total = (performance.now() - run.begun) / 1000;
-    const report = this.#engine.report(total, run.drawing / 1000);
+    const report = this.#engine.report(total, run.drawing / 1000, run.loading);
     this.#run = null;
     this.#post({ t: "done", id: run.id, cancelled, report });
   }

@@ -5,9 +5,8 @@ import type { WorkerStart } from "./start";
 /** What `wasm-bindgen --target web` makes of src/wasm.rs. */
 interface EnginePackage {
   default(options?: object): Promise<unknown>;
-  Engine: new () => Engine;
+  Engine: { new (): Engine; version(): string };
   initThreadPool?(threads: number): Promise<unknown>;
-  version?(): string;
 }
 
 export interface Loaded {
@@ -33,7 +32,7 @@ export async function loadEngine(start: WorkerStart): Promise<Loaded> {
     engine: new serial.Engine(),
     build: "serial",
     threads: 1,
-    version: serial.version?.() ?? "",
+    version: serial.Engine.version(),
   };
 }
 
@@ -41,7 +40,7 @@ async function loadThreads(base: string): Promise<Loaded> {
   const pack = await importPackage(base, "threads");
   const threads = navigator.hardwareConcurrency;
   await pack.initThreadPool?.(threads);
-  return { engine: new pack.Engine(), build: "threads", threads, version: pack.version?.() ?? "" };
+  return { engine: new pack.Engine(), build: "threads", threads, version: pack.Engine.version() };
 }
 
 async function importPackage(base: string, build: "threads" | "serial"): Promise<EnginePackage> {

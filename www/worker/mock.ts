@@ -17,7 +17,7 @@ import type {
   Stage,
 } from "./protocol";
 
-const RUN_EVALUATIONS = 6000;
+const RUN_EVALUATIONS = 16_000;
 
 export async function mockEngine(base: string): Promise<Engine> {
   const heads = await packagedHeads(base);

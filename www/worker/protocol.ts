@@ -214,7 +214,7 @@ export interface Engine {
   /** Ends the run with what was drawn so far. */
   cancel(): void;
   /** The report as JSON text; `seconds` as the worker's clock measured them. */
-  report(secondsTotal: number, secondsSample: number): string;
+  report(secondsTotal: number, secondsSample: number, secondsLoad?: number): string;
   restore(a: Handle, b: Handle, report: string, draws: Uint8Array): void;
   region(region: Region, count: number, seed: string): RegionShapes;
   export(what: ExportKind): { name: string; mime: string; bytes: Uint8Array };

@@ -11,11 +11,14 @@ export function firstBudget(): number {
   return FIRST_BUDGET;
 }
 
-/** The next number of evaluations, from how long the last ones took. */
-export function nextBudget(budget: number, milliseconds: number): number {
-  const wanted = SLICE_MS / Math.max(milliseconds, 0.5);
-  const factor = Math.min(4, Math.max(0.25, wanted));
-  return Math.round(Math.min(LARGEST_BUDGET, Math.max(1, budget * factor)));
+/**
+ * The next number of evaluations, from how many were done in how long. Work that evaluates nothing
+ * says nothing of what an evaluation costs.
+ */
+export function nextBudget(budget: number, evaluated: number, milliseconds: number): number {
+  if (evaluated <= 0) return budget;
+  const wanted = (evaluated * SLICE_MS) / Math.max(milliseconds, 0.5);
+  return Math.round(Math.min(LARGEST_BUDGET, 4 * budget, Math.max(1, wanted)));
 }
 
 /** Stages that the engine may do in one go, without a chance for a beat. */

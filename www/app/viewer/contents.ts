@@ -1,6 +1,6 @@
 /** From the state to what the panes show. Pure. */
 import type { Geometry, Region, RegionShapes } from "../../worker/protocol";
-import type { ViewMode } from "../link";
+import { REGIONS, type ViewMode } from "../link";
 import { rimFade } from "./rim";
 import { type Frame, frameOf, type PaneContent } from "./viewer";
 
@@ -68,7 +68,7 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
   const many = scene.mode === "samples" && current && found;
   const surface = geometry.triangles !== null;
   const cloud = !surface && geometry.segments === null;
-  const shapes = many || (cloud && found && current) ? withSamples(found) : [shown.mean];
+  const shapes = many || (cloud && found && current) ? samplesOf(found) : [shown.mean];
   const shade = scene.dark ? "dark" : "light";
   return {
     region,
@@ -88,26 +88,31 @@ export function cardContent(geometry: Geometry, side: Region, scene: Scene): Pan
   return contentOf({ ...alone, geometry: { a: geometry, b: geometry } }, side);
 }
 
+/** One frame for all panes, whatever they show just now. */
 export function sceneFrame(scene: Scene): Frame {
-  const geometry = scene.geometry.a ?? scene.geometry.b;
-  const dimension = geometry?.dimension ?? 3;
-  const means: Float32Array[] = [];
-  for (const side of ["a", "b"] as const) {
-    const content = contentOf(
-      { ...scene, mode: scene.mode === "samples" ? "samples" : "mean" },
-      side,
-    );
-    if (content) means.push(...(content.overlaid ? content.shapes : content.shapes.slice(0, 1)));
-  }
-  const fade = contentOf({ ...scene, mode: "mean" }, "a")?.fade ?? null;
-  return frameOf(means, dimension, fade);
+  const dimension = (scene.geometry.a ?? scene.geometry.b)?.dimension ?? 3;
+  const means = contentsOf({ ...scene, mode: "mean" }, ["a", "b"]);
+  const many = scene.mode === "samples" || means.some((content) => content.overlaid);
+  const shown = many ? contentsOf({ ...scene, mode: "samples" }, REGIONS) : means;
+  const fade = means[0]?.fade ?? null;
+  return frameOf(
+    [...means, ...shown].flatMap((content) => content.shapes),
+    dimension,
+    fade,
+  );
 }
 
-function withSamples(found: RegionShapes): Float32Array[] {
+const split = new WeakMap<RegionShapes, Float32Array[]>();
+
+/** Always the same arrays for the same shapes, so that a viewer can keep what it made of them. */
+function samplesOf(found: RegionShapes): Float32Array[] {
+  const known = split.get(found);
+  if (known) return known;
   const length = found.mean.length;
   const samples = Array.from({ length: found.count }, (_, i) =>
     found.samples.subarray(i * length, (i + 1) * length),
   ).filter((sample) => sample.length === length);
+  split.set(found, samples);
   return samples;
 }
 

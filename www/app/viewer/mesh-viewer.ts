@@ -82,11 +82,16 @@ export class MeshViewer implements Viewer {
   }
 
   setMesh(panes: PaneContent[], frame: Frame): void {
-    for (const pane of this.#panes) discard(pane.objects);
+    const former = this.#panes;
     this.#frame = frame;
-    this.#panes = panes.map((content) => ({ content, objects: this.#objectsOf(content) }));
+    this.#panes = panes.map((content) => {
+      const kept = former.find((pane) => sameShapes(pane.content, content));
+      return { content, objects: kept?.objects ?? this.#objectsOf(content) };
+    });
+    const used = new Set(this.#panes.flatMap((pane) => pane.objects));
+    discard(former.flatMap((pane) => pane.objects).filter((object) => !used.has(object)));
     this.#paint();
-    for (const pane of this.#panes) this.#scene.add(...pane.objects);
+    this.#scene.add(...used);
     this.#request();
   }
 
@@ -143,7 +148,7 @@ export class MeshViewer implements Viewer {
     this.#hideAll();
     for (const object of objects) object.visible = true;
     const ratio = this.#renderer.getPixelRatio();
-    const side = Math.min(size, this.#size.width, this.#size.height);
+    const side = Math.floor(Math.min(size, this.#size.width, this.#size.height));
     const cell = { x: 0, y: 0, width: side, height: side };
     this.#renderer.setScissorTest(false);
     this.#renderer.clear();
@@ -236,7 +241,7 @@ export class MeshViewer implements Viewer {
 
   #objectsOf(content: PaneContent): Object3D[] {
     const { triangles, segments } = content;
-    return content.shapes.map((shape, i) => {
+    return content.shapes.map((shape) => {
       const geometry = new BufferGeometry();
       geometry.setAttribute("position", new BufferAttribute(shape, 3));
       const colours = new Float32Array((shape.length / 3) * 4);
@@ -250,11 +255,7 @@ export class MeshViewer implements Viewer {
         geometry.setIndex(this.#index(segments));
         return new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true }));
       }
-      const size = content.shapes.length > 1 && i > 0 ? 4 : 9;
-      return new Points(
-        geometry,
-        new PointsMaterial({ vertexColors: true, size, sizeAttenuation: false }),
-      );
+      return new Points(geometry, dot(content.shapes.length > 1 ? 3.5 : 9));
     });
   }
 
@@ -308,6 +309,30 @@ function clay(fades: boolean): MeshLambertMaterial {
     );
   };
   return material;
+}
+
+/** A round point, `size` CSS pixels wide. */
+function dot(size: number): PointsMaterial {
+  const width = size * Math.min(devicePixelRatio, 2);
+  const material = new PointsMaterial({ vertexColors: true, size: width, sizeAttenuation: false });
+  material.onBeforeCompile = (shader) => {
+    shader.fragmentShader = shader.fragmentShader.replace(
+      "#include <clipping_planes_fragment>",
+      "#include <clipping_planes_fragment>\nif ( distance( gl_PointCoord, vec2( 0.5 ) ) > 0.5 ) discard;",
+    );
+  };
+  return material;
+}
+
+function sameShapes(one: PaneContent, other: PaneContent): boolean {
+  return (
+    one.region === other.region &&
+    one.triangles === other.triangles &&
+    one.segments === other.segments &&
+    one.fade === other.fade &&
+    one.shapes.length === other.shapes.length &&
+    one.shapes.every((shape, i) => shape === other.shapes[i])
+  );
 }
 
 function contains(rect: Rect, x: number, y: number): boolean {

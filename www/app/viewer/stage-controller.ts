@@ -13,8 +13,8 @@ import type { Hit, Rect, Viewer } from "./viewer";
 export const hover = signal<(Hit & { x: number; y: number }) | null>(null);
 /** Set while a viewer is there, for pictures. */
 export const viewer = signal<Viewer | null>(null);
-/** Bumped when a card should ask for its picture again. */
-export const drawable = signal(0);
+/** Whether a card can have its picture drawn. */
+export const drawable = signal(false);
 
 export const scene = computed<Scene>(() => ({
   geometry: { a: slots.a.value?.geometry ?? null, b: slots.b.value?.geometry ?? null },
@@ -60,12 +60,14 @@ export function takeCanvas(
     stops.push(
       effect(() => {
         made.setMesh(contentsOf(scene.value, regionsShown.value), sceneFrame(scene.value));
-        drawable.value = drawable.peek() + 1;
       }),
       effect(() => made.setColors(range.value)),
       effect(() => made.setCamera(camera.value)),
     );
-    const lay = () => made.setLayout(...layoutOf(canvas));
+    const lay = () => {
+      made.setLayout(...layoutOf(canvas));
+      drawable.value = true;
+    };
     const observer = new ResizeObserver(lay);
     observer.observe(canvas);
     for (const pane of panes.values()) observer.observe(pane);
@@ -83,6 +85,7 @@ export function takeCanvas(
     for (const stop of stops) stop();
     viewer.peek()?.dispose();
     viewer.value = null;
+    drawable.value = false;
     hover.value = null;
   };
 }

@@ -79,7 +79,7 @@ export function cellsOf(rect: Rect, count: number, frame: Frame): Rect[] {
 }
 
 /** Room round the shapes. */
-const MARGIN = 1.05;
+const MARGIN = 1.07;
 
 /** Half of the height that a cell must show to hold the frame. */
 export function halfHeightIn(rect: Rect, frame: Frame): number {
@@ -98,7 +98,7 @@ export function frameOf(
   for (const shape of shapes) {
     for (let i = 0; i < shape.length; i += 1) {
       const axis = i % dimension;
-      if ((fade?.[(i - axis) / dimension] ?? 1) < 0.6) continue;
+      if ((fade?.[(i - axis) / dimension] ?? 1) < 0.2) continue;
       const value = shape[i] ?? 0;
       if (value < (low[axis] ?? 0)) low[axis] = value;
       if (value > (high[axis] ?? 0)) high[axis] = value;
@@ -112,10 +112,12 @@ export function frameOf(
     const extent = (high[axis] ?? 0) - (low[axis] ?? 0);
     return Number.isFinite(extent) ? extent / 2 : 0;
   };
+  // Far from the origin, single precision cannot tell smaller frames.
+  const least = Math.max(1e-9, 1e-2 * Math.hypot(middle(0), middle(1), middle(2)));
   const across = dimension === 2 ? half(0) : Math.max(half(0), half(2));
   return {
     centre: [middle(0), middle(1), middle(2)],
-    halfWidth: Math.max(across, half(1) * 0.05, 1e-9),
-    halfHeight: Math.max(half(1), across * 0.05, 1e-9),
+    halfWidth: Math.max(across, half(1) * 0.05, least),
+    halfHeight: Math.max(half(1), across * 0.05, least),
   };
 }

@@ -25,15 +25,13 @@ export function Field({
         {label}
       </span>
       <div class="field-input">{children}</div>
-      <button
-        type="button"
-        class="reset"
-        onClick={onReset}
-        disabled={!changed}
-        aria-label={changed ? `reset ${label} to its default` : `${standardWord}: ${label}`}
-      >
-        {changed ? "reset" : standardWord}
-      </button>
+      {changed ? (
+        <button type="button" class="reset" onClick={onReset}>
+          reset<span class="unseen"> {label} to its default</span>
+        </button>
+      ) : (
+        <span class="standard">{standardWord}</span>
+      )}
     </div>
   );
 }

@@ -1,9 +1,9 @@
-import { useComputed } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { bytes, count, length } from "../format";
 import { choosePart, nameOf, openFiles } from "../models";
 import { chosenPart, demo, opening, result, type Side, slots } from "../state";
-import { cardPicture, drawable, viewer } from "../viewer/stage-controller";
+import { isDark } from "../theme";
+import { cardPicture, drawable } from "../viewer/stage-controller";
 import { Notices } from "./Notices";
 import { Scree } from "./Scree";
 
@@ -107,7 +107,7 @@ function OpenButton({ side }: { side: Side }) {
 /** Drawn by the one viewer of the page and copied here. */
 function Picture({ side }: { side: Side }) {
   const target = useRef<HTMLCanvasElement>(null);
-  const ready = useComputed(() => `${viewer.value !== null} ${drawable.value}`);
+  const key = `${drawable.value} ${isDark()}`;
   const geometry = slots[side].value?.geometry;
   useEffect(() => {
     const canvas = target.current;
@@ -116,7 +116,7 @@ function Picture({ side }: { side: Side }) {
     canvas.width = picture.width;
     canvas.height = picture.height;
     canvas.getContext("2d")?.drawImage(picture, 0, 0);
-  }, [geometry, ready.value, side]);
+  }, [geometry, key, side]);
   return (
     <canvas
       ref={target}

@@ -1,32 +1,36 @@
 import type { Report } from "../../worker/protocol";
-import { count } from "../format";
+import { count, degrees } from "../format";
 import { DIAGNOSTICS, GROUPS, type Group, valueAt } from "../numbers";
-import { nouns, outOfDate, result } from "../state";
-import { belief, differences, headline, shared, spaces } from "../words";
+import { outOfDate, result } from "../state";
+import { belief, differences, furtherWarnings, headline, shared, spaces } from "../words";
 import { Metric, Phrase } from "./Phrase";
 
 export function Headline() {
-  const report = result.value?.report;
+  const held = result.value;
   return (
     <h2 class="headline" data-stale={outOfDate.value}>
-      {report ? <Phrase parts={headline(report, nouns.value)} /> : "Comparing two models of shape."}
+      {held ? (
+        <Phrase parts={headline(held.report, held.nouns)} />
+      ) : (
+        "Comparing two models of shape."
+      )}
     </h2>
   );
 }
 
 export function Results() {
-  const report = result.value?.report;
-  if (!report) return null;
+  const held = result.value;
+  if (!held) return null;
+  const { report, nouns } = held;
   const { converged, phrase } = belief(report);
   return (
     <section class="results" aria-label="Results" data-stale={outOfDate.value}>
-      {outOfDate.value && <p class="stale-note">Out of date: these numbers are of another run.</p>}
       <ul class="says">
         <li data-about="intersection">
           <Phrase parts={shared(report)} />
         </li>
         <li data-about="differences">
-          <Phrase parts={differences(report, nouns.value)} />
+          <Phrase parts={differences(report, nouns)} />
         </li>
         <li data-about="spaces">
           <Phrase parts={spaces(report)} />
@@ -35,7 +39,7 @@ export function Results() {
           <Phrase parts={phrase} />
         </li>
       </ul>
-      {report.warnings.map(({ code, message, hint }) => (
+      {furtherWarnings(report).map(({ code, message, hint }) => (
         <p key={code} class="warning" data-code={code}>
           {message} <span class="dim">{hint}</span>
         </p>
@@ -51,7 +55,7 @@ export function Results() {
           below 0.7. A difference is sampled exactly, so its draws are independent and have no
           R-hat.
         </p>
-        <Angles degrees={report.overlap.principalAnglesDegrees} />
+        <Angles angles={report.overlap.principalAnglesDegrees} />
       </details>
     </section>
   );
@@ -96,17 +100,17 @@ function Numbers({ group, report }: { group: Group; report: Report }) {
   );
 }
 
-function Angles({ degrees }: { degrees: number[] }) {
-  if (degrees.length === 0) return null;
+function Angles({ angles }: { angles: number[] }) {
+  if (angles.length === 0) return null;
   return (
     <div class="angles">
       <h3>Principal angles between the two spaces</h3>
       <ol>
-        {degrees.map((angle, i) => {
+        {angles.map((angle, i) => {
           const path = `overlap.principalAnglesDegrees.${i}`;
           return (
             <li key={path}>
-              <Metric path={path} value={angle} text={`${angle.toFixed(1)}°`} />
+              <Metric path={path} value={angle} text={degrees(angle)} />
             </li>
           );
         })}

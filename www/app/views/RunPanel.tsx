@@ -26,7 +26,12 @@ function Idle() {
         </button>
         <p class="run-state">{stateSentence()}</p>
       </div>
-      {held && !outOfDate.value && <p class="settings-line">{settingsSentence(held.report)}</p>}
+      {held && (
+        <p class="settings-line">
+          {outOfDate.value && "Shown: "}
+          {settingsSentence(held.report)}
+        </p>
+      )}
     </>
   );
 }

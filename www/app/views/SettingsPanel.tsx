@@ -2,7 +2,7 @@ import type { Alignment, SamplerName, Settings } from "../../worker/protocol";
 import { number } from "../format";
 import {
   ALIGNMENTS,
-  chainLength,
+  budgetOf,
   DEFAULTS,
   parseCount,
   parseSeed,
@@ -19,6 +19,7 @@ function change(part: Partial<Settings>): void {
 
 export function SettingsPanel() {
   const now = settings.value;
+  const budget = budgetOf(now.sampler);
   return (
     <section class="settings" aria-label="Settings">
       <SigmaField />
@@ -27,7 +28,7 @@ export function SettingsPanel() {
         value={now.sampler}
         options={SAMPLERS}
         standard={DEFAULTS.sampler}
-        onChoose={(sampler: SamplerName) => change({ sampler, ...chainLength(sampler) })}
+        onChoose={(sampler: SamplerName) => change({ sampler, ...budgetOf(sampler) })}
       />
       <Choice
         label="Align B to A"
@@ -48,7 +49,7 @@ export function SettingsPanel() {
       <TypedField
         label="Chains"
         value={String(now.chains)}
-        standard={String(DEFAULTS.chains)}
+        standard={String(budget.chains)}
         parse={(text) => parseCount(text, 2, 1024)}
         onChange={(chains) => change({ chains, draws: Math.max(now.draws, 8 * chains) })}
         wrong="2 to 1024"
@@ -56,7 +57,7 @@ export function SettingsPanel() {
       <TypedField
         label="Draws a side"
         value={String(now.draws)}
-        standard={String(DEFAULTS.draws)}
+        standard={String(budget.draws)}
         parse={(text) => parseCount(text, 8 * now.chains, 10_000_000)}
         onChange={(draws) => change({ draws })}
         wrong={`${8 * now.chains} to 10 000 000`}

@@ -1,7 +1,7 @@
 import { useEffect, useRef } from "preact/hooks";
 import type { Region } from "../../worker/protocol";
 import { number } from "../format";
-import { emptyRegions, outOfDate, region, run, shapes, slots, unit, view } from "../state";
+import { emptyRegions, outOfDate, region, result, run, shapes, slots, unit, view } from "../state";
 import { dimension, hover, ownRange, range, scene, takeCanvas } from "../viewer/stage-controller";
 import { ColorBar } from "./ColorBar";
 import { BackIcon, ExpandIcon } from "./icons";
@@ -115,13 +115,20 @@ function Pane({ name, panes }: { name: Region; panes: Map<Region, HTMLElement> }
 function PaneNote({ name }: { name: Region }) {
   const empty = emptyRegions.value[name];
   const own = name === "a" || name === "b";
-  if (empty) return <p class="pane-note">{empty}</p>;
+  if (empty)
+    return <p class="pane-note">{isEmpty(name) ? "Empty: there is no such shape." : empty}</p>;
   if (shapes.value[name] || (own && slots[name].value)) {
     return shapes.value[name]?.source === "fit" ? <p class="pane-note">first guess</p> : null;
   }
   return (
     <p class="pane-note">{run.value ? "waiting for draws" : slots.a.value ? "" : "loading"}</p>
   );
+}
+
+/** A difference that has no shapes, rather than none yet. */
+function isEmpty(name: Region): boolean {
+  if (name !== "aWithoutB" && name !== "bWithoutA") return false;
+  return result.value?.report.differences[name].diagnostics.draws === 0;
 }
 
 function Tooltip() {

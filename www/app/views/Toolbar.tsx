@@ -1,7 +1,7 @@
 import { resample } from "../comparison";
 import { VIEW_MODES, type ViewMode } from "../link";
 import { savePicture } from "../picture";
-import { camera, lockedRange, region, view } from "../state";
+import { camera, lockedRange, outOfDate, region, view } from "../state";
 import { HOME } from "../viewer/camera";
 import { range } from "../viewer/stage-controller";
 import { DownloadIcon } from "./icons";
@@ -49,7 +49,7 @@ export function Toolbar() {
           Lock scale
         </label>
       )}
-      <span class="grow" />
+      <span class="grow">{outOfDate.value && <span class="stale-chip">Out of date</span>}</span>
       {region.value !== null && (
         <button
           type="button"

@@ -1,0 +1,105 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { EngineClient } from "../../www/worker/client";
+import type { FromEngine, ToEngine } from "../../www/worker/protocol";
+
+class FakeWorker {
+  sent: ToEngine[] = [];
+  ended = false;
+  onmessage: ((event: { data: FromEngine }) => void) | null = null;
+  onerror: (() => void) | null = null;
+  postMessage(message: ToEngine) {
+    this.sent.push(message);
+  }
+  terminate() {
+    this.ended = true;
+  }
+  say(message: FromEngine) {
+    this.onmessage?.({ data: message });
+  }
+  last(): ToEngine & { id: number } {
+    return this.sent.at(-1) as ToEngine & { id: number };
+  }
+}
+
+function begin() {
+  const workers: (FakeWorker & { serial: boolean })[] = [];
+  const events: string[] = [];
+  const client = new EngineClient(
+    (serial) => {
+      const worker = Object.assign(new FakeWorker(), { serial });
+      workers.push(worker);
+      return worker as unknown as Worker;
+    },
+    {
+      onReady: () => events.push("ready"),
+      onRestart: () => events.push("restart"),
+      onGiveUp: () => events.push("gone"),
+    },
+  );
+  const worker = () => workers.at(-1) as FakeWorker & { serial: boolean };
+  worker().say({ t: "ready", protocol: 1, build: "serial", threads: 1, engine: "0" });
+  return { client, workers, worker, events };
+}
+
+const never = () => new AbortController().signal;
+
+test("replies find their question", async () => {
+  const { client, worker } = begin();
+  const first = client.region(never(), "a", 1, "1");
+  const { id } = worker().last();
+  const second = client.export(never(), { kind: "report-json" });
+  worker().say({ t: "exported", id: id + 1, name: "n", mime: "m", bytes: new ArrayBuffer(0) });
+  assert.equal((await second).name, "n");
+  worker().say({ t: "error", id, code: "nothing-yet", message: "Nothing yet.", hint: "Wait." });
+  await assert.rejects(first, { code: "nothing-yet", hint: "Wait." });
+  client.dispose();
+});
+
+test("aborting a run cancels it and still resolves with what was drawn", async () => {
+  const { client, worker } = begin();
+  const controller = new AbortController();
+  const run = client.run(controller.signal, 1, 2, {}, () => {});
+  const { id } = worker().last();
+  controller.abort();
+  assert.deepEqual(worker().last(), { t: "cancel", id });
+  worker().say({ t: "done", id, cancelled: true, report: "{}" });
+  assert.equal((await run).cancelled, true);
+  client.dispose();
+});
+
+test("a model that nobody waits for any more is closed", async () => {
+  const { client, worker } = begin();
+  const controller = new AbortController();
+  const opening = client.open(controller.signal, "x.h5", new ArrayBuffer(1));
+  const { id } = worker().last();
+  controller.abort();
+  const part = { model: 5, part: "shape", report: {} };
+  worker().say({ t: "opened", id, format: "f", parts: [part] } as unknown as FromEngine);
+  await assert.rejects(opening, { name: "AbortError" });
+  assert.deepEqual(worker().last(), { t: "close", model: 5 });
+  client.dispose();
+});
+
+test("after a panic every promise rejects and a new worker starts", async () => {
+  const { client, worker, workers, events } = begin();
+  const asked = client.region(never(), "b", 1, "1");
+  worker().say({ t: "fatal", message: "unreachable" });
+  await assert.rejects(asked, { code: "engine-stopped" });
+  assert.equal(workers.length, 2);
+  assert.equal(workers[0]?.ended, true);
+  assert.deepEqual(events, ["ready", "restart"]);
+  client.dispose();
+});
+
+test("a worker that cannot start with threads is tried without, then given up", () => {
+  const { client, worker, workers, events } = begin();
+  worker().say({ t: "fatal", message: "one" });
+  worker().onerror?.();
+  assert.equal(worker().serial, true);
+  worker().onerror?.();
+  worker().onerror?.();
+  assert.equal(events.at(-1), "gone");
+  assert.equal(workers.length, 4);
+  client.dispose();
+});

@@ -1,0 +1,151 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Coordinator } from "../../www/worker/coordinator";
+import type { Engine, FromEngine, Progress } from "../../www/worker/protocol";
+import { nextBudget, SLICE_MS } from "../../www/worker/slices";
+
+/** An engine that is done after `slices` slices, and the messages that its coordinator posts. */
+function begin(slices: number, change: Partial<Engine> = {}) {
+  const posted: FromEngine[] = [];
+  const waiting: (() => void)[] = [];
+  let left = slices;
+  const engine = {
+    start() {},
+    cancel() {},
+    close() {},
+    advance: () => progress(--left <= 0 ? "done" : "intersection"),
+    report: () => "{}",
+    ...change,
+  } as Engine;
+  const coordinator = new Coordinator(
+    engine,
+    (message) => posted.push(message),
+    (work) => waiting.push(work),
+  );
+  const step = () => waiting.shift()?.();
+  const kinds = () => posted.map(({ t }) => t);
+  return { coordinator, posted, step, kinds };
+}
+
+function progress(stage: Progress["stage"]): Progress {
+  return {
+    stage,
+    fraction: 0.5,
+    evaluations: 1,
+    draws: 1,
+    acceptance: null,
+    rHatMax: null,
+    essBulkMin: null,
+    sigma: null,
+    hasIntersection: false,
+  };
+}
+
+const run = { t: "run", id: 7, a: 1, b: 2, settings: {} } as const;
+
+test("a run is done in slices, with a macrotask between them", () => {
+  const { coordinator, step, kinds } = begin(2);
+  coordinator.receive(run);
+  assert.deepEqual(kinds(), ["busy"]);
+  step();
+  assert.ok(kinds().includes("progress"));
+  step();
+  assert.equal(kinds().at(-1), "done");
+});
+
+test("a cancel between two slices ends the run with a report", () => {
+  let cancelled = 0;
+  const { coordinator, step, posted } = begin(100, { cancel: () => void cancelled++ });
+  coordinator.receive(run);
+  step();
+  coordinator.receive({ t: "cancel", id: 7 });
+  assert.equal(cancelled, 1);
+  assert.deepEqual(posted.at(-1), { t: "done", id: 7, cancelled: true, report: "{}" });
+  const before = posted.length;
+  step();
+  assert.equal(posted.length, before, "no slice after the cancel");
+});
+
+test("a cancel of another run changes nothing", () => {
+  const { coordinator, step, kinds } = begin(1);
+  coordinator.receive(run);
+  coordinator.receive({ t: "cancel", id: 6 });
+  step();
+  assert.equal(kinds().at(-1), "done");
+});
+
+test("a second run supersedes the first", () => {
+  const { coordinator, posted } = begin(5);
+  coordinator.receive(run);
+  coordinator.receive({ ...run, id: 8 });
+  const error = posted.find((message) => message.t === "error");
+  assert.equal(error?.t === "error" && error.id === 7 && error.code, "superseded");
+});
+
+test("an error of the engine is answered with its code, a panic is fatal", () => {
+  const refused = begin(1, {
+    start: () => {
+      throw {
+        code: "point-count-mismatch",
+        message: "A has 3 points, B has 4.",
+        hint: "Same template.",
+      };
+    },
+  });
+  refused.coordinator.receive(run);
+  assert.deepEqual(refused.posted.at(-1), {
+    t: "error",
+    id: 7,
+    code: "point-count-mismatch",
+    message: "A has 3 points, B has 4.",
+    hint: "Same template.",
+  });
+  const dead = begin(1, {
+    advance: () => {
+      throw new Error("unreachable");
+    },
+  });
+  dead.coordinator.receive(run);
+  dead.step();
+  assert.deepEqual(dead.posted.at(-1), { t: "fatal", message: "unreachable" });
+});
+
+test("arrays are given away, not copied", () => {
+  const given: Transferable[][] = [];
+  const samples = new Float32Array(3);
+  const region = {
+    region: "a",
+    mean: samples,
+    vertexSd: new Float32Array(1),
+    samples,
+    count: 1,
+    source: "draws",
+  };
+  const engine = { region: () => region } as unknown as Engine;
+  new Coordinator(
+    engine,
+    (_, transfer = []) => given.push(transfer),
+    () => {},
+  ).receive({
+    t: "region",
+    id: 1,
+    region: "a",
+    count: 1,
+    seed: "1",
+  });
+  assert.equal(given.at(-1)?.length, 2, "a buffer that is shared is given once");
+});
+
+test("the budget of a slice settles where a slice takes the wanted time", () => {
+  let budget = 64;
+  const perEvaluation = 0.31;
+  for (let i = 0; i < 20; i += 1) budget = nextBudget(budget, budget, budget * perEvaluation);
+  assert.ok(Math.abs(budget * perEvaluation - SLICE_MS) < 1);
+  assert.equal(nextBudget(1, 1, 5000), 1, "never less than one");
+});
+
+test("work without evaluations leaves the budget alone", () => {
+  // Regression: it grew while the run was prepared, and the first slice of sampling took 20 s.
+  assert.equal(nextBudget(64, 0, 0.1), 64);
+  assert.equal(nextBudget(64, 64, 0.001), 256, "grows no more than fourfold at a time");
+});

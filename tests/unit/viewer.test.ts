@@ -1,0 +1,52 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { commonRange, viridis } from "../../www/app/colormap";
+import { HOME, orbit, zoomBy } from "../../www/app/viewer/camera";
+import { pickVertex } from "../../www/app/viewer/pick";
+import { rimFade } from "../../www/app/viewer/rim";
+import { cellsOf, frameOf } from "../../www/app/viewer/viewer";
+
+test("an open rim fades, a closed surface does not", () => {
+  const tetrahedron = Uint32Array.from([0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2]);
+  assert.equal(rimFade(tetrahedron, 4, 2), null);
+  const fade = rimFade(tetrahedron.subarray(0, 9), 4, 2);
+  assert.deepEqual([...(fade ?? [])], [0.5, 0, 0, 0]);
+});
+
+test("cells hold every shape and stay in their pane", () => {
+  const pane = { x: 10, y: 20, width: 300, height: 200 };
+  const cells = cellsOf(pane, 9, { centre: [0, 0, 0], halfWidth: 1, halfHeight: 1.3 });
+  assert.equal(cells.length, 9);
+  for (const cell of cells) {
+    assert.ok(cell.x >= 10 && cell.x + cell.width <= 310.001);
+    assert.ok(cell.y >= 20 && cell.y + cell.height <= 220.001);
+  }
+});
+
+test("a frame holds a shape from every side", () => {
+  const frame = frameOf([Float32Array.from([-1, -2, -3, 1, 2, 3])], 3);
+  assert.deepEqual(frame.centre, [0, 0, 0]);
+  assert.equal(frame.halfWidth, 3);
+  assert.equal(frame.halfHeight, 2);
+});
+
+test("the nearest of two vertices under the pointer is picked", () => {
+  const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
+  const points = Float32Array.from([0, 0, 0.5, 0, 0, -0.5, 0.9, 0.9, -1]);
+  const at = { x: 50, y: 50, width: 100, height: 100 };
+  assert.equal(pickVertex(points, 3, identity, at)?.vertex, 1);
+  assert.equal(pickVertex(points, 3, identity, { ...at, x: 20 }), null);
+});
+
+test("the camera stays upright and within its zoom", () => {
+  assert.equal(orbit(HOME, 0, 10).pitch, 1.5);
+  assert.equal(zoomBy(HOME, 1000).zoom, 12);
+});
+
+test("one range holds all maps, and colours stay in it", () => {
+  const maps = [Float32Array.from([2, 3]), Float32Array.from([1, 2.5])];
+  assert.deepEqual(commonRange(maps), [1, 3]);
+  assert.equal(commonRange([]), null);
+  assert.deepEqual(viridis(-1), viridis(0));
+  assert.deepEqual(viridis(Number.NaN), viridis(0));
+});
