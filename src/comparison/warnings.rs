@@ -90,19 +90,8 @@ impl Comparison {
                 "Use it to compare with the paper only.",
             ));
         }
-        if intersection.mean_distance.mean > APART * self.sigma() {
-            warnings.push(warning(
-                "beyond-tolerance",
-                format!(
-                    "Within σ = {} {symbol} the two models do not meet: the nearest shapes are {} {symbol} apart on average, and the intersection shows that closest approach.",
-                    rounded(self.sigma()),
-                    rounded(intersection.mean_distance.mean)
-                ),
-                "Read it as “as near as the two come”, choose a larger σ, or use more modes.",
-            ));
-        }
         if let Some(tolerance) = self.tolerance
-            && tolerance.farthest > 1e-9 * self.pair.a().size()
+            && tolerance.farthest > 1e-9 * self.pair.scale()
             && tolerance.farthest - tolerance.nearest <= 1e-3 * tolerance.farthest
         {
             warnings.push(warning(
@@ -112,6 +101,16 @@ impl Comparison {
                     rounded(tolerance.nearest)
                 ),
                 "Align B to A, or check how the files were centred.",
+            ));
+        } else if intersection.mean_distance.mean > APART * self.sigma() {
+            warnings.push(warning(
+                "beyond-tolerance",
+                format!(
+                    "Within σ = {} {symbol} the two models do not meet: the nearest shapes are {} {symbol} apart on average, and the intersection shows that closest approach.",
+                    rounded(self.sigma()),
+                    rounded(intersection.mean_distance.mean)
+                ),
+                "Read it as “as near as the two come”, choose a larger σ, or use more modes.",
             ));
         }
     }
@@ -138,7 +137,8 @@ impl Comparison {
                     ),
                     "Choose a larger σ to see what is special to one model.",
                 ));
-            } else if difference.diagnostics.draws > 0 && difference.probability < NEARLY_NONE {
+            } else if difference.diagnostics.evaluations > 0 && difference.probability < NEARLY_NONE
+            {
                 warnings.push(warning(
                     "hardly-differs",
                     format!("Hardly any shape of {this} lies outside {other} at this σ."),
