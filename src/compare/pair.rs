@@ -248,13 +248,13 @@ impl Side {
     }
 
     /// Whether M₂ holds every shape of this side to rounding: the difference is empty.
-    pub fn is_contained(&self, size: f64) -> bool {
+    pub fn is_contained(&self, scale: f64) -> bool {
         let largest = self
             .residual
             .iter()
             .chain(&self.offset)
             .fold(0.0_f64, |largest, value| largest.max(value.abs()));
-        largest <= 1e-9 * size
+        largest <= 1e-9 * scale
     }
 }
 
@@ -316,6 +316,13 @@ impl Pair {
     pub fn side(&self, index: usize) -> Side {
         let [a, b] = self.models();
         if index == 0 { Side::new(a, b) } else { Side::new(b, a) }
+    }
+
+    /// The length beside which a residual is rounding: the size of A's mean, or its spread where that is
+    /// larger. A model of a single point has no size.
+    pub fn scale(&self) -> f64 {
+        let spread = (self.a.total_variance() / self.a.point_count() as f64).sqrt();
+        self.a.size().max(spread)
     }
 
     /// The joint basis of both models.

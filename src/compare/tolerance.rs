@@ -34,7 +34,7 @@ pub struct Tolerance {
 
 /// The recommended σ for both sides of a pair together.
 pub fn recommended_tolerance(pair: &Pair, sides: [&Side; 2]) -> Tolerance {
-    let size = pair.a().size().max(f64::MIN_POSITIVE);
+    let size = pair.scale().max(f64::MIN_POSITIVE);
     let curves: Vec<Curve> = sides.iter().filter_map(|side| Curve::new(side)).collect();
     let count = curves.len().max(1) as f64;
     let farthest = curves.iter().map(|curve| curve.farthest).sum::<f64>() / count;

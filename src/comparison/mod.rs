@@ -349,7 +349,7 @@ impl Comparison {
 
     /// Whether the other model makes every shape of this side, to rounding: the difference is empty.
     fn is_contained(&self, side: usize) -> bool {
-        self.sides[side].is_contained(self.pair.a().size())
+        self.sides[side].is_contained(self.pair.scale())
     }
 
     fn progress(&mut self) -> Progress {

@@ -92,19 +92,7 @@ impl Comparison {
             ));
         }
         if let Some(tolerance) = self.tolerance
-            && tolerance.nearest > APART * self.sigma() * (intersection.modes as f64).sqrt()
-        {
-            warnings.push(warning(
-                "closest-approach",
-                format!(
-                    "The nearest shapes of the two models are still {} {symbol} apart on average: the intersection shows where they come closest.",
-                    rounded(tolerance.nearest)
-                ),
-                "Read it as “as near as the two come”, or use more modes where the files have them.",
-            ));
-        }
-        if let Some(tolerance) = self.tolerance
-            && tolerance.farthest > 1e-9 * self.pair.a().size()
+            && tolerance.farthest > 1e-9 * self.pair.scale()
             && tolerance.farthest - tolerance.nearest <= 1e-3 * tolerance.farthest
         {
             warnings.push(warning(
@@ -114,6 +102,17 @@ impl Comparison {
                     rounded(tolerance.nearest)
                 ),
                 "Align B to A, or check how the files were centred.",
+            ));
+        } else if let Some(tolerance) = self.tolerance
+            && tolerance.nearest > APART * self.sigma() * (intersection.modes as f64).sqrt()
+        {
+            warnings.push(warning(
+                "closest-approach",
+                format!(
+                    "The nearest shapes of the two models are still {} {symbol} apart on average: the intersection shows where they come closest.",
+                    rounded(tolerance.nearest)
+                ),
+                "Read it as “as near as the two come”, or use more modes where the files have them.",
             ));
         }
     }
@@ -153,7 +152,8 @@ impl Comparison {
                     ),
                     LARGER_SIGMA,
                 ));
-            } else if difference.diagnostics.draws > 0 && difference.probability < NEARLY_NONE {
+            } else if difference.diagnostics.evaluations > 0 && difference.probability < NEARLY_NONE
+            {
                 warnings.push(warning(
                     "hardly-differs",
                     format!("Hardly any shape of {this} lies outside {other} at this σ."),

@@ -3,11 +3,12 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use nalgebra::{DMatrix, DVector};
+use shapevenn::compare::Side;
 use shapevenn::comparison::{Comparison, Settings};
 use shapevenn::measure::{AffineSpace, Displacement, affine_grassmann_distance};
 use shapevenn::model::LinearModel;
 use shapevenn::report::{ModelReport, Report, Seconds};
-use shapevenn::sampling::{Stream, fill_normal, stream};
+use shapevenn::sampling::{Draws, Gaussian, Stream, fill_normal, stream, summarise};
 
 /// A comparison, run to its end.
 pub fn compared(a: &LinearModel, b: &LinearModel, settings: Settings) -> Comparison {
@@ -101,4 +102,63 @@ pub fn face_like_pair(points: usize, modes: usize) -> (LinearModel, LinearModel)
     let a = build(draw(total * modes), draw(total));
     let b = build(draw(total * modes), draw(total));
     (a, b)
+}
+
+/// `count` draws of a Gaussian, from its own random numbers.
+pub fn draws_of(gaussian: &Gaussian, count: usize, seed: u64) -> Vec<Vec<f64>> {
+    let mut random = stream(seed, Stream::Display, 9, 2);
+    let mut z = vec![0.0; gaussian.dimension()];
+    (0..count)
+        .map(|_| {
+            fill_normal(&mut random, &mut z);
+            let mut point = vec![0.0; z.len()];
+            gaussian.place(&z, &mut point);
+            point
+        })
+        .collect()
+}
+
+/// A function of every draw, chain by chain.
+pub fn along(draws: &Draws, value: impl Fn(&[f64]) -> f64) -> Vec<Vec<f64>> {
+    draws
+        .values
+        .iter()
+        .map(|chain| chain.chunks_exact(draws.dimension).map(&value).collect())
+        .collect()
+}
+
+/// Mean over chains with its Monte-Carlo standard error, sd/√(bulk effective size).
+pub fn mean_and_error(chains: &[Vec<f64>]) -> (f64, f64) {
+    let count = chains.iter().map(Vec::len).sum::<usize>() as f64;
+    let mean = chains.iter().flatten().sum::<f64>() / count;
+    let squares: f64 = chains.iter().flatten().map(|value| (value - mean) * (value - mean)).sum();
+    (mean, (squares / (count - 1.0) / summarise(chains).ess_bulk).sqrt())
+}
+
+/// How far the first and second moments of draws lie from those of `law`, in standard errors: the
+/// largest over all z_i and z_i z_j of the whitened draws.
+pub fn standard_errors_from(draws: &Draws, law: &Gaussian) -> f64 {
+    let mut worst = 0.0_f64;
+    let mut check = |value: &dyn Fn(&DVector<f64>) -> f64, expected: f64| {
+        let (mean, error) = mean_and_error(&along(draws, |point| value(&law.whiten(point))));
+        worst = worst.max((mean - expected).abs() / error);
+    };
+    for i in 0..draws.dimension {
+        check(&|z| z[i], 0.0);
+        for j in 0..=i {
+            check(&|z| z[i] * z[j], if i == j { 1.0 } else { 0.0 });
+        }
+    }
+    worst
+}
+
+/// log p of the intersection posterior in double precision, up to a constant.
+pub fn log_posterior(side: &Side, sigma: f64, point: &[f64]) -> f64 {
+    let scaled = side.mean_vertex_distance(point) / sigma;
+    -0.5 * (scaled * scaled + side.plausibility_square(point))
+}
+
+/// Whether the report warns of `code`.
+pub fn warns(report: &Report, code: &str) -> bool {
+    report.warnings.iter().any(|warning| warning.code == code)
 }

@@ -1,0 +1,339 @@
+//! The command line, as a shell sees it: what is on standard output, what on standard error, which
+//! exit status, which files.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+use shapevenn::comparison::Region;
+use shapevenn::formats::{self, Data};
+use shapevenn::report::{ModelReport, Report};
+
+fn shapevenn(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_shapevenn")).args(arguments).output().unwrap()
+}
+
+fn text(bytes: &[u8]) -> String {
+    String::from_utf8(bytes.to_vec()).unwrap()
+}
+
+/// Standard output of a call that must succeed in silence otherwise.
+fn printed(arguments: &[&str]) -> String {
+    let output = shapevenn(arguments);
+    let complaint = text(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {complaint}");
+    assert_eq!(complaint, "", "{arguments:?}: nothing on standard error");
+    text(&output.stdout)
+}
+
+fn fixture(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures").join(name);
+    path.to_string_lossy().into_owned()
+}
+
+/// A fresh folder for one test.
+fn folder(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+const STARS: [&str; 8] =
+    ["compare", "demo:stars-1-a", "demo:stars-1-b", "--sigma", "0.003", "--draws", "400", "--json"];
+
+#[test]
+fn info_describes_every_model_of_every_file() {
+    let catalog = fixture("bfm-catalog.h5");
+    let output = printed(&["info", "demo:stars-1-a", "demo:planes-b", &catalog, "--json"]);
+    let models: Vec<ModelReport> = serde_json::from_str(&output).unwrap();
+    let found: Vec<(&str, usize, usize, usize)> = models
+        .iter()
+        .map(|model| (model.name.as_str(), model.points, model.dimension, model.modes))
+        .collect();
+    let expected = [
+        ("stars-1-a", 10, 2, 4),
+        ("planes-b", 1, 3, 2),
+        ("bfm-catalog.h5#shape", 12, 3, 5),
+        ("bfm-catalog.h5#expression", 12, 3, 3),
+        ("bfm-catalog.h5#color", 12, 3, 4),
+    ];
+    assert_eq!(found, expected, "{output}");
+    let heads: Vec<ModelReport> =
+        serde_json::from_str(&printed(&["info", "demo:heads-male", "--json"])).unwrap();
+    assert!(heads[0].points > 1000 && heads[0].cells > 1000, "a head: {:?}", heads[0].points);
+    let words = printed(&["info", "demo:stars-1-a"]);
+    assert!(words.contains("10 points in 2 dimensions, 4 modes"), "in words: {words}");
+}
+
+#[test]
+fn compare_prints_one_report_with_every_field_that_is_promised() {
+    let report: Value = serde_json::from_str(&printed(&STARS)).unwrap();
+    let promised = [
+        "schema",
+        "models.{a,b}.{name,format,kind,points,dimension,modes,unit,totalVariance}",
+        "settings.{sigma,seed,sampler,chains,draws,burnIn,thin,modes,align}",
+        "intersection.{modes,standardDeviations}",
+        "intersection.meanDistance.{mean,sd}",
+        "intersection.{grassmann,grassmannAffine}.{toA,toB,toUnion}",
+        "intersection.diagnostics.{rHatMax,essBulkMin,essTailMin,acceptance,paretoK,evaluations,converged}",
+        "intersection.vertexSd.{min,mean,max}",
+        "differences.{aWithoutB,bWithoutA}.{probability,standardError}",
+        "differences.{aWithoutB,bWithoutA}.meanDistance.{mean,sd}",
+        "differences.{aWithoutB,bWithoutA}.diagnostics.{essBulkMin,acceptance,evaluations,converged}",
+        "differences.{aWithoutB,bWithoutA}.vertexSd.{min,mean,max}",
+        "overlap.{principalAnglesDegrees,varianceOfAInB,varianceOfBInA,bhattacharyya}",
+        "warnings",
+        "seconds.{load,prepare,sample,total}",
+    ];
+    for path in promised.into_iter().flat_map(paths) {
+        let pointer = format!("/{}", path.replace('.', "/"));
+        assert!(report.pointer(&pointer).is_some(), "no {path} in the report");
+    }
+    assert_eq!(report["schema"], 1, "version of the layout");
+    assert_eq!(report["settings"]["seed"], "1", "a string");
+    assert_eq!(report["settings"]["sigma"], 0.003, "as given");
+    let stated = &report["intersection"]["standardDeviations"];
+    assert_eq!(stated.as_array().map(Vec::len), Some(4), "as many as modes");
+    for warning in report["warnings"].as_array().unwrap() {
+        for field in ["code", "message", "hint"] {
+            assert!(warning[field].is_string(), "{field} of {warning}");
+        }
+    }
+}
+
+/// a.{b,c} written out as a.b and a.c.
+fn paths(pattern: &str) -> Vec<String> {
+    let Some((before, rest)) = pattern.split_once('{') else { return vec![pattern.to_owned()] };
+    let (choices, after) = rest.split_once('}').unwrap();
+    choices.split(',').flat_map(|choice| paths(&format!("{before}{choice}{after}"))).collect()
+}
+
+#[test]
+fn the_same_command_prints_the_same_report_but_for_the_seconds() {
+    let run = |arguments: &[&str]| {
+        let mut report: Value = serde_json::from_str(&printed(arguments)).unwrap();
+        report["seconds"] = Value::Null;
+        report
+    };
+    let first = run(&STARS);
+    assert_eq!(run(&STARS), first, "twice");
+    let other = run(&[&STARS[..], &["--seed", "2"]].concat());
+    assert_ne!(other["intersection"], first["intersection"], "another seed");
+}
+
+#[test]
+fn options_reach_the_settings() {
+    let options = [
+        "--modes",
+        "2",
+        "--seed",
+        "18446744073709551615",
+        "--sampler",
+        "paper-corrected",
+        "--chains",
+        "4",
+        "--draws",
+        "64",
+        "--burn-in",
+        "5",
+        "--thin",
+        "3",
+        "--align",
+        "similarity",
+    ];
+    let report: Report =
+        serde_json::from_str(&printed(&[&STARS[..3], &["--json"], &options[..]].concat())).unwrap();
+    let settings = serde_json::to_value(&report.settings).unwrap();
+    for (field, expected) in [
+        ("modes", Value::from(2)),
+        ("seed", Value::from("18446744073709551615")),
+        ("sampler", Value::from("paper-corrected")),
+        ("chains", Value::from(4)),
+        ("draws", Value::from(64)),
+        ("burnIn", Value::from(5)),
+        ("thin", Value::from(3)),
+        ("align", Value::from("similarity")),
+        ("sigmaRecommended", Value::from(true)),
+    ] {
+        assert_eq!(settings[field], expected, "{field}");
+    }
+    assert_eq!((report.models.a.modes, report.models.b.modes), (2, 2), "cut");
+}
+
+#[test]
+fn out_writes_everything_and_all_of_it_opens_again() {
+    let folder = folder("out");
+    let inside = folder.join("new/deeper");
+    let place = inside.to_string_lossy().into_owned();
+    let printed: Report =
+        serde_json::from_str(&printed(&[&STARS[..], &["--out", &place]].concat())).unwrap();
+    let read = |name: &str| {
+        std::fs::read(inside.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    };
+    let written: Report = serde_json::from_slice(&read("report.json")).unwrap();
+    assert_eq!(written, printed, "report.json is what was printed");
+
+    let draws = formats::read_arrays("draws.npz", &read("draws.npz")).unwrap();
+    let shape = |name: &str| {
+        let (_, array) = draws.iter().find(|(found, _)| *found == name).unwrap();
+        assert!(matches!(array.data, Data::F32(_)), "{name} is single precision");
+        array.shape.clone()
+    };
+    assert_eq!(shape("intersection_a"), [16, 25, 4], "chains, draws, modes");
+    assert_eq!(shape("intersection_b_distance"), [16, 25], "chains, draws");
+    assert_eq!(shape("a_without_b"), [400, 4], "draws, modes");
+
+    for name in ["intersection.h5", "intersection.npz"] {
+        let opened = formats::open(name, &read(name)).unwrap();
+        let model = &opened.parts[0].model;
+        assert_eq!((model.point_count(), model.mode_count()), (10, 4), "{name}");
+        for (found, stated) in
+            model.standard_deviations().iter().zip(&printed.intersection.standard_deviations)
+        {
+            assert!((found / stated - 1.0).abs() < 1e-5, "{name}: {found}, not {stated}");
+        }
+    }
+    for region in Region::ALL {
+        let name = format!("{}-mean.ply", region.name());
+        let points = ply_points(&read(&name));
+        assert_eq!(points.len(), 10, "{name}");
+        let far = points.iter().flatten().fold(0.0_f32, |far, x| far.max(x.abs()));
+        assert!(far > 5.0 && far < 15.0, "{name}: a star of radius 10, not {far}");
+    }
+}
+
+/// Coordinates of a binary PLY, read by its own header.
+fn ply_points(bytes: &[u8]) -> Vec<[f32; 3]> {
+    let end = b"end_header\n";
+    let start = bytes.windows(end.len()).position(|window| window == end).unwrap() + end.len();
+    let header = text(&bytes[..start]);
+    assert!(header.starts_with("ply\nformat binary_little_endian 1.0\n"), "{header}");
+    let count = header.lines().find_map(|line| line.strip_prefix("element vertex ")).unwrap();
+    let count: usize = count.parse().unwrap();
+    let floats = header.lines().filter(|line| line.starts_with("property float ")).count();
+    bytes[start..start + 4 * floats * count]
+        .chunks_exact(4 * floats)
+        .map(|vertex| {
+            [0, 4, 8].map(|at| f32::from_le_bytes(vertex[at..at + 4].try_into().unwrap()))
+        })
+        .collect()
+}
+
+#[test]
+fn an_empty_difference_writes_no_mean() {
+    let folder = folder("empty");
+    let place = folder.to_string_lossy().into_owned();
+    printed(&["compare", "demo:planes-a", "demo:planes-a", "--out", &place, "--json"]);
+    assert!(!folder.join("a-without-b-mean.ply").exists(), "nothing to write");
+    assert!(folder.join("intersection-mean.ply").exists(), "but the rest is there");
+}
+
+#[test]
+fn models_converted_to_hdf5_and_back_have_equal_numbers() {
+    let folder = folder("convert");
+    let at = |name: &str| folder.join(name).to_string_lossy().into_owned();
+    let open = |name: &str| {
+        formats::open(name, &std::fs::read(folder.join(name)).unwrap())
+            .unwrap()
+            .parts
+            .remove(0)
+            .model
+    };
+    assert_eq!(printed(&["convert", &fixture("plain.npz"), &at("one.h5")]), "", "in silence");
+    printed(&["convert", &at("one.h5"), &at("two.npz")]);
+    printed(&["convert", &at("two.npz"), &at("three.h5")]);
+    let given = std::fs::read(fixture("plain.npz")).unwrap();
+    let given = formats::open("plain.npz", &given).unwrap().parts.remove(0).model;
+    // HDF5 holds single precision: 6e-8 of the largest number.
+    let covariance = |model: &shapevenn::model::LinearModel| {
+        model.scaled_basis() * model.scaled_basis().transpose()
+    };
+    let (size, spread) = (given.mean().amax(), covariance(&given).amax());
+    for name in ["one.h5", "two.npz", "three.h5"] {
+        let model = open(name);
+        assert!((model.mean() - given.mean()).amax() < 2e-7 * size, "{name}: mean");
+        assert!((covariance(&model) - covariance(&given)).amax() < 2e-6 * spread, "{name}");
+        assert_eq!(model.cells(), given.cells(), "{name}: cells");
+        assert_eq!(model.unit(), given.unit(), "{name}: unit");
+    }
+    printed(&["convert", "demo:stars-2-b", &at("mean.ply")]);
+    assert_eq!(ply_points(&std::fs::read(at("mean.ply")).unwrap()).len(), 10, "a mean shape");
+}
+
+#[test]
+fn a_part_of_a_file_is_named_behind_a_hash() {
+    let catalog = fixture("bfm-catalog.h5");
+    let part = |name: &str| format!("{catalog}#{name}");
+    let output =
+        printed(&["compare", &part("shape"), &part("expression"), "--draws", "200", "--json"]);
+    let report: Report = serde_json::from_str(&output).unwrap();
+    assert_eq!((report.models.a.modes, report.models.b.modes), (5, 3), "shape and expression");
+    let refused = shapevenn(&["compare", &part("shape"), &part("nose")]);
+    let complaint = text(&refused.stderr);
+    assert_eq!(refused.status.code(), Some(2), "{complaint}");
+    assert!(complaint.contains("has no part “nose”."), "{complaint}");
+    assert!(complaint.contains("Choose one of shape, expression, color."), "{complaint}");
+}
+
+#[test]
+fn bad_inputs_exit_with_2_a_sentence_and_a_hint() {
+    let folder = folder("bad");
+    let nowhere = folder.join("nowhere.h5").to_string_lossy().into_owned();
+    let no_ending = folder.join("model").to_string_lossy().into_owned();
+    let catalog = fixture("bfm-catalog.h5");
+    let (shape, color) = (format!("{catalog}#shape"), format!("{catalog}#color"));
+    let broken = fixture("cut-at-half.h5");
+    let cases: [(&[&str], &str, &str); 10] = [
+        (&["info", &nowhere], "cannot be read", "demo:NAME"),
+        (&["info", "demo:moon"], "There is no demo model “moon”.", "Choose one of stars-1-a, "),
+        (&["info", &broken], "cut-at-half.h5", ""),
+        (&["compare", "demo:stars-1-a", &nowhere], "cannot be read", "Check the path"),
+        (
+            &["compare", "demo:stars-1-a", "demo:planes-a", "--json"],
+            "A has points in 2 dimensions, B in 3: they cannot be compared.",
+            "Load two models of the same dimension.",
+        ),
+        (
+            &["compare", &shape, &color],
+            "A is a model of shapes, B of colours: they cannot be compared.",
+            "Load two shape models or two colour models.",
+        ),
+        (
+            &["compare", "demo:planes-a", "demo:planes-b", "--sigma", "0"],
+            "σ is 0; a positive number was expected.",
+            "Give σ as a positive length",
+        ),
+        (
+            &["compare", "demo:planes-a", "demo:planes-b", "--draws", "3"],
+            "“draws” is 3; 128 to 10000000 was expected.",
+            "Choose a value inside the range.",
+        ),
+        (
+            &["convert", "demo:planes-a", &no_ending],
+            "has no ending",
+            "End it in .h5, .npz or .ply.",
+        ),
+        (&["compare", "demo:planes-a"], "<B>", "--help"),
+    ];
+    for (arguments, message, hint) in cases {
+        let output = shapevenn(arguments);
+        let complaint = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {complaint}");
+        assert_eq!(text(&output.stdout), "", "{arguments:?}: nothing on standard output");
+        assert!(complaint.contains(message), "{arguments:?}: {message} in {complaint}");
+        assert!(complaint.contains(hint), "{arguments:?}: {hint} in {complaint}");
+        assert!(!complaint.contains("panicked"), "{arguments:?}: {complaint}");
+    }
+}
+
+#[test]
+fn what_the_machine_cannot_do_exits_with_1() {
+    let folder = folder("system");
+    let file = folder.join("file");
+    std::fs::write(&file, "here already").unwrap();
+    let inside = file.join("out").to_string_lossy().into_owned();
+    let output = shapevenn(&[&STARS[..], &["--out", &inside]].concat());
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    assert_eq!(text(&output.stdout), "", "no report of a run that could not be kept");
+}

@@ -1,0 +1,160 @@
+//! How good the Gaussian fits are on face-like models: everything downstream rests on them.
+
+mod common;
+
+use common::{compared, draws_of, face_like_pair, log_posterior, report};
+use nalgebra::{DMatrix, DVector};
+use shapevenn::compare::{
+    Intersection, Side, expected_distance, fit_rms, fit_variational_step, without_distance,
+};
+use shapevenn::comparison::Settings;
+use shapevenn::sampling::{Chains, Gaussian, IndependenceChains, Schedule};
+
+const SIGMAS: [f64; 5] = [0.01, 0.03, 0.1, 0.3, 1.0];
+
+fn variational(side: &Side, sigma: f64) -> Gaussian {
+    let mut fit = fit_rms(side, sigma).unwrap();
+    for _ in 0..8 {
+        fit = fit_variational_step(side, sigma, &fit).unwrap().0;
+    }
+    fit
+}
+
+fn sides() -> [Side; 2] {
+    let (a, b) = face_like_pair(500, 12);
+    [Side::new(&a, &b), Side::new(&b, &a)]
+}
+
+#[test]
+fn independence_chains_accept_most_proposals_and_converge_at_every_tolerance() {
+    let (a, b) = face_like_pair(500, 12);
+    for sigma in SIGMAS {
+        let settings = Settings { sigma: Some(sigma), ..Settings::default() };
+        let found = report(&compared(&a, &b, settings)).intersection.diagnostics;
+        assert!(found.acceptance >= 0.7, "σ = {sigma}: acceptance {}", found.acceptance);
+        let k = found.pareto_k.unwrap();
+        assert!(k < 0.5, "σ = {sigma}: k-hat {k}");
+        assert!(found.r_hat_max.unwrap() < 1.01, "σ = {sigma}: {found:?}");
+        assert!(found.ess_bulk_min >= 2000.0, "σ = {sigma}: {found:?}");
+        assert!(found.converged, "σ = {sigma}: {found:?}");
+    }
+}
+
+#[test]
+fn chains_from_the_rms_fit_are_much_worse_at_small_tolerances() {
+    let acceptance = |side: &Side, fit: Gaussian, sigma: f64| {
+        let schedule = Schedule { chains: 16, burn_in: 10, thin: 1, kept: 200 };
+        let target = Intersection::new(side, sigma, fit.mean());
+        let wide = without_distance(side).unwrap();
+        let mut chains = IndependenceChains::new(fit.clone(), wide, schedule, 1, 0);
+        chains.advance(&target, usize::MAX);
+        chains.draws().acceptance_rate()
+    };
+    for side in sides() {
+        let sigma = 0.01;
+        let rms = acceptance(&side, fit_rms(&side, sigma).unwrap(), sigma);
+        let best = acceptance(&side, variational(&side, sigma), sigma);
+        assert!(rms < best - 0.1, "rms {rms}, variational {best}");
+        assert!(rms < 0.7, "the bound of 0.7 would let the rms fit pass: {rms}");
+    }
+}
+
+/// Covariance in the fit's whitened coordinates by importance weights over `draws`, with the fit's own
+/// moments as control variate: I + weighted − unweighted moments of the same draws.
+fn weighted_covariance(
+    side: &Side,
+    sigma: f64,
+    fit: &Gaussian,
+    draws: &[Vec<f64>],
+) -> DMatrix<f64> {
+    let logs: Vec<f64> =
+        draws.iter().map(|a| log_posterior(side, sigma, a) - fit.log_density(a)).collect();
+    let largest = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let weights: Vec<f64> = logs.iter().map(|log| libm::exp(log - largest)).collect();
+    let moments = |weight: &dyn Fn(usize) -> f64| {
+        let total: f64 = (0..draws.len()).map(weight).sum();
+        let size = fit.dimension();
+        let (mut mean, mut square) = (DVector::zeros(size), DMatrix::zeros(size, size));
+        for (index, draw) in draws.iter().enumerate() {
+            let z = fit.whiten(draw);
+            let share = weight(index) / total;
+            mean.axpy(share, &z, 1.0);
+            square.ger(share, &z, &z, 1.0);
+        }
+        square - &mean * mean.transpose()
+    };
+    let size = fit.dimension();
+    DMatrix::identity(size, size) + moments(&|index| weights[index]) - moments(&|_| 1.0)
+}
+
+#[test]
+fn the_closed_forms_covariance_is_that_of_a_long_weighted_reference() {
+    for side in sides() {
+        for sigma in [0.03, 0.3] {
+            let fit = variational(&side, sigma);
+            let draws = draws_of(&fit, 20_000, 4);
+            let relative = |x: &DMatrix<f64>| {
+                let size = (x.nrows() as f64).sqrt();
+                (x - DMatrix::identity(x.nrows(), x.nrows())).norm() / size
+            };
+            let halves = draws.split_at(10_000);
+            let [first, second] =
+                [halves.0, halves.1].map(|half| weighted_covariance(&side, sigma, &fit, half));
+            // The two halves differ by twice the error of their mean.
+            let error = (&first - &second).norm() / (first.nrows() as f64).sqrt() / 2.0;
+            let found = relative(&((first + second) * 0.5));
+            assert!(error < 0.01, "σ = {sigma}: the reference is too short, {error}");
+            assert!(found < 0.015 + 2.0 * error, "σ = {sigma}: {found} ± {error}");
+            // The same bound refuses a fit whose covariance is 5 % too large.
+            let wide =
+                Gaussian::from_precision(fit.mean().clone(), fit.precision() / 1.05).unwrap();
+            let draws = draws_of(&wide, 20_000, 4);
+            let wrong = relative(&weighted_covariance(&side, sigma, &wide, &draws));
+            assert!(wrong > 0.015 + 2.0 * error, "σ = {sigma}: 5 % too wide passes, {wrong}");
+        }
+    }
+}
+
+#[test]
+fn the_expected_distance_follows_from_the_modes_that_the_tolerance_governs() {
+    for side in sides() {
+        for sigma in SIGMAS {
+            let fit = variational(&side, sigma);
+            let size = fit.dimension();
+            let likelihood =
+                fit.precision() - DMatrix::identity(size, size) - side.projection_gram();
+            let governed = (fit.covariance() * likelihood).trace();
+            let at_mean = side.mean_vertex_distance(fit.mean().as_slice());
+            let expected = (at_mean * at_mean + governed * sigma * sigma).sqrt();
+            let draws = draws_of(&fit, 4000, 2);
+            let distances: Vec<f64> =
+                draws.iter().map(|draw| side.mean_vertex_distance(draw)).collect();
+            let mean = distances.iter().sum::<f64>() / 4000.0;
+            assert!((mean / expected - 1.0).abs() < 0.02, "σ = {sigma}: {mean}, not {expected}");
+            let quadrature = expected_distance(&side, &fit);
+            let square: f64 = distances.iter().map(|d| (d - mean) * (d - mean)).sum();
+            let error = (square / 3999.0 / 4000.0).sqrt();
+            // 24 nodes are good to 1e-6 for isotropic vectors in space, 1e-4 in the plane.
+            let bound = 5.0 * error + 1e-4 * mean;
+            assert!((quadrature - mean).abs() < bound, "σ = {sigma}: {quadrature}, not {mean}");
+            assert!(governed >= 0.0 && governed < size as f64, "σ = {sigma}: q_eff {governed}");
+        }
+    }
+}
+
+#[test]
+fn fits_do_not_move_once_at_rest_and_more_tolerance_means_more_variance() {
+    for side in sides() {
+        let mut before = 0.0;
+        for sigma in SIGMAS {
+            let fit = variational(&side, sigma);
+            let step = fit_variational_step(&side, sigma, &fit).unwrap().1;
+            assert!(step < 1e-3, "σ = {sigma}: still moving by {step}");
+            let trace = fit.covariance().trace();
+            assert!(trace > before, "σ = {sigma}: trace {trace} after {before}");
+            before = trace;
+        }
+        let most = without_distance(&side).unwrap().covariance().trace();
+        assert!(before < most, "no wider than without the distance: {before} < {most}");
+    }
+}
