@@ -91,7 +91,8 @@ function Letter({ name, x, y, text }: { name: "a" | "b"; x: number; y: number; t
       onKeyDown={(event) => onKey(event, name)}
     >
       <title>{regionLabel(name)}</title>
-      <circle cx={x} cy={y} r={13} />
+      <circle class="reach" cx={x} cy={y} r={22} />
+      <circle class="disc" cx={x} cy={y} r={13} />
       <text x={x} y={y + 5}>
         {text}
       </text>
