@@ -93,6 +93,12 @@ export async function serve({ folder = join(root, "dist"), isolated = true, port
 
 /** Takes the wished port; without a wish, the first free one from 8080 on. */
 async function listen(server, host, wished) {
+  if (wished !== undefined && !(Number.isInteger(wished) && wished >= 0 && wished < 65_536)) {
+    throw new StepError(
+      "PORT is not a port.",
+      "use a number up to 65535, as in PORT=9000 npm start.",
+    );
+  }
   const first = wished ?? 8080;
   const last = wished ?? first + 100;
   for (let port = first; port <= last; port += 1) {

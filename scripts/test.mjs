@@ -117,7 +117,12 @@ async function rustTests() {
   const env = { SHAPEVENN_PYTHON: ready.get("Python") };
   const options = ["--locked", "--no-fail-fast", "-p", "shapevenn"];
   return (await hasNextest())
-    ? suite(counts.nextest, "cargo", ["nextest", "run", "--no-tests=pass", ...options], { env })
+    ? suite(
+        counts.nextest,
+        "cargo",
+        ["nextest", "run", "--cargo-quiet", "--no-tests=pass", ...options],
+        { env },
+      )
     : suite(counts.cargo, "cargo", ["test", "--all-targets", ...options], { env });
 }
 
@@ -139,7 +144,7 @@ await main(async () => {
   await prepare("Python", ensurePython);
 
   console.log("Checks");
-  const locked = ["--locked", "--workspace"];
+  const locked = ["--quiet", "--locked", "--workspace"];
   await test("Rust formatting", ["linters"], () => check("cargo", ["fmt", "--all", "--check"]));
   await test("Clippy, native", ["linters"], () =>
     check("cargo", ["clippy", ...locked, "--all-targets", "--", "-D", "warnings"]),

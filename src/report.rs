@@ -160,6 +160,8 @@ pub struct IntersectionReport {
     pub standard_deviations: Vec<f64>,
     /// Σ λᵢ of the intersection model.
     pub total_variance: f64,
+    /// Share of the pooled draws' variance that its modes hold.
+    pub variance_kept: f64,
     /// d(x′, x) over the draws of both sides.
     pub mean_distance: MeanSd,
     /// Affine Grassmann distances as the paper computes them.

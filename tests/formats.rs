@@ -8,7 +8,7 @@ use std::process::Command;
 
 use proptest::prelude::*;
 use serde::Deserialize;
-use shapevenn::formats::{self, Array, Data};
+use shapevenn::formats::{self, Array, Data, Opened};
 use shapevenn::model::{Cells, Kind, LinearModel, Unit};
 
 /// What `make_fixtures.py` noted about one model.
@@ -55,8 +55,13 @@ fn fixture(name: &str) -> Vec<u8> {
         .unwrap_or_else(|error| panic!("{name}: {error}"))
 }
 
+fn open(file: &str) -> Opened {
+    formats::open(file, &fixture(file)).unwrap_or_else(|error| panic!("{error}"))
+}
+
 fn json<T: for<'a> Deserialize<'a>>(path: &str) -> T {
-    let text = std::fs::read_to_string(tests().join(path)).unwrap();
+    let text = std::fs::read_to_string(tests().join(path))
+        .unwrap_or_else(|error| panic!("{path}: {error}"));
     serde_json::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
@@ -96,7 +101,7 @@ fn every_variant_gives_the_numbers_that_were_written() {
     let files = expected();
     assert!(files.len() > 60, "all variants are there");
     for (file, parts) in &files {
-        let opened = formats::open(file, &fixture(file)).unwrap_or_else(|error| panic!("{error}"));
+        let opened = open(file);
         assert_eq!(opened.parts.len(), parts.len(), "{file}: parts");
         for (part, expected) in opened.parts.iter().zip(parts) {
             let what = format!("{file}#{}", expected.part);
@@ -127,7 +132,7 @@ fn every_variant_gives_the_numbers_that_were_written() {
 #[test]
 fn the_icosahedron_points_outwards_however_it_was_stored() {
     let triangles = |file: &str| {
-        let opened = formats::open(file, &fixture(file)).unwrap();
+        let opened = open(file);
         let Cells::Triangles(triangles) = opened.parts[0].model.cells().clone() else {
             panic!("{file} has triangles")
         };
@@ -145,7 +150,7 @@ fn the_icosahedron_points_outwards_however_it_was_stored() {
 #[test]
 fn the_name_is_the_files_and_the_parts_or_what_the_archive_says() {
     let names = |file: &str| -> Vec<String> {
-        let opened = formats::open(file, &fixture(file)).unwrap();
+        let opened = open(file);
         opened.parts.iter().map(|part| part.model.name().to_owned()).collect()
     };
     assert_eq!(names("cpp-0.9.h5"), ["cpp-0.9.h5"], "one model");
@@ -189,10 +194,8 @@ fn the_corpus_gives_the_format_or_the_exact_sentence() {
 fn models_to_write() -> Vec<LinearModel> {
     ["variable-text.h5", "two-dimensional.h5", "points-only.h5", "flat-two-dimensional.npz"]
         .into_iter()
-        .map(|file| formats::open(file, &fixture(file)).unwrap().parts.remove(0).model)
-        .chain(
-            formats::open("bfm", &fixture("bfm-catalog.h5")).unwrap().parts.pop().map(|p| p.model),
-        )
+        .map(|file| open(file).parts.remove(0).model)
+        .chain(open("bfm-catalog.h5").parts.pop().map(|color| color.model))
         .collect()
 }
 
@@ -274,6 +277,14 @@ fn what_is_written_is_read_back_by_h5py_and_numpy() {
 }
 
 #[test]
+fn exported_hdf5_has_the_layout_that_old_readers_know() {
+    for model in models_to_write() {
+        let bytes = formats::write_statismo(&model).unwrap();
+        assert_eq!(bytes[8], 2, "superblock version 2, of HDF5 1.8: {}", model.name());
+    }
+}
+
+#[test]
 fn single_precision_draws_are_not_doubled() {
     let draws = Array { shape: vec![1000, 10], data: Data::F32(vec![0.25; 10_000]) };
     let bytes = formats::write_arrays(&[("draws", draws.clone())]);
@@ -340,17 +351,5 @@ proptest! {
         }
         let _ = formats::open(&name, &bytes);
         let _ = formats::read_arrays(&name, &bytes);
-    }
-}
-
-#[test]
-#[ignore = "prints the corpus as it is, to be compared with what it should be"]
-fn print_corpus() {
-    for entry in std::fs::read_dir(tests().join("fixtures")).unwrap() {
-        let name = entry.unwrap().file_name().into_string().unwrap();
-        match formats::open(&name, &fixture(&name)) {
-            Ok(opened) => println!("{name}\t{}", opened.format),
-            Err(error) => println!("{name}\t{}\t{error}\t{}", error.code(), error.hint()),
-        }
     }
 }

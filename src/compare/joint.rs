@@ -9,10 +9,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::model::{LinearModel, thin_svd};
+use crate::model::{LinearModel, cross, product, thin_svd};
 
 /// Directions of B's basis that lie in A's to this share are not new ones.
 const SMALLEST_NEW_DIRECTION: f64 = 1e-9;
+/// Sines below which a direction is made orthogonal to A's basis a second time.
+const NEARLY_INSIDE: f64 = 1e-4;
 /// Eigenvalues of the intersection below this share of the largest are rounding.
 const SMALLEST_EIGENVALUE: f64 = 1e-10;
 
@@ -100,20 +102,23 @@ impl Joint {
             others.set_column(b.mode_count(), &(&apart / length));
         }
         let remove = |matrix: DMatrix<f64>| {
-            let inside = a.basis().tr_mul(&matrix);
-            matrix - a.basis() * inside
+            let inside = cross(a.basis(), &matrix);
+            matrix - product(a.basis(), &inside)
         };
         let svd = thin_svd(&remove(others));
         let new = svd.values.iter().take_while(|&&value| value > SMALLEST_NEW_DIRECTION).count();
-        // Once more, for directions that were nearly inside and lost digits to cancellation.
-        let beyond = thin_svd(&remove(svd.left.columns(0, new).into_owned())).left;
+        let mut beyond = svd.left.columns(0, new).into_owned();
+        if new > 0 && svd.values[new - 1] < NEARLY_INSIDE {
+            // Directions that were nearly inside have lost digits to cancellation: once more.
+            beyond = thin_svd(&remove(beyond)).left;
+        }
         let mut basis = a.basis().clone().insert_columns(a.mode_count(), new, 0.0);
         basis.columns_mut(a.mode_count(), new).copy_from(&beyond);
         Self {
             dimension: a.dimension(),
             origin: a.mean().clone(),
             means: [DVector::zeros(basis.ncols()), basis.tr_mul(&apart)],
-            scaled: [basis.tr_mul(&a.scaled_basis()), basis.tr_mul(&b.scaled_basis())],
+            scaled: [cross(&basis, &a.scaled_basis()), cross(&basis, &b.scaled_basis())],
             basis,
         }
     }
@@ -137,22 +142,39 @@ impl Joint {
         }
     }
 
+    /// The orthonormal modes of model A (0) or B (1), p × q.
+    pub fn modes(&self, side: usize) -> DMatrix<f64> {
+        let mut modes = self.scaled[side].clone();
+        for mut column in modes.column_iter_mut() {
+            column /= column.norm();
+        }
+        modes
+    }
+
+    /// The mean of model A (0) or B (1), p.
+    pub fn mean(&self, side: usize) -> &DVector<f64> {
+        &self.means[side]
+    }
+
     /// The prior law of model A (0) or B (1).
     pub fn prior(&self, side: usize) -> Moments {
         let scaled = &self.scaled[side];
         Moments { mean: self.means[side].clone(), covariance: scaled * scaled.transpose() }
     }
 
-    /// The model with these moments; `None` when nothing varies.
-    pub fn model(&self, moments: &Moments) -> Option<LinearModel> {
+    /// The model of the leading principal components, `most` at the most; `None` when nothing varies.
+    pub fn model(&self, moments: &Moments, most: usize) -> Option<LinearModel> {
         let (vectors, values) = moments.principal_components();
-        if values.is_empty() {
+        let kept = values.len().min(most);
+        if kept == 0 {
             return None;
         }
+        let vectors = vectors.columns(0, kept).into_owned();
+        let values = values.rows(0, kept);
         Some(LinearModel::from_orthonormal(
             self.dimension,
             &self.origin + &self.basis * &moments.mean,
-            &self.basis * vectors,
+            product(&self.basis, &vectors),
             values.map(f64::sqrt),
         ))
     }

@@ -18,7 +18,7 @@ use core::fmt;
 use nalgebra::{DMatrix, DVector};
 
 use super::{DistanceKernel, Joint};
-use crate::model::{Alignment, Kind, LinearModel, Similarity, align_to};
+use crate::model::{Alignment, Kind, LinearModel, Similarity, align_to, cross, product};
 
 /// Why two models cannot be compared.
 #[derive(Debug, Clone, PartialEq)]
@@ -131,8 +131,8 @@ impl Side {
         let mean_coordinates = to.basis().tr_mul(&difference);
         let offset = &difference - to.basis() * &mean_coordinates;
         let scaled = from.scaled_basis();
-        let coordinates = to.basis().tr_mul(&scaled);
-        let residual = &scaled - to.basis() * &coordinates;
+        let coordinates = cross(to.basis(), &scaled);
+        let residual = &scaled - product(to.basis(), &coordinates);
         let divide = |mut matrix: DMatrix<f64>| {
             for (mut row, deviation) in matrix.row_iter_mut().zip(to.standard_deviations().iter()) {
                 row /= *deviation;
@@ -148,7 +148,7 @@ impl Side {
             projection_gram: projection.tr_mul(&projection),
             projection_shift: projection.tr_mul(&projected_mean),
             projection_constant: projected_mean.norm_squared(),
-            gram: residual.tr_mul(&residual),
+            gram: cross(&residual, &residual),
             gram_shift: residual.tr_mul(&offset),
             gram_constant: offset.norm_squared(),
             kernel: DistanceKernel::new(from.dimension(), from.mode_count(), &residual_rows),

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Comparison, results::pooled};
+use super::Comparison;
 use crate::compare::Moments;
 use crate::measure::vertex_standard_deviations;
 use crate::sampling::{Draws, Stream, fill_normal, stream, uniform};
@@ -104,10 +104,7 @@ impl Comparison {
     }
 
     fn intersection_shapes(&self, count: usize, seed: u64) -> Option<RegionShapes> {
-        let joint = self.joint.as_ref()?;
-        let sides = [self.intersection_moments(0)?, self.intersection_moments(1)?];
-        let moments = pooled(joint, [&sides[0], &sides[1]]);
-        let model = joint.model(&moments)?;
+        let model = self.intersection_so_far()?;
         let draws: Vec<&Draws> = self.chains.iter().map(|chains| chains.draws()).collect();
         let drawn = draws.len() == 2 && draws.iter().all(|draws| draws.len() >= count.max(1));
         let mut random = stream(seed, Stream::Display, 2, 0);

@@ -8,7 +8,7 @@ use crate::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, bhattacharyya_distance,
     mean_vertex_distance, principal_angles, vertex_standard_deviations,
 };
-use crate::model::LinearModel;
+use crate::model::{LinearModel, cross};
 use crate::report::{
     DifferenceReport, Differences, Grassmann, IntersectionReport, MeanSd, Models, Overlap, Report,
     SCHEMA, Seconds, Sides, Spread,
@@ -111,11 +111,6 @@ impl Results {
     }
 }
 
-/// Joint-basis moments of the intersection: both sides pooled equally.
-pub(super) fn pooled(joint: &Joint, sides: [&Moments; 2]) -> Moments {
-    Moments::pooled(&joint.lift(0, sides[0]), &joint.lift(1, sides[1]))
-}
-
 impl Comparison {
     /// Moments of the coefficients of one side of the intersection: of the draws, or of the fit while
     /// there are too few.
@@ -132,8 +127,21 @@ impl Comparison {
     /// The intersection model from what there is.
     pub(super) fn intersection_so_far(&self) -> Option<LinearModel> {
         let joint = self.joint.as_ref()?;
-        let sides = [self.intersection_moments(0)?, self.intersection_moments(1)?];
-        joint.model(&pooled(joint, [&sides[0], &sides[1]])).map(|model| self.dressed(model))
+        let moments = self.pooled_moments()?;
+        joint.model(&moments, self.most_modes()).map(|model| self.dressed(model))
+    }
+
+    /// Joint-basis moments of the intersection from what there is: both sides pooled equally.
+    pub(super) fn pooled_moments(&self) -> Option<Moments> {
+        let joint = self.joint.as_ref()?;
+        let lifted = |side: usize| Some(joint.lift(side, &self.intersection_moments(side)?));
+        Some(Moments::pooled(&lifted(0)?, &lifted(1)?))
+    }
+
+    /// Modes of the intersection model: no more than the smaller model has, since an intersection of two
+    /// spaces has no more dimensions. What the pooled draws spread beyond is their tolerance.
+    fn most_modes(&self) -> usize {
+        self.pair.a().mode_count().min(self.pair.b().mode_count())
     }
 
     /// A model that lies in A's frame, with A's cells, unit and kind.
@@ -145,13 +153,14 @@ impl Comparison {
     }
 
     pub(super) fn measure(&mut self) -> Result<(), ComparisonError> {
-        let (Some(joint), Some(intersection)) = (&self.joint, self.intersection_so_far()) else {
+        let (Some(joint), Some(moments)) = (&self.joint, self.pooled_moments()) else {
             return Err(ComparisonError::FlatIntersection);
         };
+        let model = joint.model(&moments, self.most_modes());
+        let intersection = self.dressed(model.ok_or(ComparisonError::FlatIntersection)?);
         let results = self.results();
         let sides = [0, 1].map(|side| summary::of_chains(&results.intersection[side]));
-        let [grassmann, grassmann_affine] = [Displacement::Unit, Displacement::Full]
-            .map(|displacement| self.grassmann(joint, &intersection, displacement));
+        let [grassmann, grassmann_affine] = grassmann(joint, &intersection);
         let distances: Vec<f64> = results
             .intersection
             .iter()
@@ -167,6 +176,7 @@ impl Comparison {
                 modes: intersection.mode_count(),
                 standard_deviations: intersection.standard_deviations().as_slice().to_vec(),
                 total_variance: intersection.total_variance(),
+                variance_kept: intersection.total_variance() / moments.covariance.trace(),
                 mean_distance: MeanSd::of(&distances),
                 grassmann,
                 grassmann_affine,
@@ -186,30 +196,6 @@ impl Comparison {
         self.finished = Some(Finished { report, intersection });
         self.stage = Stage::Done;
         Ok(())
-    }
-
-    /// Affine Grassmann distances of the intersection, in coordinates that hold all of them: the joint
-    /// basis and the direction in which A's mean leaves it.
-    fn grassmann(
-        &self,
-        joint: &Joint,
-        intersection: &LinearModel,
-        displacement: Displacement,
-    ) -> Grassmann {
-        let inside = joint.basis().tr_mul(joint.origin());
-        let outside = (joint.origin() - joint.basis() * &inside).norm();
-        let space = |mean: &DVector<f64>, basis: &DMatrix<f64>| AffineSpace {
-            point: (mean + &inside).insert_row(inside.len(), outside),
-            basis: basis.clone().insert_row(inside.len(), 0.0),
-        };
-        let of_moments =
-            |moments: &Moments| space(&moments.mean, &moments.principal_components().0);
-        let [a, b] = [joint.prior(0), joint.prior(1)];
-        let union = of_moments(&Moments::pooled(&a, &b));
-        let mean = joint.basis().tr_mul(&(intersection.mean() - joint.origin()));
-        let both = space(&mean, &joint.basis().tr_mul(intersection.basis()));
-        let to = |other: &AffineSpace| affine_grassmann_distance(&both, other, displacement);
-        Grassmann { to_a: to(&of_moments(&a)), to_b: to(&of_moments(&b)), to_union: to(&union) }
     }
 
     fn difference(&self, side: usize, draws: &Draws) -> DifferenceReport {
@@ -238,7 +224,7 @@ impl Comparison {
         };
         let noise = self.sigma();
         Overlap {
-            principal_angles_degrees: principal_angles(a.basis(), b.basis())
+            principal_angles_degrees: principal_angles(&joint.modes(0), &joint.modes(1))
                 .into_iter()
                 .map(f64::to_degrees)
                 .collect(),
@@ -250,4 +236,28 @@ impl Comparison {
             mean_to_mean: mean_vertex_distance(a.mean(), b.mean(), a.dimension()),
         }
     }
+}
+
+/// Affine Grassmann distances of the intersection, the paper's and Lim's, in coordinates that hold
+/// all of the spaces: the joint basis, and the direction in which A's mean leaves it.
+fn grassmann(joint: &Joint, intersection: &LinearModel) -> [Grassmann; 2] {
+    let inside = joint.basis().tr_mul(joint.origin());
+    let outside = (joint.origin() - joint.basis() * &inside).norm();
+    let space = |mean: &DVector<f64>, basis: DMatrix<f64>| AffineSpace {
+        point: (mean + &inside).insert_row(inside.len(), outside),
+        basis: basis.insert_row(inside.len(), 0.0),
+    };
+    let union = Moments::pooled(&joint.prior(0), &joint.prior(1));
+    let others = [
+        space(joint.mean(0), joint.modes(0)),
+        space(joint.mean(1), joint.modes(1)),
+        space(&union.mean, union.principal_components().0),
+    ];
+    let mean = joint.basis().tr_mul(&(intersection.mean() - joint.origin()));
+    let both = space(&mean, cross(joint.basis(), intersection.basis()));
+    [Displacement::Unit, Displacement::Full].map(|displacement| {
+        let [to_a, to_b, to_union] =
+            [0, 1, 2].map(|k| affine_grassmann_distance(&both, &others[k], displacement));
+        Grassmann { to_a, to_b, to_union }
+    })
 }

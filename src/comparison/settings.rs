@@ -63,7 +63,7 @@ impl Default for Settings {
             sigma_recommended: false,
             seed: 1,
             sampler: Sampler::Independence,
-            chains: 16,
+            chains: 8,
             draws: 4000,
             burn_in: 10,
             thin: 1,

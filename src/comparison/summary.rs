@@ -1,5 +1,6 @@
 //! Diagnostics of draws, as the report states them.
 
+use crate::parallel;
 use crate::report::Diagnostics;
 use crate::sampling::{ChainSummary, Draws, pareto_k, summarise};
 
@@ -15,22 +16,17 @@ pub(super) fn coefficients(draws: &Draws, most: usize) -> Vec<ChainSummary> {
     if length < LEAST_DRAWS_OF_A_CHAIN {
         return Vec::new();
     }
-    (0..draws.dimension.min(most))
-        .map(|coefficient| {
-            let chains: Vec<Vec<f64>> = draws
-                .values
-                .iter()
-                .map(|chain| {
-                    chain
-                        .chunks_exact(draws.dimension)
-                        .take(length)
-                        .map(|a| a[coefficient])
-                        .collect()
-                })
-                .collect();
-            summarise(&chains)
-        })
-        .collect()
+    parallel::map(draws.dimension.min(most), |coefficient| {
+        let chains: Vec<Vec<f64>> = draws
+            .values
+            .iter()
+            .map(|chain| {
+                let states = chain.chunks_exact(draws.dimension).take(length);
+                states.map(|state| state[coefficient]).collect()
+            })
+            .collect();
+        summarise(&chains)
+    })
 }
 
 /// Diagnostics of one side of the intersection.

@@ -7,10 +7,11 @@ use crate::report::{Report, Warning};
 
 /// Share of a model's shapes above which its difference is called nearly everything.
 const NEARLY_ALL: f64 = 0.99;
+const LARGER_SIGMA: &str = "Choose a larger σ to see what is special to one model.";
 /// Share below which draws of a difference are rare.
 const NEARLY_NONE: f64 = 0.01;
-/// Mean distance, in σ, beyond which the models do not meet within the tolerance.
-const APART: f64 = 10.0;
+/// Nearest distance, in σ for each mode, beyond which the models do not meet within the tolerance.
+const APART: f64 = 3.0;
 /// Share of the mean-to-mean distance that a rigid motion must remove to be worth a word.
 const WORTH_ALIGNING: f64 = 0.3;
 
@@ -90,15 +91,16 @@ impl Comparison {
                 "Use it to compare with the paper only.",
             ));
         }
-        if intersection.mean_distance.mean > APART * self.sigma() {
+        if let Some(tolerance) = self.tolerance
+            && tolerance.nearest > APART * self.sigma() * (intersection.modes as f64).sqrt()
+        {
             warnings.push(warning(
-                "beyond-tolerance",
+                "closest-approach",
                 format!(
-                    "Within σ = {} {symbol} the two models do not meet: the nearest shapes are {} {symbol} apart on average, and the intersection shows that closest approach.",
-                    rounded(self.sigma()),
-                    rounded(intersection.mean_distance.mean)
+                    "The nearest shapes of the two models are still {} {symbol} apart on average: the intersection shows where they come closest.",
+                    rounded(tolerance.nearest)
                 ),
-                "Read it as “as near as the two come”, choose a larger σ, or use more modes.",
+                "Read it as “as near as the two come”, or use more modes where the files have them.",
             ));
         }
         if let Some(tolerance) = self.tolerance
@@ -120,6 +122,20 @@ impl Comparison {
         let differences = &report.differences;
         let both =
             [(0, "A", "B", &differences.a_without_b), (1, "B", "A", &differences.b_without_a)];
+        let nearly_all = |side: usize| {
+            let difference = both[side].3;
+            !self.is_contained(side)
+                && difference.diagnostics.draws > 0
+                && difference.probability > NEARLY_ALL
+        };
+        if nearly_all(0) && nearly_all(1) {
+            warnings.push(warning(
+                "nearly-all-differs",
+                "At this σ practically every shape of either model counts as outside the other: the two differences look like A and B themselves.".to_owned(),
+                LARGER_SIGMA,
+            ));
+            return;
+        }
         for (side, this, other, difference) in both {
             if self.is_contained(side) {
                 warnings.push(warning(
@@ -129,14 +145,13 @@ impl Comparison {
                     ),
                     "Nothing to do: there is no difference to show.",
                 ));
-            } else if difference.diagnostics.draws > 0 && difference.probability > NEARLY_ALL {
+            } else if nearly_all(side) {
                 warnings.push(warning(
                     "nearly-all-differs",
                     format!(
-                        "At this σ, {:.1} % of the shapes of {this} count as outside {other}: {this} without {other} looks like {this} itself.",
-                        (1000.0 * difference.probability).floor() / 10.0
+                        "At this σ practically every shape of {this} counts as outside {other}: {this} without {other} looks like {this} itself."
                     ),
-                    "Choose a larger σ to see what is special to one model.",
+                    LARGER_SIGMA,
                 ));
             } else if difference.diagnostics.draws > 0 && difference.probability < NEARLY_NONE {
                 warnings.push(warning(

@@ -41,7 +41,12 @@ impl Tree {
     pub(super) fn open(bytes: &[u8]) -> Result<Self, Fault> {
         match File::from_bytes(bytes.to_vec()) {
             Ok(file) => Ok(Self { file, length: bytes.len() }),
-            Err(error) => Err(fault_of(&error, "The HDF5 file", bytes.len())),
+            Err(error) => Err(match fault_of(&error, "The file", bytes.len()) {
+                Fault::Truncated { needed, present, .. } => {
+                    Fault::Truncated { what: "it".to_owned(), needed, present }
+                }
+                other => other,
+            }),
         }
     }
 
@@ -167,11 +172,12 @@ impl Tree {
         attributes.get(name).and_then(AttrValue::as_strings)?.first().map(|text| trimmed(text))
     }
 
-    /// Whether there is a dataset at `path`, however it can be read.
+    /// Whether there is a dataset at `path`, even if it turns out to be damaged. In a file that is
+    /// cut off only what can be opened counts: there every path fails in some way.
     pub(super) fn has_array(&self, path: &str) -> bool {
         match self.file.dataset(path.trim_matches('/')) {
             Ok(_) => true,
-            Err(error) => !is_absent(&error),
+            Err(error) => !is_absent(&error) && self.cut_off().is_none(),
         }
     }
 
@@ -222,11 +228,7 @@ impl Tree {
     pub(super) fn cut_off(&self) -> Option<Fault> {
         let needed = self.file.superblock().eof_address;
         let present = self.length as u64;
-        (needed > present).then(|| Fault::Truncated {
-            what: "the file".to_owned(),
-            needed,
-            present,
-        })
+        (needed > present).then(|| Fault::Truncated { what: "it".to_owned(), needed, present })
     }
 }
 

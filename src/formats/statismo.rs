@@ -34,7 +34,7 @@ use super::cells::Habit;
 use super::error::{Fault, short};
 use super::hdf5::Tree;
 use super::{FormatError, Opened, Part};
-use crate::model::{Kind, LinearModel, Unit};
+use crate::model::{Cells, Kind, LinearModel, Unit};
 
 /// Names listed when there is no model.
 const MOST_NAMES: usize = 20;
@@ -55,6 +55,17 @@ enum Role {
     Color,
 }
 
+/// A part as it stands in the file.
+#[derive(Debug)]
+struct Found {
+    place: Place,
+    role: Role,
+    version: String,
+    unit: Unit,
+    ingredients: Ingredients,
+    notes: Vec<String>,
+}
+
 /// Reads all models of a file.
 pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Opened, FormatError> {
     let tree = Tree::open(bytes).map_err(|fault| fault.of(file))?;
@@ -68,32 +79,44 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Opened, FormatError> {
             })
             .of(file));
     }
-    let several = places.len() > 1;
+    // Everything is read before anything is computed, so that the copy of the file is gone by then.
+    let found: Vec<_> =
+        places.into_iter().map(|place| (place.name.clone(), find(&tree, place))).collect();
+    let cut_off = tree.cut_off();
+    drop(tree);
+    let several = found.len() > 1;
     let mut parts: Vec<Part> = Vec::new();
-    let mut versions = Vec::new();
+    let mut version = None;
     let mut left_out = Vec::new();
     let mut first_fault = None;
-    for place in &places {
-        let name = if several { format!("{file}#{}", place.name) } else { file.to_owned() };
-        match read_part(&tree, place, parts.first().map(|part| &part.model)) {
-            Ok((mut part, version)) => {
+    for (part_name, found) in found {
+        let name = if several { format!("{file}#{part_name}") } else { file.to_owned() };
+        let part = found.and_then(|found| {
+            let stated = found.version.clone();
+            let part = finish(found, parts.first().map(|part| &part.model))?;
+            version.get_or_insert(stated);
+            Ok(part)
+        });
+        match part {
+            Ok(mut part) => {
                 part.model = part.model.with_name(name);
                 parts.push(part);
-                versions.push(version);
             }
             Err(fault) => {
-                left_out.push(format!("The part {} was left out: {fault}", place.name));
+                left_out.push(format!("The part {part_name} was left out: {fault}"));
                 first_fault.get_or_insert(fault);
             }
         }
     }
     match (parts.first_mut(), first_fault) {
         (None, Some(fault)) => return Err(fault.of(file)),
-        (Some(first), _) => first.notes.extend(left_out),
+        (Some(first), _) => {
+            first.notes.extend(cut_off.map(|fault| fault.to_string()));
+            first.notes.extend(left_out);
+        }
         (None, None) => {}
     }
-    let version = versions.first().map_or("", String::as_str);
-    Ok(Opened { format: format!("statismo HDF5 {version}"), parts })
+    Ok(Opened { format: format!("statismo HDF5 {}", version.unwrap_or_default()), parts })
 }
 
 /// The models of a file: those of the catalog, or those at the usual paths, or in any group.
@@ -153,98 +176,102 @@ fn role_of(tree: &Tree, place: &Place) -> Role {
     }
 }
 
-/// Reads the model at `place`; `shape` is the file's shape model, once it is read.
-fn read_part(
-    tree: &Tree,
-    place: &Place,
-    shape: Option<&LinearModel>,
-) -> Result<(Part, String), Fault> {
+/// Reads the arrays of the model at `place`.
+fn find(tree: &Tree, place: Place) -> Result<Found, Fault> {
     let at = |path: &str| format!("{}/{path}", place.path).trim_start_matches('/').to_owned();
     let kind = tree.attribute(&at("representer"), "datasetType").unwrap_or_default();
     if matches!(kind.as_str(), "IMAGE" | "VECTOR" | "CUSTOM") {
         return Err(Fault::NotMesh { kind });
     }
     let mut notes = Vec::new();
-    let (version, orthonormal) = version(tree, place, &mut notes)?;
-    let role = role_of(tree, place);
+    let (version, orthonormal) = version(tree, &place, &mut notes)?;
+    let role = role_of(tree, &place);
     let mean = required(tree, &at("model/mean"))?;
     let basis = required(tree, &at("model/pcaBasis"))?;
-    let variances = required(tree, &at("model/pcaVariance"));
-    let scaling = match variances {
-        Ok(Named { name, array }) => {
-            let variances = array.into_f64().ok_or_else(|| not_numbers(&name, "text"))?;
+    let scaling = match tree.array(&at("model/pcaVariance"))? {
+        Some(array) => {
+            let variances =
+                array.into_f64().ok_or_else(|| not_numbers(&at("model/pcaVariance"), "text"))?;
             if orthonormal { Scaling::Unit(variances) } else { Scaling::Scaled(variances) }
         }
-        Err(Fault::NoModel { .. }) => Scaling::Unstated,
-        Err(fault) => return Err(fault),
-    };
-    let same_mesh = shape.filter(|shape| shape.mean().len() == mean.array.data.len());
-    let base = match (role, same_mesh) {
-        (Role::Expression, Some(shape)) => displaced(&mean.array, shape),
-        (Role::Expression, None) => {
-            return Err(Fault::Displacement { part: place.name.clone() });
-        }
-        _ => None,
+        None => Scaling::Unstated,
     };
     // Cells are only for drawing: what of them cannot be read is said, and points are shown.
-    let cells = match cells_of(tree, &at("representer")) {
-        Ok(cells) => cells,
-        Err(fault) => {
+    let cells = first_array(tree, &at("representer"), ["cells", "reference-mesh/triangle-list"])
+        .unwrap_or_else(|fault| {
             notes.push(format!("The faces could not be read, points are shown instead. {fault}"));
             None
-        }
-    };
+        });
     if cells.is_none() && tree.has_array(&at("representer/reference")) {
         notes.push(
             "The mesh is embedded as a VTK file, which is not read; points are shown instead."
                 .to_owned(),
         );
     }
-    let points = tree
-        .array(&at("representer/points"))
-        .or_else(|_| tree.array(&at("representer/reference-mesh/vertex-coordinates")))
-        .ok()
-        .flatten();
-    let borrowed = same_mesh.filter(|_| role != Role::Shape).map(|shape| shape.cells().clone());
-    let assembled = assemble(Ingredients {
-        mean,
-        basis,
-        scaling,
-        points,
-        cells: if borrowed.is_some() { None } else { cells },
-        habit: Habit::CornersFirst,
-        base,
-        rows: None,
-        kind: if role == Role::Color { Kind::Color } else { Kind::Shape },
-    })?;
-    let unit = match role {
-        Role::Color => Unit::Unknown,
-        Role::Expression => same_mesh.map(LinearModel::unit).unwrap_or_default(),
-        Role::Shape => unit_of(tree, &at("representer/length-unit")),
-    };
+    let places = ["points", "reference-mesh/vertex-coordinates"];
+    let points = first_array(tree, &at("representer"), places).ok().flatten();
+    if let Some(noise) = tree.number(&at("model/noiseVariance")).filter(|noise| *noise > 0.0) {
+        let noise = short(noise);
+        notes.push(format!("The file's noise variance of {noise} is not part of the model."));
+    }
+    let unit = unit_of(tree, &at("representer/length-unit"));
+    let kind = if role == Role::Color { Kind::Color } else { Kind::Shape };
+    let habit = Habit::CornersFirst;
+    let ingredients =
+        Ingredients { mean, basis, scaling, points, cells, habit, base: None, rows: None, kind };
+    Ok(Found { place, role, version, unit, ingredients, notes })
+}
+
+/// Makes a part of what was found; `shape` is the file's shape model, once it is there.
+fn finish(found: Found, shape: Option<&LinearModel>) -> Result<Part, Fault> {
+    let Found { place, role, mut unit, mut ingredients, mut notes, .. } = found;
+    let mut borrowed = None;
+    if role != Role::Shape {
+        let length = ingredients.mean.array.data.len();
+        let shape = shape.filter(|shape| shape.mean().len() == length);
+        if role == Role::Expression {
+            let Some(shape) = shape else {
+                return Err(Fault::Displacement { part: place.name });
+            };
+            ingredients.base = displaced(&ingredients.mean.array, shape);
+            unit = shape.unit();
+        } else {
+            unit = Unit::Unknown;
+        }
+        // All parts lie on one mesh; that of the shape part has been turned the right way round.
+        borrowed = shape.map(LinearModel::cells).filter(|cells| **cells != Cells::None).cloned();
+        if borrowed.is_some() {
+            ingredients.cells = None;
+        }
+    }
+    let assembled = assemble(ingredients)?;
     let mut model = assembled.model.with_unit(unit);
     if let Some(cells) = borrowed {
         model = model.with_cells(cells).map_err(Fault::Model)?;
     }
     notes.extend(assembled.notes);
-    if let Some(noise) = tree.number(&at("model/noiseVariance")).filter(|noise| *noise > 0.0) {
-        notes.push(format!(
-            "The file's noise variance of {} is not part of the model.",
-            short(noise)
-        ));
-    }
-    Ok((Part { name: place.name.clone(), model, check: assembled.check, notes }, version))
+    Ok(Part { name: place.name, model, check: assembled.check, notes })
 }
 
 /// The version in words, and whether its modes are orthonormal.
 fn version(tree: &Tree, place: &Place, notes: &mut Vec<String>) -> Result<(String, bool), Fault> {
-    let number = |group: &str, name: &str| {
-        let found = tree.array(&format!("{group}/version/{name}")).ok().flatten()?;
-        found.to_integers()?.first().copied()
+    let number = |group: &str, name: &str| -> Result<Option<i64>, Fault> {
+        let found = tree.array(&format!("{group}/version/{name}"))?;
+        Ok(found.and_then(|array| array.to_integers()?.first().copied()))
     };
-    let found = [place.path.as_str(), ""].into_iter().find_map(|group| {
-        Some((number(group, "majorVersion")?, number(group, "minorVersion").unwrap_or(0)))
-    });
+    let mut found = None;
+    for group in [place.path.as_str(), ""] {
+        if let Some(major) = number(group, "majorVersion")? {
+            found = Some((major, number(group, "minorVersion")?.unwrap_or(0)));
+            break;
+        }
+    }
+    // Without its end nobody knows what version the file states.
+    if found.is_none()
+        && let Some(fault) = tree.cut_off()
+    {
+        return Err(fault);
+    }
     match found {
         Some((0, 8)) => Ok(("0.8".to_owned(), false)),
         Some((0, 9)) => Ok(("0.9".to_owned(), true)),
@@ -270,10 +297,11 @@ fn displaced(mean: &Array, shape: &LinearModel) -> Option<DVector<f64>> {
     (squares.sqrt() < 0.5 * shape.mean().norm()).then(|| shape.mean().clone())
 }
 
-fn cells_of(tree: &Tree, representer: &str) -> Result<Option<Array>, Fault> {
-    match tree.array(&format!("{representer}/cells"))? {
-        Some(cells) => Ok(Some(cells)),
-        None => tree.array(&format!("{representer}/reference-mesh/triangle-list")),
+/// The first of the arrays that is there.
+fn first_array(tree: &Tree, group: &str, names: [&str; 2]) -> Result<Option<Array>, Fault> {
+    match tree.array(&format!("{group}/{}", names[0]))? {
+        Some(array) => Ok(Some(array)),
+        None => tree.array(&format!("{group}/{}", names[1])),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::model::LinearModel;
+use crate::model::{LinearModel, product};
 
 /// Per-vertex standard deviation (n), √ of the trace of each point's covariance, of shapes of `model`
 /// whose coefficients have covariance F Fᵀ. No shape is formed: it is ‖U_v F‖.
@@ -11,9 +11,9 @@ pub fn vertex_standard_deviations(model: &LinearModel, factor: &DMatrix<f64>) ->
     for (mut row, deviation) in scaled.row_iter_mut().zip(model.standard_deviations().iter()) {
         row *= *deviation;
     }
-    let product = model.basis() * scaled;
+    let moved = product(model.basis(), &scaled);
     let mut squares = vec![0.0; model.point_count()];
-    for column in product.column_iter() {
+    for column in moved.column_iter() {
         for (vertex, point) in column.as_slice().chunks_exact(model.dimension()).enumerate() {
             squares[vertex] += point.iter().map(|value| value * value).sum::<f64>();
         }

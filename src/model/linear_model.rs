@@ -454,13 +454,14 @@ impl LinearModel {
 }
 
 fn largest_cosine(matrix: &DMatrix<f64>) -> f64 {
-    let norms: Vec<f64> = matrix.column_iter().map(|column| column.norm()).collect();
+    let gram = super::cross(matrix, matrix);
+    let norms: Vec<f64> = gram.diagonal().iter().map(|square| square.sqrt()).collect();
     let mut largest = 0.0_f64;
     for i in 0..matrix.ncols() {
         for j in i + 1..matrix.ncols() {
             let product = norms[i] * norms[j];
             if product > 0.0 {
-                largest = largest.max(matrix.column(i).dot(&matrix.column(j)).abs() / product);
+                largest = largest.max(gram[(i, j)].abs() / product);
             }
         }
     }

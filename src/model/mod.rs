@@ -12,9 +12,11 @@
 mod linear_model;
 mod population;
 mod procrustes;
+mod product;
 mod thin_svd;
 
 pub use linear_model::{BasisCheck, Cells, Kind, LinearModel, ModelError, Unit};
 pub use population::{generalised_procrustes, principal_components};
 pub use procrustes::{Alignment, Similarity, align_to, procrustes};
+pub use product::{cross, product};
 pub use thin_svd::{ThinSvd, thin_svd};

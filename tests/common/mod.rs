@@ -1,5 +1,6 @@
 //! What several tests need: runs, spaces, synthetic models.
-#![allow(dead_code, reason = "every test file uses its own part")]
+#![allow(dead_code, unreachable_pub, reason = "every test file uses its own part")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use nalgebra::{DMatrix, DVector};
 use shapevenn::comparison::{Comparison, Settings};

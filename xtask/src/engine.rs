@@ -57,7 +57,7 @@ pub(crate) fn lint(variant: Variant) -> Result {
         None => Command::new(cargo()),
     };
     // The profile of the real build: build scripts and macros are then compiled once.
-    command.args(["clippy", "--release", "--lib"]);
+    command.args(["clippy", "--quiet", "--lib"]);
     prepare(&mut command, variant)?;
     command.args(["--", "-D", "warnings"]);
     succeed(&mut command, "clippy")
@@ -67,7 +67,7 @@ pub(crate) fn lint(variant: Variant) -> Result {
 fn compile(variant: Variant) -> Result<PathBuf> {
     let mut command = Command::new(cargo());
     // `rustc --crate-type`, so that the native build need not make a shared library too.
-    command.args(["rustc", "--release", "--lib", "--crate-type", "cdylib"]);
+    command.args(["rustc", "--profile", "engine", "--lib", "--crate-type", "cdylib"]);
     command.arg("--message-format=json-render-diagnostics");
     prepare(&mut command, variant)?;
     let output = command.stderr(Stdio::inherit()).output()?;
