@@ -65,7 +65,7 @@ async function restore(key: string): Promise<void> {
   restoring = true;
   forgetRun();
   try {
-    const draws = (await stored.draws).slice(0);
+    const draws = (await stored.draws()).slice(0);
     result.value = storedResult(stored);
     const signal = new AbortController().signal;
     await engineClient().restore(signal, a.model, b.model, stored.text, draws);
