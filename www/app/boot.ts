@@ -20,6 +20,8 @@ export async function boot(): Promise<void> {
   const models = openModels(link);
   const stored = await fetchStored();
   if (stored && wants(link, settingsKey(stored.settings))) {
+    // Whoever restores sees whether this failed; until then it is not unhandled.
+    stored.draws().catch(() => undefined);
     batch(() => {
       apply({ ...link, settings: stored.settings });
       result.value = storedResult(stored);

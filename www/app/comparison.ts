@@ -63,9 +63,9 @@ async function restore(key: string): Promise<void> {
   const [a, b] = [chosenPart("a"), chosenPart("b")];
   if (!stored || !a || !b || restoring) return;
   restoring = true;
-  runController?.abort();
+  forgetRun();
   try {
-    const draws = (await stored.draws).slice(0);
+    const draws = (await stored.draws()).slice(0);
     result.value = storedResult(stored);
     const signal = new AbortController().signal;
     await engineClient().restore(signal, a.model, b.model, stored.text, draws);
@@ -89,7 +89,7 @@ export async function start(): Promise<void> {
   const [a, b] = [chosenPart("a"), chosenPart("b")];
   const key = currentKey.value;
   if (!a || !b || key === null) return;
-  cancelQuietly();
+  forgetRun();
   const controller = new AbortController();
   runController = controller;
   batch(() => {
@@ -136,10 +136,10 @@ export function cancel(): void {
   runController.abort();
 }
 
-function cancelQuietly(): void {
-  const former = runController;
+/** Forgets a run that the next request to the engine supersedes; a cancel would measure it first. */
+function forgetRun(): void {
   runController = null;
-  former?.abort();
+  run.value = null;
 }
 
 function finish(key: string, text: string, cancelled: boolean): void {

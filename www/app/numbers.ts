@@ -16,7 +16,8 @@ export interface Group {
 }
 
 const inUnit = (value: number, report: Report) => length(value, report.models.a.unit);
-const radians = (value: number) => number(value, 4);
+/** What is only rounding error is none. */
+const radians = (value: number) => (value < 1e-9 ? "0" : number(value, 4));
 const plainly = (value: number) => number(value);
 
 const both = (label: string, path: string, show: Row["show"]): Row => ({

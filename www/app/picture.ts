@@ -5,6 +5,7 @@ import { number } from "./format";
 import { plain } from "./phrase";
 import { region, result, unit, view } from "./state";
 import { isDark } from "./theme";
+import { VENN_BOX, vennOf } from "./venn";
 import { layoutOf, range, viewer } from "./viewer/stage-controller";
 import { REGION_NAMES } from "./views/names";
 import { headline, settingsSentence } from "./words";
@@ -39,9 +40,50 @@ export async function savePicture(): Promise<void> {
       pen.fillText(REGION_NAMES[name].sign, rect.x + 10, rect.y + 20);
     }
   }
+  if (region.peek() === null) drawMap(pen, canvas, dark);
   foot(pen, width, height);
   const blob = await new Promise<Blob | null>((resolve) => picture.toBlob(resolve));
   if (blob) saveBlob(`shapevenn-${view.peek()}.png`, blob);
+}
+
+const HUES = {
+  light: { a: "#2f6fd0", b: "#dd7a17", ab: "#9a4aa3" },
+  dark: { a: "#7aaaff", b: "#ffab5c", ab: "#dc92e6" },
+} as const;
+
+/** The Venn diagram, where it stands on the page. */
+function drawMap(pen: CanvasRenderingContext2D, canvas: HTMLCanvasElement, dark: boolean): void {
+  const report = result.peek()?.report;
+  const box = document.querySelector(".venn svg")?.getBoundingClientRect();
+  if (!report || !box) return;
+  const whole = canvas.getBoundingClientRect();
+  const { a, b, paths } = vennOf(report);
+  const hue = HUES[dark ? "dark" : "light"];
+  pen.save();
+  pen.translate(box.x - whole.x, box.y - whole.y);
+  pen.scale(box.width / VENN_BOX.width, box.width / VENN_BOX.width);
+  pen.lineWidth = 1.75;
+  for (const [path, colour] of [
+    [paths.aWithoutB, hue.a],
+    [paths.bWithoutA, hue.b],
+    [paths.intersection, hue.ab],
+  ] as const) {
+    pen.globalAlpha = 0.3;
+    pen.fillStyle = colour;
+    pen.fill(new Path2D(path));
+  }
+  pen.globalAlpha = 1;
+  for (const [circle, path, colour, letter] of [
+    [a, paths.a, hue.a, "A"],
+    [b, paths.b, hue.b, "B"],
+  ] as const) {
+    pen.strokeStyle = pen.fillStyle = colour;
+    pen.stroke(new Path2D(path));
+    pen.textAlign = letter === "A" ? "right" : "left";
+    const side = letter === "A" ? -circle.r * 0.75 : circle.r * 0.75;
+    pen.fillText(letter, circle.x + side, circle.y - circle.r * 0.75);
+  }
+  pen.restore();
 }
 
 function foot(pen: CanvasRenderingContext2D, width: number, top: number): void {

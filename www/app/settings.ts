@@ -36,7 +36,7 @@ export function budgetOf(
   sampler: SamplerName,
 ): Pick<Settings, "chains" | "draws" | "burnIn" | "thin"> {
   return sampler === "independence"
-    ? { chains: 16, draws: 4000, burnIn: 10, thin: 1 }
+    ? { chains: 8, draws: 4000, burnIn: 10, thin: 1 }
     : { chains: 25, draws: 2500, burnIn: 2000, thin: 30 };
 }
 

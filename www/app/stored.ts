@@ -9,16 +9,22 @@ export interface Stored {
   text: string;
   settings: Settings;
   key: string;
-  draws: Promise<ArrayBuffer>;
+  /** Downloads the draws, once. */
+  draws(): Promise<ArrayBuffer>;
+}
+
+let draws: Promise<ArrayBuffer> | null = null;
+
+function fetchDraws(): Promise<ArrayBuffer> {
+  draws ??= fetch("first/draws.npz").then((response) => {
+    if (!response.ok) throw new Error("There are no stored draws.");
+    return response.arrayBuffer();
+  });
+  return draws;
 }
 
 /** Null where there is none: the page then simply runs. */
 export async function fetchStored(): Promise<Stored | null> {
-  const draws = fetch("first/draws.npz").then((response) =>
-    response.ok ? response.arrayBuffer() : Promise.reject(new Error("no stored draws")),
-  );
-  // Whoever awaits it later sees the failure; until then it is not unhandled.
-  draws.catch(() => undefined);
   try {
     const response = await fetch("first/report.json");
     if (!response.ok) return null;
@@ -26,7 +32,7 @@ export async function fetchStored(): Promise<Stored | null> {
     const report = JSON.parse(text) as Report;
     const settings = settingsOf(report.settings);
     const key = comparisonKey(`demo:${FIRST_DEMO.a}#0`, `demo:${FIRST_DEMO.b}#0`, settings);
-    return { report, text, settings, key, draws };
+    return { report, text, settings, key, draws: fetchDraws };
   } catch {
     return null;
   }

@@ -3,6 +3,8 @@
  * what each can make of the other's variance.
  */
 
+import type { Report } from "../worker/protocol";
+
 export interface VennSizes {
   a: number;
   b: number;
@@ -21,6 +23,20 @@ export interface Venn {
   /** Where the circles cross; none when they are apart or one holds the other. */
   crossing: { x: number; y: number } | null;
   paths: { a: string; b: string; aWithoutB: string; bWithoutA: string; intersection: string };
+}
+
+/** The drawing's own size; pages and pictures scale it. */
+export const VENN_BOX = { width: 240, height: 170, margin: 6 };
+
+/** The diagram of a report. */
+export function vennOf({ models, overlap }: Report): Venn {
+  const sizes = vennSizes(
+    models.a.totalVariance,
+    models.b.totalVariance,
+    overlap.varianceOfAInB,
+    overlap.varianceOfBInA,
+  );
+  return layOut(sizes, VENN_BOX.width, VENN_BOX.height, VENN_BOX.margin);
 }
 
 export function vennSizes(

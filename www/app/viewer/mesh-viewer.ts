@@ -91,7 +91,7 @@ export class MeshViewer implements Viewer {
     const used = new Set(this.#panes.flatMap((pane) => pane.objects));
     discard(former.flatMap((pane) => pane.objects).filter((object) => !used.has(object)));
     this.#paint();
-    this.#scene.add(...used);
+    for (const object of used) this.#scene.add(object);
     this.#request();
   }
 
@@ -299,6 +299,8 @@ function clay(fades: boolean): MeshLambertMaterial {
   const material = new MeshLambertMaterial({
     vertexColors: true,
     side: DoubleSide,
+    // One pass: with two, the far side's is lit from within and shows at the outline.
+    forceSinglePass: true,
     ...(fades ? { transparent: true, blending: NoBlending, premultipliedAlpha: true } : {}),
   });
   // A back face that shows at the outline would be lit from its other side: dark specks.

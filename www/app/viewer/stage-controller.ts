@@ -54,11 +54,14 @@ export function takeCanvas(
   panes = elements;
   const stops: (() => void)[] = [];
   let gone = false;
-  void createViewer(canvas).then((made) => {
+  const flat = dimension.peek() === 2;
+  void createViewer(canvas, flat).then((made) => {
     if (gone) return made.dispose();
     viewer.value = made;
     stops.push(
       effect(() => {
+        // Shapes of another dimension wait for the viewer that replaces this one.
+        if ((dimension.value === 2) !== flat) return;
         made.setMesh(contentsOf(scene.value, regionsShown.value), sceneFrame(scene.value));
       }),
       effect(() => made.setColors(range.value)),
@@ -90,8 +93,8 @@ export function takeCanvas(
   };
 }
 
-async function createViewer(canvas: HTMLCanvasElement): Promise<Viewer> {
-  if (dimension.peek() === 2) {
+async function createViewer(canvas: HTMLCanvasElement, flat: boolean): Promise<Viewer> {
+  if (flat) {
     const { FlatViewer } = await import("./flat-viewer");
     return new FlatViewer(canvas);
   }

@@ -98,7 +98,7 @@ export function frameOf(
   for (const shape of shapes) {
     for (let i = 0; i < shape.length; i += 1) {
       const axis = i % dimension;
-      if ((fade?.[(i - axis) / dimension] ?? 1) < 0.2) continue;
+      if ((fade?.[(i - axis) / dimension] ?? 1) < 0.08) continue;
       const value = shape[i] ?? 0;
       if (value < (low[axis] ?? 0)) low[axis] = value;
       if (value > (high[axis] ?? 0)) high[axis] = value;

@@ -13,7 +13,8 @@ export function ModelCard({ side }: { side: Side }) {
   const slot = slots[side].value;
   // Before the engine is up, the stored report already describes both models.
   const report = chosenPart(side)?.report ?? result.value?.report.models[side];
-  const name = slot ? nameOf(slot.source) : (demo.value?.[side] ?? "");
+  const ofFile = slot && slot.source.kind !== "demo" ? nameOf(slot.source) : undefined;
+  const name = ofFile ?? report?.name ?? demo.value?.[side] ?? "";
   const busy = opening[side].value;
   return (
     <section

@@ -2,26 +2,13 @@ import { useComputed } from "@preact/signals";
 import type { Region } from "../../worker/protocol";
 import { percent } from "../format";
 import { outOfDate, region, result } from "../state";
-import { layOut, vennSizes } from "../venn";
+import { VENN_BOX, vennOf } from "../venn";
 import { regionLabel } from "./names";
-
-const BOX = { width: 240, height: 170, margin: 6 };
 
 /** The map: two circles to scale, and five regions to go to. */
 export function VennMap() {
   const report = result.value?.report;
-  const venn = useComputed(() => {
-    const found = result.value?.report;
-    if (!found) return null;
-    const { models, overlap } = found;
-    const sizes = vennSizes(
-      models.a.totalVariance,
-      models.b.totalVariance,
-      overlap.varianceOfAInB,
-      overlap.varianceOfBInA,
-    );
-    return layOut(sizes, BOX.width, BOX.height, BOX.margin);
-  }).value;
+  const venn = useComputed(() => result.value && vennOf(result.value.report)).value;
   if (!venn || !report) return <figure class="venn" aria-hidden="true" />;
   const { a, b, paths } = venn;
   const { varianceOfAInB, varianceOfBInA } = report.overlap;
@@ -32,7 +19,7 @@ export function VennMap() {
     <figure class="venn" data-stale={outOfDate.value}>
       {/* biome-ignore lint/a11y/useSemanticElements: a drawing is no fieldset */}
       <svg
-        viewBox={`0 0 ${BOX.width} ${BOX.height}`}
+        viewBox={`0 0 ${VENN_BOX.width} ${VENN_BOX.height}`}
         role="group"
         aria-label={describe(varianceOfAInB, varianceOfBInA)}
       >
@@ -104,7 +91,8 @@ function Letter({ name, x, y, text }: { name: "a" | "b"; x: number; y: number; t
       onKeyDown={(event) => onKey(event, name)}
     >
       <title>{regionLabel(name)}</title>
-      <circle cx={x} cy={y} r={13} />
+      <circle class="reach" cx={x} cy={y} r={22} />
+      <circle class="disc" cx={x} cy={y} r={13} />
       <text x={x} y={y + 5}>
         {text}
       </text>
