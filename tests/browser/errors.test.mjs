@@ -104,6 +104,19 @@ test("models that cannot be compared: a sentence says why, and the former result
   });
 });
 
+test("on a phone the page scrolls to what went wrong", async () => {
+  await withPage({ viewport: { width: 390, height: 844 } }, async ({ url, page }) => {
+    await page.goto(`${url}#${STARS}`);
+    await untilState(page, "done");
+    await dropFiles(page, "body", [{ name: "nothing.h5", bytes: Buffer.alloc(0) }]);
+    await alertOf(page);
+    await page.waitForFunction(() => {
+      const { top, bottom } = document.querySelector("[role=alert]").getBoundingClientRect();
+      return top > -1 && bottom < innerHeight + 1;
+    });
+  });
+});
+
 test("three files at once are refused in words", async () => {
   await withPage({}, async ({ url, page }) => {
     await page.goto(`${url}#${STARS}`);
@@ -175,6 +188,8 @@ test("by keyboard alone: to the file chooser, two files, and their comparison", 
   await withPage({}, async ({ url, page }) => {
     await page.goto(`${url}#${STARS}`);
     await untilState(page, "done");
+    // Whoever listens from the start misses no chooser while the browser gets ready to tell.
+    page.on("filechooser", () => {});
     const opener = page.getByRole("button", { name: "Open model… for A" });
     const reached = () => opener.evaluate((element) => element === document.activeElement);
     for (let i = 0; i < 30 && !(await reached()); i += 1) await page.keyboard.press("Tab");

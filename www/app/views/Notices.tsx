@@ -1,13 +1,18 @@
 import { dismiss, type Notice, notices } from "../state";
 import { CloseIcon } from "./icons";
 
+/** On a small screen what it concerns may be far away. */
+function show(element: HTMLElement | null): void {
+  element?.scrollIntoView({ block: "nearest" });
+}
+
 /** What went wrong, beside what it concerns. */
 export function Notices({ place }: { place: Notice["place"] }) {
   const found = notices.value.filter((notice) => notice.place === place);
   return (
     <>
       {found.map((notice) => (
-        <div key={notice.id} class="notice" role="alert" data-code={notice.code}>
+        <div key={notice.id} ref={show} class="notice" role="alert" data-code={notice.code}>
           <div>
             <p class="notice-message">{notice.message}</p>
             {notice.hint && <p class="notice-hint">{notice.hint}</p>}

@@ -2,6 +2,7 @@ import { useEffect, useRef } from "preact/hooks";
 import type { Region } from "../../worker/protocol";
 import { number } from "../format";
 import { emptyRegions, outOfDate, region, result, run, shapes, slots, unit, view } from "../state";
+import { contentOf } from "../viewer/contents";
 import { dimension, hover, ownRange, range, scene, takeCanvas } from "../viewer/stage-controller";
 import { ColorBar } from "./ColorBar";
 import { BackIcon, ExpandIcon } from "./icons";
@@ -114,10 +115,10 @@ function Pane({ name, panes }: { name: Region; panes: Map<Region, HTMLElement> }
 
 function PaneNote({ name }: { name: Region }) {
   const empty = emptyRegions.value[name];
-  const own = name === "a" || name === "b";
+  const drawn = contentOf(scene.value, name) !== null;
   if (empty)
     return <p class="pane-note">{isEmpty(name) ? "Empty: there is no such shape." : empty}</p>;
-  if (shapes.value[name] || (own && slots[name].value)) {
+  if (drawn) {
     return shapes.value[name]?.source === "fit" ? <p class="pane-note">first guess</p> : null;
   }
   return (
