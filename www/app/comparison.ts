@@ -64,6 +64,7 @@ async function restore(key: string): Promise<void> {
   if (!stored || !a || !b || restoring) return;
   restoring = true;
   forgetRun();
+  dismiss("run");
   try {
     const draws = (await stored.draws()).slice(0);
     result.value = storedResult(stored);
