@@ -143,6 +143,15 @@ impl Joint {
         Moments { mean: self.means[side].clone(), covariance: scaled * scaled.transpose() }
     }
 
+    /// The orthonormal modes of model A (0) or B (1), largest variance first (p × q).
+    pub fn modes(&self, side: usize) -> DMatrix<f64> {
+        let mut modes = self.scaled[side].clone();
+        for mut column in modes.column_iter_mut() {
+            column.normalize_mut();
+        }
+        modes
+    }
+
     /// The model of the leading principal components, `most` at the most; `None` when nothing varies.
     pub fn model(&self, moments: &Moments, most: usize) -> Option<LinearModel> {
         let (vectors, values) = moments.principal_components();

@@ -158,8 +158,7 @@ impl Comparison {
         };
         let results = self.results();
         let sides = [0, 1].map(|side| summary::of_chains(&results.intersection[side]));
-        let [grassmann, grassmann_affine] = [Displacement::Unit, Displacement::Full]
-            .map(|displacement| self.grassmann(joint, &intersection, displacement));
+        let [grassmann, grassmann_affine] = self.grassmann(joint, &intersection);
         let distances: Vec<f64> = results
             .intersection
             .iter()
@@ -198,28 +197,25 @@ impl Comparison {
         Ok(())
     }
 
-    /// Affine Grassmann distances of the intersection, in coordinates that hold all of them: the joint
-    /// basis and the direction in which A's mean leaves it.
-    fn grassmann(
-        &self,
-        joint: &Joint,
-        intersection: &LinearModel,
-        displacement: Displacement,
-    ) -> Grassmann {
+    /// Affine Grassmann distances of the intersection, the paper's and Lim's, in coordinates that hold
+    /// everything: the joint basis and the direction in which A's mean leaves it.
+    fn grassmann(&self, joint: &Joint, intersection: &LinearModel) -> [Grassmann; 2] {
         let inside = joint.basis().tr_mul(joint.origin());
         let outside = (joint.origin() - joint.basis() * &inside).norm();
         let space = |mean: &DVector<f64>, basis: &DMatrix<f64>| AffineSpace {
             point: (mean + &inside).insert_row(inside.len(), outside),
             basis: basis.clone().insert_row(inside.len(), 0.0),
         };
-        let of_moments =
-            |moments: &Moments| space(&moments.mean, &moments.principal_components().0);
-        let [a, b] = [joint.prior(0), joint.prior(1)];
-        let union = of_moments(&Moments::pooled(&a, &b));
+        let priors = [joint.prior(0), joint.prior(1)];
+        let [a, b] = [0, 1].map(|side| space(&priors[side].mean, &joint.modes(side)));
+        let pooled = Moments::pooled(&priors[0], &priors[1]);
+        let union = space(&pooled.mean, &pooled.principal_components().0);
         let mean = joint.basis().tr_mul(&(intersection.mean() - joint.origin()));
         let both = space(&mean, &joint.basis().tr_mul(intersection.basis()));
-        let to = |other: &AffineSpace| affine_grassmann_distance(&both, other, displacement);
-        Grassmann { to_a: to(&of_moments(&a)), to_b: to(&of_moments(&b)), to_union: to(&union) }
+        [Displacement::Unit, Displacement::Full].map(|displacement| {
+            let to = |other: &AffineSpace| affine_grassmann_distance(&both, other, displacement);
+            Grassmann { to_a: to(&a), to_b: to(&b), to_union: to(&union) }
+        })
     }
 
     fn difference(&self, side: usize, draws: &Draws) -> DifferenceReport {
