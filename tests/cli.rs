@@ -1,5 +1,6 @@
 //! The command line, as a shell sees it: what is on standard output, what on standard error, which
 //! exit status, which files.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

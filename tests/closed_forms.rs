@@ -1,4 +1,5 @@
 //! Pairs whose intersection is known exactly: what is fitted and what is drawn must be that.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod common;
 
@@ -262,4 +263,22 @@ fn a_model_inside_another_has_an_empty_difference_and_the_other_has_not() {
     assert!(found.overlap.variance_of_a_in_b > 1.0 - 1e-12, "all of A");
     // 3² + 2.5² of 3² + 2.5² + 2² + 1.5².
     assert!((found.overlap.variance_of_b_in_a - 15.25 / 21.5).abs() < 1e-12, "part of B");
+}
+
+#[test]
+fn models_that_meet_in_their_mean_are_within_tolerance_however_many_modes_they_have() {
+    // 140 modes each, orthogonal: E d is about √140 σ, though the means are the same shape.
+    let base = random_orthonormal(300, 280, 2);
+    let mean = DVector::from_fn(300, |i, _| 10.0 * libm::sin(1.7 * i as f64));
+    let part =
+        |first: usize| model(3, mean.clone(), &base.columns(first, 140).into_owned(), &[40.0; 140]);
+    let settings = Settings { sigma: Some(0.01), draws: 256, ..Settings::default() };
+    let found = report(&compared(&part(0), &part(140), settings));
+    assert!(found.intersection.mean_distance.mean > 0.1, "{:?}", found.intersection.mean_distance);
+    assert!(!warns(&found, "beyond-tolerance"), "{:?}", found.warnings);
+    // A small tolerance for lines that miss one another by 0.3.
+    let (name, a, b) = lines_and_planes().swap_remove(2);
+    let settings = Settings { sigma: Some(0.01), ..Settings::default() };
+    let found = report(&compared(&a, &b, settings));
+    assert!(warns(&found, "beyond-tolerance"), "{name}: {:?}", found.warnings);
 }

@@ -1,4 +1,5 @@
 //! The resumable run: the same however it is cut, ended early, stored or described.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod common;
 
@@ -138,6 +139,8 @@ fn a_restored_run_shows_the_same_shapes() {
             assert!(off < 1e-5 * size, "{region:?}, {name}: {off} of {size}");
         }
     }
+    let many = restored.region(Region::Intersection, 1000, 3).unwrap();
+    assert_eq!((many.count, many.source), (1000, ShapeSource::Draws), "more shapes than draws");
     assert_eq!(run.region(Region::A, 2, 1).unwrap().source, ShapeSource::Model, "A is a model");
 }
 
