@@ -6,7 +6,7 @@ import { engineClient } from "./engine";
 import { apply, keepLink } from "./history";
 import { type LinkState, readLink } from "./link";
 import { openDemo, openPair } from "./models";
-import { settingsKey } from "./settings";
+import { DEFAULTS, settingsKey } from "./settings";
 import { nouns, pageState, result, run } from "./state";
 import { fetchStored } from "./stored";
 import { watchTheme } from "./theme";
@@ -35,9 +35,8 @@ export async function boot(): Promise<void> {
 /** Whether the address asks for the stored comparison, as an address that says nothing does. */
 function wants(link: LinkState, storedKey: string): boolean {
   if (link.urls || link.demo !== FIRST_DEMO.id) return false;
-  const asked = new URLSearchParams(location.hash.slice(1));
-  const silent = !["sigma", "seed", "sampler", "align", "modes"].some((key) => asked.has(key));
-  return silent || settingsKey(link.settings) === storedKey;
+  const asked = settingsKey(link.settings);
+  return asked === storedKey || asked === settingsKey(DEFAULTS);
 }
 
 async function openModels(link: LinkState): Promise<void> {

@@ -1,7 +1,7 @@
 /** Starts the engine's worker for the page. */
 import { EngineClient } from "../worker/client";
 import { EngineFailure, sentenceOf } from "../worker/engine-errors";
-import { writeStart } from "../worker/start";
+import { parseThreads, writeStart } from "../worker/start";
 import { engine, type Notice, notify, spoken } from "./state";
 
 const query = new URLSearchParams(location.search);
@@ -46,6 +46,7 @@ function spawn(serial: boolean): Worker {
   const start = writeStart({
     base: new URL(".", document.baseURI).href,
     serial: serial || query.has("serial"),
+    threads: parseThreads(query.get("threads")),
     mock: import.meta.env.DEV && query.has("mock"),
   });
   return new Worker(new URL("../worker/worker.ts", import.meta.url), {

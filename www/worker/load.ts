@@ -20,9 +20,12 @@ export interface Loaded {
 const POOL_TIMEOUT_MS = 6000;
 
 export async function loadEngine(start: WorkerStart): Promise<Loaded> {
-  if (!start.serial && canShareMemory()) {
+  const threads = start.threads ?? navigator.hardwareConcurrency;
+  // One thread is the serial build's, unless it is asked for by number.
+  const wanted = !start.serial && (threads > 1 || start.threads !== null);
+  if (wanted && canShareMemory()) {
     try {
-      return await within(POOL_TIMEOUT_MS, loadThreads(start.base));
+      return await within(POOL_TIMEOUT_MS, loadThreads(start.base, threads));
     } catch {
       // Whatever went wrong with threads, the serial build gives the same results.
     }
@@ -36,9 +39,8 @@ export async function loadEngine(start: WorkerStart): Promise<Loaded> {
   };
 }
 
-async function loadThreads(base: string): Promise<Loaded> {
+async function loadThreads(base: string, threads: number): Promise<Loaded> {
   const pack = await importPackage(base, "threads");
-  const threads = navigator.hardwareConcurrency;
   await pack.initThreadPool?.(threads);
   return { engine: new pack.Engine(), build: "threads", threads, version: pack.Engine.version() };
 }
@@ -52,7 +54,7 @@ async function importPackage(base: string, build: "threads" | "serial"): Promise
 
 /** Safari has refused shared memory that its own checks promised, so try it. */
 function canShareMemory(): boolean {
-  if (!globalThis.crossOriginIsolated || !(navigator.hardwareConcurrency > 1)) return false;
+  if (!globalThis.crossOriginIsolated) return false;
   if (typeof Worker === "undefined") return false;
   try {
     const memory = new WebAssembly.Memory({ initial: 1, maximum: 16384, shared: true });

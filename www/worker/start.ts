@@ -4,8 +4,18 @@ export interface WorkerStart {
   base: string;
   /** Never try the build with threads. */
   serial: boolean;
+  /** How many threads; null for as many as the machine has. */
+  threads: number | null;
   /** Development only: an engine that invents its numbers. */
   mock: boolean;
+}
+
+const MOST_THREADS = 64;
+
+/** A number of threads as it is typed; null for what is none. */
+export function parseThreads(text: string | null): number | null {
+  const threads = /^\d{1,2}$/.test(text ?? "") ? Number(text) : 0;
+  return threads >= 1 && threads <= MOST_THREADS ? threads : null;
 }
 
 export function writeStart(start: WorkerStart): string {
@@ -14,5 +24,10 @@ export function writeStart(start: WorkerStart): string {
 
 export function readStart(name: string): WorkerStart {
   const read = JSON.parse(name) as Partial<WorkerStart>;
-  return { base: read.base ?? "/", serial: read.serial === true, mock: read.mock === true };
+  return {
+    base: read.base ?? "/",
+    serial: read.serial === true,
+    threads: read.threads ?? null,
+    mock: read.mock === true,
+  };
 }

@@ -96,7 +96,10 @@ function Running() {
 function Build() {
   const info = engine.value;
   if (!info) return <p class="build">Engine starting…</p>;
-  const how = info.build === "threads" ? `${info.threads} threads` : "serial build, one thread";
+  const how =
+    info.build === "threads"
+      ? `${info.threads} thread${info.threads === 1 ? "" : "s"}`
+      : "serial build, one thread";
   return (
     <p class="build" data-build={info.build}>
       Engine {info.version} · {how}
