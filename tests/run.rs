@@ -181,7 +181,7 @@ fn settings_out_of_range_are_refused_with_the_range() {
             "σ is inf; a positive number was expected.",
         ),
         (Settings { chains: 1, ..few() }, "“chains” is 1; 2 to 1024 was expected."),
-        (Settings { draws: 100, ..few() }, "“draws” is 100; 128 to 10000000 was expected."),
+        (Settings { draws: 50, ..few() }, "“draws” is 50; 64 to 10000000 was expected."),
         (Settings { thin: 0, ..few() }, "“thin” is 0; 1 to 100000 was expected."),
         (
             Settings { burn_in: 20_000_000, ..few() },
