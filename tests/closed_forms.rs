@@ -8,11 +8,13 @@ use common::{
     standard_errors_from, warns,
 };
 use nalgebra::{DMatrix, DVector};
-use shapevenn::compare::{Side, fit_reweighted, fit_rms, fit_variational_step, without_distance};
+use shapevenn::compare::{
+    Intersection, Side, fit_reweighted, fit_rms, fit_variational_step, without_distance,
+};
 use shapevenn::comparison::Settings;
 use shapevenn::demos::{self, STAR_ROWS, star_pair};
 use shapevenn::model::LinearModel;
-use shapevenn::sampling::Gaussian;
+use shapevenn::sampling::{Chains, Gaussian, IndependenceChains, Schedule};
 
 /// The intersection posterior of models of one point, from its definition: there d = ‖r‖, and
 /// everything is quadratic. U₂⁺ by normal equations, which the engine does not use.
@@ -81,6 +83,28 @@ fn draws_of_lines_and_planes_have_the_exact_mean_and_covariance() {
                 assert!(wrong > 5.0, "{name}, σ = {sigma}, side {side}: 2 σ passes with {wrong}");
             }
         }
+    }
+}
+
+#[test]
+fn a_proposal_that_is_too_wide_and_beside_the_mark_gives_the_same_draws() {
+    let (name, a, b) = lines_and_planes().swap_remove(1);
+    let (side, sigma) = (Side::new(&a, &b), 0.3);
+    let law = exact(&a, &b, sigma);
+    let scaled = |factor: f64, shift: f64| {
+        let mean = law.mean() + law.transform() * DVector::from_element(2, shift);
+        Gaussian::from_precision(mean, law.precision() * factor).unwrap()
+    };
+    let schedule = Schedule { chains: 16, burn_in: 10, thin: 1, kept: 2000 };
+    let wide = without_distance(&side).unwrap();
+    let mut chains = IndependenceChains::new(scaled(0.5, 0.4), wide, schedule, 1, 0);
+    chains.advance(&Intersection::new(&side, sigma, law.mean()), usize::MAX);
+    let off = standard_errors_from(chains.draws(), &law);
+    assert!(off < 5.0, "{name}: {off} standard errors");
+    // What a sampler without the weights, or with their square roots, would draw from.
+    for (what, factor, shift) in [("no", 0.5, 0.4), ("half of the", 0.75, 0.4 / 3.0)] {
+        let wrong = standard_errors_from(chains.draws(), &scaled(factor, shift));
+        assert!(wrong > 5.0, "{name}: {what} correction passes with {wrong}");
     }
 }
 
