@@ -106,13 +106,155 @@ export async function download(page, action) {
   return { name: file.suggestedFilename(), bytes: await readFile(path) };
 }
 
-/** Axe's findings on the page as it stands, one line each. */
-export async function accessibilityFaults(page) {
+/** What axe finds on the page as it stands, one line each: only what hinders people by default. */
+export async function accessibilityFaults(page, impacts = ["serious", "critical"]) {
   await page.addScriptTag({ path: join(root, "node_modules/axe-core/axe.min.js") });
-  return page.evaluate(async () => {
+  return page.evaluate(async (counted) => {
     const { violations } = await globalThis.axe.run();
-    return violations.map(
-      ({ id, help, nodes }) => `${id}: ${help} (${nodes.map((n) => n.target).join("; ")})`,
+    return violations
+      .filter(({ impact }) => counted.includes(impact))
+      .map(({ id, help, nodes }) => `${id}: ${help} (${nodes.map((n) => n.target).join("; ")})`);
+  }, impacts);
+}
+
+/** Resolves to what the page says in the report it offers. */
+export async function downloadReport(page) {
+  const file = await download(page, () =>
+    page.getByRole("button", { name: "Report .json" }).click(),
+  );
+  return JSON.parse(file.bytes.toString("utf8"));
+}
+
+/** Every number on the page, as `[path in the report, unrounded value]`. */
+export async function shownMetrics(page) {
+  return page
+    .locator("[data-metric]")
+    .evaluateAll((elements) =>
+      elements.map(({ dataset }) => [dataset.metric, Number(dataset.value)]),
     );
+}
+
+/** The value at a path such as `intersection.grassmann.toA`. */
+export function valueAt(report, path) {
+  return path.split(".").reduce((value, key) => value?.[key], report);
+}
+
+/** Fails unless every number on the page is the report's, to the last bit. */
+export async function assertShows(page, report) {
+  const shown = await shownMetrics(page);
+  assert.ok(shown.length > 40, `only ${shown.length} numbers on the page`);
+  for (const [path, value] of shown) assert.equal(value, valueAt(report, path), path);
+}
+
+/** One screenshot of the whole page, and the standard deviation of its grey in each pane. */
+async function look(page) {
+  const picture = await page.screenshot({ fullPage: true });
+  return page.evaluate(async (base64) => {
+    const bytes = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([bytes]));
+    const pen = new OffscreenCanvas(image.width, image.height).getContext("2d");
+    pen.drawImage(image, 0, 0);
+    const scale = image.width / document.documentElement.clientWidth;
+    const panes = {};
+    for (const pane of document.querySelectorAll("[data-pane][data-away=false]")) {
+      const rect = pane.querySelector(".pane-view").getBoundingClientRect();
+      // Without the rim, where a label may lie.
+      const [left, top] = [rect.x + scrollX + 4, rect.y + scrollY + 0.2 * rect.height];
+      const size = [rect.width - 8, 0.75 * rect.height].map((side) => Math.round(side * scale));
+      const { data } = pen.getImageData(left * scale, top * scale, ...size);
+      let [sum, squares, mixed] = [0, 0, 0];
+      for (let i = 0; i < data.length; i += 4) {
+        const grey = (data[i] + data[i + 1] + data[i + 2]) / 3;
+        sum += grey;
+        squares += grey * grey;
+        mixed = (Math.imul(mixed, 31) + data[i] + 3 * data[i + 1] + 7 * data[i + 2]) | 0;
+      }
+      const count = data.length / 4;
+      const spread = Math.sqrt(Math.max(0, squares / count - (sum / count) ** 2));
+      panes[pane.dataset.pane] = { spread, mixed };
+    }
+    return panes;
+  }, picture.toString("base64"));
+}
+
+const REGIONS = ["a", "aWithoutB", "intersection", "bWithoutA", "b"];
+
+/** An empty pane has one colour: no spread at all. */
+const SOMETHING = 2;
+
+/** Looks at the page until something is drawn in each of these panes. Resolves to what it saw. */
+export async function untilDrawn(page, regions = REGIONS) {
+  let panes = {};
+  for (let looks = 0; looks < 20; looks += 1) {
+    panes = await look(page);
+    if (regions.every((name) => panes[name]?.spread > SOMETHING)) return panes;
+    await nextFrames(page);
+  }
+  assert.fail(`nothing is drawn in some pane: ${JSON.stringify(panes)}`);
+}
+
+/** Looks at the page until the panes differ from what was seen `before`. */
+export async function untilRedrawn(page, before, regions = Object.keys(before)) {
+  for (let looks = 0; looks < 20; looks += 1) {
+    const panes = await look(page);
+    const other = (name) => panes[name]?.mixed !== before[name]?.mixed;
+    if (regions.every((name) => other(name) && panes[name]?.spread > SOMETHING)) return panes;
+    await nextFrames(page);
+  }
+  assert.fail("the picture stays as it was");
+}
+
+async function nextFrames(page) {
+  await page.evaluate(
+    () =>
+      new Promise((resolve) => {
+        let frames = 6;
+        const next = () => {
+          frames -= 1;
+          if (frames === 0) resolve();
+          else requestAnimationFrame(next);
+        };
+        requestAnimationFrame(next);
+      }),
+  );
+}
+
+/** Whether a picture file has more than one colour. */
+export async function isBlankPicture(page, bytes) {
+  return page.evaluate(async (base64) => {
+    const raw = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([raw]));
+    const pen = new OffscreenCanvas(image.width, image.height).getContext("2d");
+    pen.drawImage(image, 0, 0);
+    const { data } = pen.getImageData(0, 0, image.width, image.height);
+    return new Set(new Uint32Array(data.buffer)).size < 20;
+  }, bytes.toString("base64"));
+}
+
+/** Resolves once the cards carry these names and what they hold has been compared. */
+export async function untilCompared(page, names, timeout = 60_000) {
+  for (const [side, name] of Object.entries(names)) {
+    const card = page.getByRole("region", { name: `Model ${side.toUpperCase()}` });
+    await card.getByRole("heading", { name, exact: true }).waitFor({ timeout });
+  }
+  await untilState(page, "done", timeout);
+}
+
+/** Types a setting, as a person would: the run that it asks for begins by itself. */
+export async function typeSetting(page, label, value) {
+  const field = page.getByRole("textbox", { name: label });
+  await field.fill(value);
+  await field.press("Enter");
+}
+
+/** Collects every state that the page goes through; call before it is opened. */
+export async function recordStates(page) {
+  await page.addInitScript(() => {
+    globalThis.states = [];
+    new MutationObserver(() => {
+      const { state } = document.documentElement.dataset;
+      if (globalThis.states.at(-1) !== state) globalThis.states.push(state);
+    }).observe(document, { attributes: true, subtree: true, attributeFilter: ["data-state"] });
   });
+  return () => page.evaluate(() => globalThis.states);
 }

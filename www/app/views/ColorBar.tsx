@@ -18,7 +18,8 @@ export function ColorBar({ range, own }: Props) {
         Standard deviation per vertex, {unit.value}
         {lockedRange.value ? (beyond ? " (locked; some values lie beyond)" : " (locked)") : ""}
       </figcaption>
-      <span class="num">{number(low)}</span>
+      {/* What is only rounding error beside the other end is none. */}
+      <span class="num">{number(Math.abs(low) < 1e-9 * high ? 0 : low)}</span>
       <span class="ramp" style={{ background: viridisGradient() }} />
       <span class="num">{number(high)}</span>
     </figure>

@@ -41,7 +41,11 @@ function DemoChooser() {
   return (
     <label class="chooser">
       <span class="chooser-label">Example</span>
-      <select value={demo.value?.id ?? ""} onChange={(event) => choose(event.currentTarget.value)}>
+      <select
+        aria-label="Example"
+        value={demo.value?.id ?? ""}
+        onChange={(event) => choose(event.currentTarget.value)}
+      >
         {demo.value === null && (
           <option value="" disabled>
             Your models
