@@ -14,6 +14,7 @@ import {
   typeSetting,
   untilCompared,
   untilDrawn,
+  untilShown,
   untilState,
   withPage,
 } from "./harness.mjs";
@@ -123,8 +124,7 @@ test("every setting on the page is one of the command line, and another seed dra
     assert.deepEqual(timeless(first), timeless(byCommand));
 
     await typeSetting(page, "Seed", "2");
-    await untilState(page, "running");
-    await untilState(page, "done");
+    await untilShown(page, /seed 2 ·/);
     const second = await downloadReport(page);
     assert.notEqual(
       second.intersection.meanDistance.mean,

@@ -5,6 +5,7 @@
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { basename, join } from "node:path";
+import { after } from "node:test";
 import { chromium } from "playwright-core";
 import { serve } from "../../scripts/serve.mjs";
 import { findBrowser } from "../../scripts/setup.mjs";
@@ -29,8 +30,22 @@ const softwareGraphics = [
   "--use-gl=angle",
 ];
 
+let launched = null;
+
+/** One browser for all tests of a file; each test has a profile of its own in it. */
+function launch() {
+  launched ??= (async () => {
+    const executablePath = await findBrowser();
+    assert.ok(executablePath, "no browser: set CHROMIUM to the path of one");
+    return chromium.launch({ executablePath, args: [...quiet, ...softwareGraphics] });
+  })();
+  return launched;
+}
+
+after(async () => (await launched)?.close());
+
 /**
- * Serves dist/, launches the browser, runs `test` with `{url, page, browser, errors}`, and puts
+ * Serves dist/, opens an empty page, runs `test` with `{url, page, browser, errors}`, and puts
  * everything away. `errors` collects what the page's console and uncaught exceptions say; unless
  * the test empties it, anything in it fails the test.
  */
@@ -38,10 +53,8 @@ export async function withPage(
   { isolated = true, viewport = { width: 1280, height: 800 }, ...context },
   test,
 ) {
+  const browser = await launch();
   const server = await serve({ folder: join(root, "dist"), isolated, port: 0 });
-  const executablePath = await findBrowser();
-  assert.ok(executablePath, "no browser: set CHROMIUM to the path of one");
-  const browser = await chromium.launch({ executablePath, args: [...quiet, ...softwareGraphics] });
   try {
     const page = await browser.newPage({ viewport, acceptDownloads: true, ...context });
     const errors = [];
@@ -54,7 +67,7 @@ export async function withPage(
     await test({ url: server.url, page, browser, errors });
     assert.deepEqual(errors, [], "the page reported errors");
   } finally {
-    await browser.close();
+    for (const open of browser.contexts()) await open.close();
     await server.close();
   }
 }
@@ -76,9 +89,9 @@ export async function metric(page, path) {
 
 /**
  * Drops files on an element as a person would: one drag, any number of files. `files` are paths, or
- * `{name, bytes}`.
+ * `{name, bytes}`; `at` is where in the window, `{clientX, clientY}`.
  */
-export async function dropFiles(page, selector, files) {
+export async function dropFiles(page, selector, files, at = {}) {
   const contents = [];
   for (const file of files) {
     const whole =
@@ -94,7 +107,7 @@ export async function dropFiles(page, selector, files) {
     return transfer;
   }, contents);
   for (const type of ["dragenter", "dragover", "drop"]) {
-    await page.dispatchEvent(selector, type, { dataTransfer: transfer });
+    await page.dispatchEvent(selector, type, { ...at, dataTransfer: transfer });
   }
   await transfer.dispose();
 }
@@ -237,6 +250,13 @@ export async function untilCompared(page, names, timeout = 60_000) {
     const card = page.getByRole("region", { name: `Model ${side.toUpperCase()}` });
     await card.getByRole("heading", { name, exact: true }).waitFor({ timeout });
   }
+  await untilState(page, "done", timeout);
+}
+
+/** Resolves once the settings of the finished comparison on show read like this. */
+export async function untilShown(page, settings, timeout = 60_000) {
+  const run = page.getByRole("region", { name: "Run", exact: true });
+  await run.locator(".settings-line").filter({ hasText: settings }).waitFor({ timeout });
   await untilState(page, "done", timeout);
 }
 

@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { commonRange, viridis } from "../../www/app/colormap";
 import { HOME, orbit, zoomBy } from "../../www/app/viewer/camera";
+import { contentsOf, type Scene } from "../../www/app/viewer/contents";
 import { pickVertex } from "../../www/app/viewer/pick";
 import { rimFade } from "../../www/app/viewer/rim";
 import { cellsOf, frameOf } from "../../www/app/viewer/viewer";
@@ -41,6 +42,21 @@ test("the nearest of two vertices under the pointer is picked", () => {
 test("the camera stays upright and within its zoom", () => {
   assert.equal(orbit(HOME, 0, 10).pitch, 1.5);
   assert.equal(zoomBy(HOME, 1000).zoom, 12);
+});
+
+test("beside a model in space, one in the plane is not drawn as if it were in space", () => {
+  const model = (dimension: 2 | 3) => ({
+    dimension,
+    kind: "shape" as const,
+    mean: new Float32Array(3 * dimension),
+    triangles: null,
+    segments: null,
+    vertexSd: new Float32Array(3),
+  });
+  const geometry = { a: model(3), b: model(2) };
+  const scene: Scene = { geometry, shapes: {}, mode: "mean", dark: false, fadeRim: false };
+  const drawn = contentsOf(scene, ["a", "b"]).map(({ region }) => region);
+  assert.deepEqual(drawn, ["a"]);
 });
 
 test("one range holds all maps, and colours stay in it", () => {

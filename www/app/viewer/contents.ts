@@ -63,7 +63,8 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
   // A model that was just opened is shown before anything was compared.
   const alone = region === "a" || region === "b";
   const geometry = current ?? (alone ? own : null);
-  if (!geometry) return null;
+  // One canvas shows the plane or space, not both: of two models that do not match, A.
+  if (!geometry || geometry.dimension !== dimensionOf(scene)) return null;
   const shown = current && found ? found : { mean: geometry.mean, vertexSd: geometry.vertexSd };
   const many = scene.mode === "samples" && current && found;
   const surface = geometry.triangles !== null;
@@ -96,7 +97,7 @@ export function cardContent(geometry: Geometry, side: Region, scene: Scene): Pan
 
 /** One frame for all panes, whatever they show just now. */
 export function sceneFrame(scene: Scene): Frame {
-  const dimension = (scene.geometry.a ?? scene.geometry.b)?.dimension ?? 3;
+  const dimension = dimensionOf(scene) ?? 3;
   const means = contentsOf({ ...scene, mode: "mean" }, ["a", "b"]);
   const many = scene.mode === "samples" || means.some((content) => content.overlaid);
   const shown = many ? contentsOf({ ...scene, mode: "samples" }, REGIONS) : means;
@@ -106,6 +107,10 @@ export function sceneFrame(scene: Scene): Frame {
     dimension,
     fade,
   );
+}
+
+export function dimensionOf({ geometry }: Scene): 2 | 3 | null {
+  return (geometry.a ?? geometry.b)?.dimension ?? null;
 }
 
 const split = new WeakMap<RegionShapes, Float32Array[]>();

@@ -5,7 +5,7 @@ import { commonRange } from "../colormap";
 import { REGIONS } from "../link";
 import { camera, demo, lockedRange, region, type Side, shapes, slots, view } from "../state";
 import { isDark } from "../theme";
-import { cardContent, contentsOf, type Scene, sceneFrame } from "./contents";
+import { cardContent, contentsOf, dimensionOf, type Scene, sceneFrame } from "./contents";
 import { listen } from "./gestures";
 import type { Hit, Rect, Viewer } from "./viewer";
 
@@ -24,9 +24,7 @@ export const scene = computed<Scene>(() => ({
   fadeRim: demo.value?.id.startsWith("heads") ?? false,
 }));
 
-export const dimension = computed(
-  () => (scene.value.geometry.a ?? scene.value.geometry.b)?.dimension ?? null,
-);
+export const dimension = computed(() => dimensionOf(scene.value));
 
 const regionsShown = computed<readonly Region[]>(() =>
   region.value === null ? REGIONS : [region.value],
@@ -93,13 +91,18 @@ export function takeCanvas(
   };
 }
 
+const viewers = {
+  flat: () => import("./flat-viewer"),
+  space: () => import("./mesh-viewer"),
+};
+
 async function createViewer(canvas: HTMLCanvasElement, flat: boolean): Promise<Viewer> {
-  if (flat) {
-    const { FlatViewer } = await import("./flat-viewer");
-    return new FlatViewer(canvas);
-  }
-  const { MeshViewer } = await import("./mesh-viewer");
-  return new MeshViewer(canvas);
+  const made = flat
+    ? new (await viewers.flat()).FlatViewer(canvas)
+    : new (await viewers.space()).MeshViewer(canvas);
+  // The other one too: without a network the page still draws whatever is opened.
+  viewers[flat ? "space" : "flat"]().catch(() => undefined);
+  return made;
 }
 
 function gestures(canvas: HTMLCanvasElement, made: Viewer) {

@@ -65,7 +65,7 @@ function Area({ name, path }: { name: Region; path: string }) {
       data-area={name}
       d={path}
       role="button"
-      tabIndex={0}
+      tabindex={0}
       aria-pressed={region.value === name}
       aria-label={regionLabel(name)}
       onClick={() => go(name)}
@@ -84,7 +84,7 @@ function Letter({ name, x, y, text }: { name: "a" | "b"; x: number; y: number; t
       class="letter-button"
       data-area={name}
       role="button"
-      tabIndex={0}
+      tabindex={0}
       aria-pressed={region.value === name}
       aria-label={regionLabel(name)}
       onClick={() => go(name)}
