@@ -1,4 +1,5 @@
 //! Pairs whose intersection is known exactly: what is fitted and what is drawn must be that.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod common;
 
@@ -7,11 +8,13 @@ use common::{
     standard_errors_from, warns,
 };
 use nalgebra::{DMatrix, DVector};
-use shapevenn::compare::{Side, fit_reweighted, fit_rms, fit_variational_step, without_distance};
+use shapevenn::compare::{
+    Intersection, Side, fit_reweighted, fit_rms, fit_variational_step, without_distance,
+};
 use shapevenn::comparison::Settings;
 use shapevenn::demos::{self, STAR_ROWS, star_pair};
 use shapevenn::model::LinearModel;
-use shapevenn::sampling::Gaussian;
+use shapevenn::sampling::{Chains, Gaussian, IndependenceChains, Schedule};
 
 /// The intersection posterior of models of one point, from its definition: there d = ‖r‖, and
 /// everything is quadratic. U₂⁺ by normal equations, which the engine does not use.
@@ -80,6 +83,28 @@ fn draws_of_lines_and_planes_have_the_exact_mean_and_covariance() {
                 assert!(wrong > 5.0, "{name}, σ = {sigma}, side {side}: 2 σ passes with {wrong}");
             }
         }
+    }
+}
+
+#[test]
+fn a_proposal_that_is_too_wide_and_beside_the_mark_gives_the_same_draws() {
+    let (name, a, b) = lines_and_planes().swap_remove(1);
+    let (side, sigma) = (Side::new(&a, &b), 0.3);
+    let law = exact(&a, &b, sigma);
+    let scaled = |factor: f64, shift: f64| {
+        let mean = law.mean() + law.transform() * DVector::from_element(2, shift);
+        Gaussian::from_precision(mean, law.precision() * factor).unwrap()
+    };
+    let schedule = Schedule { chains: 16, burn_in: 10, thin: 1, kept: 2000 };
+    let wide = without_distance(&side).unwrap();
+    let mut chains = IndependenceChains::new(scaled(0.5, 0.4), wide, schedule, 1, 0);
+    chains.advance(&Intersection::new(&side, sigma, law.mean()), usize::MAX);
+    let off = standard_errors_from(chains.draws(), &law);
+    assert!(off < 5.0, "{name}: {off} standard errors");
+    // What a sampler without the weights, or with their square roots, would draw from.
+    for (what, factor, shift) in [("no", 0.5, 0.4), ("half of the", 0.75, 0.4 / 3.0)] {
+        let wrong = standard_errors_from(chains.draws(), &scaled(factor, shift));
+        assert!(wrong > 5.0, "{name}: {what} correction passes with {wrong}");
     }
 }
 
@@ -262,4 +287,22 @@ fn a_model_inside_another_has_an_empty_difference_and_the_other_has_not() {
     assert!(found.overlap.variance_of_a_in_b > 1.0 - 1e-12, "all of A");
     // 3² + 2.5² of 3² + 2.5² + 2² + 1.5².
     assert!((found.overlap.variance_of_b_in_a - 15.25 / 21.5).abs() < 1e-12, "part of B");
+}
+
+#[test]
+fn models_that_meet_in_their_mean_are_within_tolerance_however_many_modes_they_have() {
+    // 140 modes each, orthogonal: E d is about √140 σ, though the means are the same shape.
+    let base = random_orthonormal(300, 280, 2);
+    let mean = DVector::from_fn(300, |i, _| 10.0 * libm::sin(1.7 * i as f64));
+    let part =
+        |first: usize| model(3, mean.clone(), &base.columns(first, 140).into_owned(), &[40.0; 140]);
+    let settings = Settings { sigma: Some(0.01), draws: 256, ..Settings::default() };
+    let found = report(&compared(&part(0), &part(140), settings));
+    assert!(found.intersection.mean_distance.mean > 0.1, "{:?}", found.intersection.mean_distance);
+    assert!(!warns(&found, "beyond-tolerance"), "{:?}", found.warnings);
+    // A small tolerance for lines that miss one another by 0.3.
+    let (name, a, b) = lines_and_planes().swap_remove(2);
+    let settings = Settings { sigma: Some(0.01), ..Settings::default() };
+    let found = report(&compared(&a, &b, settings));
+    assert!(warns(&found, "beyond-tolerance"), "{name}: {:?}", found.warnings);
 }

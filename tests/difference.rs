@@ -1,4 +1,5 @@
 //! Draws of the difference, which rejection makes exactly, against laws known in closed form.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod common;
 
@@ -159,7 +160,7 @@ fn where_nothing_is_within_tolerance_the_tilt_is_the_square_of_the_distance() {
 
 #[test]
 fn the_standard_error_is_the_spread_over_repeats() {
-    const REPEATS: usize = 100;
+    const REPEATS: usize = 400;
     let lines = lines(0.3, 1.0, 0.7);
     let side = Side::new(&lines.a, &lines.b);
     let law = Tilted::new(&lines, 0.5);
@@ -175,8 +176,8 @@ fn the_standard_error_is_the_spread_over_repeats() {
     assert!(mean.abs() < 5.0 / count.sqrt(), "biased by {mean} standard errors");
     let bound = 5.0 * (2.0 / count).sqrt();
     assert!((square - 1.0).abs() < bound, "mean square of z is {square}");
-    assert!((square * 4.0 - 1.0).abs() > bound, "half the standard error would pass");
-    assert!((square / 4.0 - 1.0).abs() > bound, "twice the standard error would pass");
+    assert!((square * 2.0 - 1.0).abs() > bound, "half the variance would pass");
+    assert!((square / 2.0 - 1.0).abs() > bound, "twice the variance would pass");
 }
 
 #[test]

@@ -1,13 +1,17 @@
 //! How good the Gaussian fits are on face-like models: everything downstream rests on them.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod common;
 
-use common::{compared, draws_of, face_like_pair, log_posterior, report};
+use common::{
+    compared, draws_of, face_like_pair, log_posterior, model, random_orthonormal, report,
+};
 use nalgebra::{DMatrix, DVector};
 use shapevenn::compare::{
     Intersection, Side, expected_distance, fit_rms, fit_variational_step, without_distance,
 };
 use shapevenn::comparison::Settings;
+use shapevenn::model::LinearModel;
 use shapevenn::sampling::{Chains, Gaussian, IndependenceChains, Schedule};
 
 const SIGMAS: [f64; 5] = [0.01, 0.03, 0.1, 0.3, 1.0];
@@ -157,4 +161,75 @@ fn fits_do_not_move_once_at_rest_and_more_tolerance_means_more_variance() {
         let most = without_distance(&side).unwrap().covariance().trace();
         assert!(before < most, "no wider than without the distance: {before} < {most}");
     }
+}
+
+/// d̄·E∇²d + E∇d E∇dᵀ over draws, by the derivatives of the norm at each of them.
+fn curvature(side: &Side, draws: &[Vec<f64>]) -> DMatrix<f64> {
+    let (size, points) = (side.mode_count(), side.point_count());
+    let (mut distance, mut slope) = (0.0, DVector::<f64>::zeros(size));
+    let mut bend = DMatrix::zeros(size, size);
+    for draw in draws {
+        let residual = side.residual_at(draw);
+        for vertex in 0..points {
+            let rows = DMatrix::from_row_slice(
+                3,
+                size,
+                &side.residual()[3 * vertex * size..3 * (vertex + 1) * size],
+            );
+            let r = DVector::from_column_slice(&residual[3 * vertex..3 * vertex + 3]);
+            let (norm, unit) = (r.norm(), r.normalize());
+            distance += norm;
+            slope += rows.tr_mul(&unit);
+            let across = DMatrix::identity(3, 3) - &unit * unit.transpose();
+            bend += rows.tr_mul(&(across * &rows)) / norm;
+        }
+    }
+    let scale = 1.0 / (draws.len() * points) as f64;
+    bend * (distance * scale * scale) + &slope * slope.transpose() * (scale * scale)
+}
+
+/// A's own mode moves all points alike, and the means differ along it: the slope of the distance
+/// counts for as much as its curvature.
+fn drifting_pair() -> (LinearModel, LinearModel) {
+    let mut random = random_orthonormal(90, 4, 3);
+    random.set_column(0, &DVector::from_fn(90, |i, _| if i % 3 == 0 { 1.0 } else { 0.0 }));
+    let base = random.qr().q();
+    let mean = DVector::from_fn(90, |i, _| 10.0 * libm::sin(1.7 * i as f64));
+    let a =
+        model(3, &mean + base.column(0) * 6.0, &base.columns(0, 3).into_owned(), &[3.0, 2.0, 1.5]);
+    let b = model(3, mean, &base.columns(3, 1).into_owned(), &[2.0]);
+    (a, b)
+}
+
+#[test]
+fn a_variational_step_has_the_expected_curvature_that_draws_have() {
+    for (name, (a, b)) in [("faces", face_like_pair(30, 4)), ("a drift", drifting_pair())] {
+        let (side, sigma) = (Side::new(&a, &b), 0.1);
+        // Not from the rms fit, whose mean has brought the slope to almost nothing.
+        let fit = without_distance(&side).unwrap();
+        let next = fit_variational_step(&side, sigma, &fit).unwrap().0;
+        let size = fit.dimension();
+        let likelihood = next.precision() - DMatrix::identity(size, size) - side.projection_gram();
+        let off = curvature_apart(&side, &fit, &(&likelihood * (sigma * sigma)));
+        assert!(off < 1.0, "{name}: {off} times the bound");
+        let wrong = curvature_apart(&side, &fit, &(likelihood * (0.95 * sigma * sigma)));
+        assert!(wrong > 1.0, "{name}: a curvature 5 % too small passes with {wrong}");
+    }
+}
+
+/// How far `found` lies from the curvature over draws of `fit`: the largest entry, in parts of a bound
+/// of five standard errors and what 24 nodes are good to.
+fn curvature_apart(side: &Side, fit: &Gaussian, found: &DMatrix<f64>) -> f64 {
+    const BATCHES: usize = 50;
+    let draws = draws_of(fit, 200 * BATCHES, 6);
+    let batches: Vec<DMatrix<f64>> =
+        draws.chunks(200).map(|batch| curvature(side, batch)).collect();
+    let apart = (0..found.len()).map(|entry| {
+        let values: Vec<f64> = batches.iter().map(|batch| batch[entry]).collect();
+        let mean = values.iter().sum::<f64>() / BATCHES as f64;
+        let square: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
+        let error = (square / ((BATCHES - 1) * BATCHES) as f64).sqrt();
+        (found[entry] - mean).abs() / (5.0 * error + 1e-4 * found.amax())
+    });
+    apart.fold(0.0, f64::max)
 }

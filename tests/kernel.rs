@@ -1,5 +1,6 @@
 //! The batched single-precision distance against double precision, and the projection that it is a
 //! distance to.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod common;
 

@@ -4,6 +4,7 @@
 //! k = 3: models of 9 modes each, 6 their own and 3 shared, of a smooth orthonormal basis of 15. Shared
 //! and own coordinates factorise, so that the true posterior's principal components are the shared
 //! modes exactly; the figures printed in the paper measure the error of sampling alone.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 mod common;
 

@@ -27,7 +27,7 @@ struct Cli {
 enum Command {
     /// Say what is in model files
     Info {
-        /// Files, or `demo:NAME`
+        /// Files, `FILE#part` or `demo:NAME`
         #[arg(required = true)]
         files: Vec<String>,
         /// Print one JSON array of descriptions
@@ -180,11 +180,13 @@ fn open_all(source: &str) -> Result<Vec<Described>, Failure> {
 
 /// One model: of `FILE#part` that part, else the first.
 fn open_one(source: &str) -> Result<Described, Failure> {
-    let (file, part) = match source.rsplit_once('#') {
-        Some((file, part)) if !Path::new(source).exists() => (file, Some(part)),
-        _ => (source, None),
-    };
+    let (file, part) = part_of(source).map_or((source, None), |(file, part)| (file, Some(part)));
     Ok(files::choose(file, open_all(file)?, part)?)
+}
+
+/// `FILE#part` in two, unless a file has that very name.
+fn part_of(source: &str) -> Option<(&str, &str)> {
+    source.rsplit_once('#').filter(|_| !Path::new(source).exists())
 }
 
 /// The heads that the command carries.
@@ -201,7 +203,11 @@ fn packaged(name: &str) -> Option<&'static [u8]> {
 fn info(sources: &[String], json: bool) -> Result<(), Failure> {
     let mut descriptions: Vec<ModelReport> = Vec::new();
     for source in sources {
-        descriptions.extend(open_all(source)?.into_iter().map(|model| model.report));
+        let models = match part_of(source) {
+            Some(_) => vec![open_one(source)?],
+            None => open_all(source)?,
+        };
+        descriptions.extend(models.into_iter().map(|model| model.report));
     }
     if json {
         println!("{}", to_json(&descriptions)?);

@@ -1,5 +1,7 @@
 //! The five regions of the Venn diagram, as shapes to look at.
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
 use super::Comparison;
@@ -104,9 +106,14 @@ impl Comparison {
     }
 
     fn intersection_shapes(&self, count: usize, seed: u64) -> Option<RegionShapes> {
-        let model = self.intersection_so_far()?;
+        let model = match &self.finished {
+            Some(finished) => Cow::Borrowed(&finished.intersection),
+            None => Cow::Owned(self.intersection_so_far()?),
+        };
         let draws: Vec<&Draws> = self.chains.iter().map(|chains| chains.draws()).collect();
-        let drawn = draws.len() == 2 && draws.iter().all(|draws| draws.len() >= count.max(1));
+        // A restored run has no fit to fall back on: it shows what draws there are.
+        let enough = if self.fits.len() == 2 { count.max(1) } else { 1 };
+        let drawn = draws.len() == 2 && draws.iter().all(|draws| draws.len() >= enough);
         let mut random = stream(seed, Stream::Display, 2, 0);
         let mut samples = Vec::with_capacity(count * model.mean().len());
         for index in 0..count {

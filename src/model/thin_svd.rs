@@ -11,6 +11,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::product;
+
 /// V·diag(s)·Wᵀ with orthonormal columns in V (rows × k) and W (columns × k), s descending and
 /// k = min(rows, columns). Columns of V that belong to s = 0 are zero.
 #[derive(Debug, Clone)]
@@ -38,7 +40,7 @@ pub fn thin_svd(matrix: &DMatrix<f64>) -> ThinSvd {
     let qr = matrix.clone().qr();
     let core = jacobi(qr.r());
     with_positive_right(ThinSvd {
-        left: qr.q() * core.left,
+        left: product(&qr.q(), &core.left),
         values: core.values,
         right: core.right,
     })

@@ -82,16 +82,14 @@ impl IndependenceChains {
         let state = &mut self.states[chain];
         let accepted = libm::log(uniform) < proposed.log_weight - state.log_weight;
         if counted {
-            self.draws.proposed += 1;
-            self.draws.accepted += u64::from(accepted);
+            self.draws.count(accepted);
             self.draws.log_weights.push(proposed.log_weight);
         }
         if accepted {
             *state = proposed;
         }
         if kept {
-            self.draws.values[chain].extend_from_slice(&state.point);
-            self.draws.statistics[chain].push(state.statistic);
+            self.draws.keep(chain, &state.point, state.statistic);
         }
     }
 

@@ -72,6 +72,18 @@ impl Draws {
         }
     }
 
+    /// Counts a proposal after the burn-in.
+    fn count(&mut self, accepted: bool) {
+        self.proposed += 1;
+        self.accepted += u64::from(accepted);
+    }
+
+    /// Keeps the state of a chain as a draw.
+    fn keep(&mut self, chain: usize, point: &[f64], statistic: f64) {
+        self.values[chain].extend_from_slice(point);
+        self.statistics[chain].push(statistic);
+    }
+
     /// Draws kept, over all chains.
     pub fn len(&self) -> usize {
         self.statistics.iter().map(Vec::len).sum()

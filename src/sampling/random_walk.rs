@@ -119,12 +119,10 @@ impl RandomWalkChains {
                 self.current[chain] = evaluation;
             }
             if counted {
-                self.draws.proposed += 1;
-                self.draws.accepted += u64::from(accepted);
+                self.draws.count(accepted);
             }
             if kept {
-                self.draws.values[chain].extend_from_slice(&self.points[range]);
-                self.draws.statistics[chain].push(self.current[chain].statistic);
+                self.draws.keep(chain, &self.points[range], self.current[chain].statistic);
             }
         }
         self.step += 1;

@@ -10,7 +10,7 @@
 use super::{Draws, Stream, fill_normal, stream, uniform};
 
 /// Proposals of one random stream.
-const BLOCK: usize = 1024;
+const BLOCK: usize = 256;
 
 /// The acceptance probability g, with the statistic to record for each draw.
 pub trait RejectionTarget: Sync {
@@ -71,11 +71,9 @@ impl Rejection {
             self.sum += probability;
             self.sum_of_squares += probability * probability;
             let kept = uniform(&mut random) < probability;
-            self.draws.proposed += 1;
-            self.draws.accepted += u64::from(kept);
+            self.draws.count(kept);
             if kept && self.draws.len() < self.wanted {
-                self.draws.values[0].extend_from_slice(point);
-                self.draws.statistics[0].push(statistic);
+                self.draws.keep(0, point, statistic);
             }
         }
         self.draws.evaluations += BLOCK as u64;

@@ -24,6 +24,7 @@ import {
   spoken,
 } from "./state";
 import type { Stored } from "./stored";
+import { isCloud } from "./viewer/contents";
 import { belief } from "./words";
 
 /** How long the page waits for the next change before it runs. */
@@ -64,6 +65,7 @@ async function restore(key: string): Promise<void> {
   if (!stored || !a || !b || restoring) return;
   restoring = true;
   forgetRun();
+  dismiss("run");
   try {
     const draws = (await stored.draws()).slice(0);
     result.value = storedResult(stored);
@@ -174,8 +176,8 @@ function refiner(key: string): (progress: Progress, now: number) => void {
 /** How many shapes of a region are asked for: a grid of surfaces, a heap of drawings, a cloud. */
 export function shapeCount(): number {
   const geometry = slots.a.value?.geometry;
-  if (!geometry || geometry.triangles) return 9;
-  return geometry.segments ? 60 : 600;
+  if (geometry?.segments) return 60;
+  return geometry && isCloud(geometry) ? 600 : 9;
 }
 
 async function showRegions(regions: Region[]): Promise<void> {

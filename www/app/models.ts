@@ -79,6 +79,7 @@ function show(opened: Record<Side, Slot | null>): void {
     }
     emptyRegions.value = {};
     lockedRange.value = null;
+    dismiss("run");
   });
 }
 

@@ -1,6 +1,6 @@
 /**
- * Two circles drawn to scale: areas as the total variances of A and B, the lens as the mean of
- * what each can make of the other's variance.
+ * Two circles drawn to scale: areas as the total variances of A and B, the lens as the
+ * smaller of what each can make of the other's variance (so that it fits into either circle).
  */
 
 import type { Report } from "../worker/protocol";
@@ -45,7 +45,7 @@ export function vennSizes(
   varianceOfAInB: number,
   varianceOfBInA: number,
 ): VennSizes {
-  const shared = (varianceOfAInB * totalVarianceA + varianceOfBInA * totalVarianceB) / 2;
+  const shared = Math.min(varianceOfAInB * totalVarianceA, varianceOfBInA * totalVarianceB);
   return { a: totalVarianceA, b: totalVarianceB, shared };
 }
 

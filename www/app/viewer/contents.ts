@@ -68,19 +68,25 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
   const shown = current && found ? found : { mean: geometry.mean, vertexSd: geometry.vertexSd };
   const many = scene.mode === "samples" && current && found;
   const surface = geometry.triangles !== null;
-  const cloud = !surface && geometry.segments === null;
+  const cloud = isCloud(geometry);
   const shapes = many || (cloud && found && current) ? samplesOf(found) : [shown.mean];
   const shade = scene.dark ? "dark" : "light";
   return {
     region,
     shapes,
-    overlaid: !surface,
+    overlaid: cloud || geometry.segments !== null,
     triangles: geometry.triangles,
     segments: geometry.segments,
     fade: scene.fadeRim && geometry.triangles ? fadeOf(geometry) : null,
     values: scene.mode === "sd" ? shown.vertexSd : null,
     tint: (surface ? CLAY : INK)[shade][region],
   };
+}
+
+/** Models of a few loose points: their samples mean something only all at once. */
+export function isCloud(geometry: Geometry): boolean {
+  const points = geometry.mean.length / geometry.dimension;
+  return geometry.triangles === null && geometry.segments === null && points <= 8;
 }
 
 /** One card's picture: the model's own mean. */

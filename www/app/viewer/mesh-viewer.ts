@@ -255,7 +255,7 @@ export class MeshViewer implements Viewer {
         geometry.setIndex(this.#index(segments));
         return new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true }));
       }
-      return new Points(geometry, dot(content.shapes.length > 1 ? 3.5 : 9));
+      return new Points(geometry, dot(dotSize(content.shapes.length, shape.length / 3)));
     });
   }
 
@@ -311,6 +311,12 @@ function clay(fades: boolean): MeshLambertMaterial {
     );
   };
   return material;
+}
+
+/** A surface of many points, one point, or a cloud of single points. */
+function dotSize(shapes: number, points: number): number {
+  if (points > 100) return 1.8;
+  return shapes > 1 ? 3.5 : 9;
 }
 
 /** A round point, `size` CSS pixels wide. */

@@ -1,10 +1,6 @@
-import { demo } from "../state";
-
 export function About() {
-  const note = demo.value?.note;
   return (
     <footer class="about">
-      {note && <p class="demo-note">{note}</p>}
       <details>
         <summary>What is this?</summary>
         <p>

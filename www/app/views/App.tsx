@@ -1,4 +1,4 @@
-import { spoken } from "../state";
+import { demo, spoken } from "../state";
 import { About } from "./About";
 import { Downloads } from "./Downloads";
 import { DropOverlay } from "./DropOverlay";
@@ -23,6 +23,7 @@ export function App() {
         <div class="rail models">
           <ModelCard side="a" />
           <ModelCard side="b" />
+          {demo.value && <p class="privacy">{demo.value.note}</p>}
           <p class="privacy">Drop files anywhere. Your files stay on this computer.</p>
           <RunPanel />
           <SettingsPanel />

@@ -113,7 +113,11 @@ function Picture({ side }: { side: Side }) {
   useEffect(() => {
     const canvas = target.current;
     const picture = cardPicture(side, PICTURE_PX);
-    if (!canvas || !picture) return;
+    if (!canvas) return;
+    if (!picture) {
+      canvas.width = 0; // Clears what was there of another model.
+      return;
+    }
     canvas.width = picture.width;
     canvas.height = picture.height;
     canvas.getContext("2d")?.drawImage(picture, 0, 0);

@@ -40,7 +40,7 @@ function stateSentence(): string {
   const held = result.value;
   if (pageState.value === "loading") return "Opening the models…";
   if (held === null) return "Nothing compared yet.";
-  if (outOfDate.value) return "Out of date: made with other models or settings.";
+  if (outOfDate.value) return "Out of date: the choices have changed.";
   if (held.stored) return "Computed beforehand by this engine.";
   const took = duration(held.report.seconds.total);
   return held.cancelled

@@ -35,7 +35,7 @@ export function VennMap() {
         </text>
       </svg>
       <figcaption>
-        Areas are variances: of A, of B, and what each can make of the other’s. Choose a region to
+        Areas are variances: of A, of B, and what either can make of the other’s. Choose a region to
         look closer.
       </figcaption>
     </figure>
