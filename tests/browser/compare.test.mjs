@@ -112,11 +112,13 @@ test("what is taken away can be opened, and the draws are the command line's", a
 test("every setting on the page is one of the command line, and another seed draws anew", async (t) => {
   const { a, b } = starFiles(t);
   await withPage({}, async ({ url, page }) => {
-    const fragment = "v=1&demo=planes&sigma=0.3&seed=18446744073709551615&chains=4&draws=64";
+    const fragment = "v=1&demo=planes&seed=18446744073709551615&chains=4&draws=64";
     await page.goto(`${url}#${fragment}&sampler=paper-corrected&align=rigid&modes=3&burnin=40`);
     await untilState(page, "done");
     await dropFiles(page, "body", [a, b]);
     await untilCompared(page, { a: "one.npz", b: "other.npz" });
+    await typeSetting(page, "Tolerance σ", "0.3");
+    await untilShown(page, /^σ 0\.300.units ·/);
     const options = ["--sigma", "0.3", "--chains", "4", "--draws", "64", "--modes", "3"];
     options.push("--sampler", "paper-corrected", "--align", "rigid", "--burn-in", "40");
     const first = await downloadReport(page);

@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { test } from "node:test";
+import { root } from "../../scripts/steps/run.mjs";
 import { shapevenn, temporaryFolder, timeless } from "./command.mjs";
 import {
   downloadReport,
@@ -144,6 +145,38 @@ test("a changed setting marks the numbers out of date, then runs; Back undoes it
     await untilShown(page, /seed 5$/);
     assert.equal(await page.getByRole("textbox", { name: "Seed" }).inputValue(), "5");
     assert.deepEqual(await shownMetrics(page), before);
+  });
+});
+
+test("σ belongs to its models: others get the one recommended for them", async () => {
+  await withPage({}, async ({ url, page }) => {
+    const example = page.getByRole("combobox", { name: "Example" });
+    await page.goto(url);
+    await untilState(page, "done");
+    const first = await downloadReport(page);
+    await typeSetting(page, "Tolerance σ", "3");
+    await untilShown(page, /^σ 3\.00/);
+    await example.selectOption("stars-1");
+    await untilShown(page, /^σ 0\.\d+.units \(recommended\)/);
+    await example.selectOption("heads-sex");
+    await page.getByText("Computed beforehand").waitFor();
+    await untilState(page, "done");
+    assert.deepEqual(await downloadReport(page), first);
+  });
+});
+
+test("one model exchanged for another keeps the σ that was typed for them", async () => {
+  await withPage({}, async ({ url, page }) => {
+    const fixtures = join(root, "tests/fixtures");
+    await page.goto(`${url}#v=1&demo=planes&draws=400`);
+    await untilState(page, "done");
+    await dropFiles(page, "body", [join(fixtures, "double.h5"), join(fixtures, "group.h5")]);
+    await untilCompared(page, { a: "double.h5", b: "group.h5" });
+    await typeSetting(page, "Tolerance σ", "0.5");
+    await untilShown(page, /^σ 0\.500/);
+    await dropFiles(page, "body", [join(fixtures, "cpp-0.9.h5")]);
+    await untilCompared(page, { a: "cpp-0.9.h5", b: "group.h5" });
+    await untilShown(page, /^σ 0\.500/);
   });
 });
 

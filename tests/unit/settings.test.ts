@@ -1,7 +1,15 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { budgetOf, DEFAULTS, parseCount, parseSeed, parseSigma } from "../../www/app/settings";
+import { FIRST_DEMO } from "../../www/app/demos";
+import {
+  budgetOf,
+  DEFAULTS,
+  parseCount,
+  parseSeed,
+  parseSigma,
+  settingsOf,
+} from "../../www/app/settings";
 
 test("the defaults are the engine's", () => {
   const rust = readFileSync("src/comparison/settings.rs", "utf8");
@@ -34,4 +42,10 @@ test("a count stays within its range", () => {
   assert.equal(parseCount("64", 64, 100), 64);
   assert.equal(parseCount("63", 64, 100), "invalid");
   assert.equal(parseCount("6.5", 1, 100), "invalid");
+});
+
+test("the example that the page opens with has the settings it is stored with", () => {
+  const { settings } = JSON.parse(readFileSync("www/first/report.json", "utf8"));
+  const { sigma = null } = FIRST_DEMO;
+  assert.deepEqual(settingsOf(settings), { ...DEFAULTS, sigma });
 });

@@ -4,9 +4,9 @@ import { storedResult, watchChoices } from "./comparison";
 import { FIRST_DEMO, findDemo } from "./demos";
 import { engineClient } from "./engine";
 import { apply, keepLink } from "./history";
-import { type LinkState, readLink } from "./link";
+import { type LinkState, readLink, SETTING_KEYS } from "./link";
 import { openDemo, openPair } from "./models";
-import { DEFAULTS, settingsKey } from "./settings";
+import { settingsKey } from "./settings";
 import { nouns, pageState, result, run } from "./state";
 import { fetchStored } from "./stored";
 import { watchTheme } from "./theme";
@@ -35,8 +35,9 @@ export async function boot(): Promise<void> {
 /** Whether the address asks for the stored comparison, as an address that says nothing does. */
 function wants(link: LinkState, storedKey: string): boolean {
   if (link.urls || link.demo !== FIRST_DEMO.id) return false;
-  const asked = settingsKey(link.settings);
-  return asked === storedKey || asked === settingsKey(DEFAULTS);
+  const asked = new URLSearchParams(location.hash.slice(1));
+  const silent = !SETTING_KEYS.some((key) => asked.has(key));
+  return silent || settingsKey(link.settings) === storedKey;
 }
 
 async function openModels(link: LinkState): Promise<void> {

@@ -20,6 +20,8 @@ export interface Demo {
   b: string;
   nouns: Nouns;
   note: string;
+  /** Where the recommended σ would hide what the example is to show. */
+  sigma?: number;
 }
 
 const HEADS_NOTE =
@@ -38,6 +40,7 @@ const heads: Demo[] = [
       shapesOfB: "female heads",
     },
     note: HEADS_NOTE,
+    sigma: 2,
   },
   {
     id: "heads-expression",

@@ -23,6 +23,9 @@ export type ViewMode = "mean" | "samples" | "sd";
 export const VIEW_MODES: ViewMode[] = ["mean", "samples", "sd"];
 export const REGIONS: Region[] = ["a", "aWithoutB", "intersection", "bWithoutA", "b"];
 
+/** What of a link is settings of the run. */
+export const SETTING_KEYS = "align modes sigma sampler seed chains draws burnin thin".split(" ");
+
 /** Everything that makes the picture. */
 export interface LinkState {
   /** A pair that comes with the page, unless both models have addresses. */

@@ -5,6 +5,7 @@ import type { OpenedPart } from "../worker/protocol";
 import { type Demo, packagedFile } from "./demos";
 import { engineClient, onEngineRestart, report } from "./engine";
 import {
+  demo,
   dismiss,
   emptyRegions,
   lockedRange,
@@ -13,6 +14,7 @@ import {
   type Side,
   type Slot,
   type Source,
+  settings,
   slots,
   spoken,
 } from "./state";
@@ -25,19 +27,26 @@ export function fileSource(file: File): Source {
   return { kind: "file", file, serial: fileSerial };
 }
 
+/** A demo that an address asks for, with whatever settings. */
 export async function openDemo(demo: Demo): Promise<void> {
   await openPair({ kind: "demo", name: demo.a }, { kind: "demo", name: demo.b });
 }
 
-/** Both change at once, so that no comparison of an old with a new one begins between. */
-export async function openPair(a: Source, b: Source): Promise<void> {
-  const opened = await Promise.all([load("a", a, null), load("b", b, null)]);
-  show({ a: opened[0], b: opened[1] });
+/** A demo that a visitor chooses, with the σ that suits it. */
+export async function chooseDemo(demo: Demo): Promise<void> {
+  const source = (name: string): Source => ({ kind: "demo", name });
+  await openPair(source(demo.a), source(demo.b), demo.sigma ?? null);
 }
 
-export async function openInto(side: Side, source: Source): Promise<void> {
+/** Both change at once, so that no comparison of an old with a new one begins between. */
+export async function openPair(a: Source, b: Source, sigma?: number | null): Promise<void> {
+  const opened = await Promise.all([load("a", a, null), load("b", b, null)]);
+  show({ a: opened[0], b: opened[1] }, sigma);
+}
+
+async function openInto(side: Side, source: Source, sigma?: null): Promise<void> {
   const opened = await load(side, source, null);
-  show(side === "a" ? { a: opened, b: null } : { a: null, b: opened });
+  show(side === "a" ? { a: opened, b: null } : { a: null, b: opened }, sigma);
 }
 
 /** Files that were dropped or chosen: one fills the slot it was meant for, two fill both. */
@@ -56,8 +65,9 @@ export async function openFiles(files: File[], side: Side): Promise<void> {
     return;
   }
   dismiss("page");
-  if (second) await openPair(fileSource(first), fileSource(second));
-  else await openInto(side, fileSource(first));
+  if (second) await openPair(fileSource(first), fileSource(second), null);
+  // Whoever compares several models with one of their own keeps the σ they chose.
+  else await openInto(side, fileSource(first), demo.peek() === null ? undefined : null);
 }
 
 export async function choosePart(side: Side, index: number): Promise<void> {
@@ -68,8 +78,12 @@ export async function choosePart(side: Side, index: number): Promise<void> {
   slots[side].value = { ...slot, chosen: index, geometry };
 }
 
-function show(opened: Record<Side, Slot | null>): void {
+/** `sigma` where the one in use, a length of the former models, says nothing of these. */
+function show(opened: Record<Side, Slot | null>, sigma?: number | null): void {
   batch(() => {
+    if (sigma !== undefined && (opened.a || opened.b)) {
+      settings.value = { ...settings.value, sigma };
+    }
     for (const side of SIDES) {
       const slot = opened[side];
       if (!slot) continue;

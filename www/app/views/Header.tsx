@@ -1,7 +1,7 @@
 import { useSignal } from "@preact/signals";
 import { DEMO_GROUPS, findDemo } from "../demos";
 import { currentLink, linkable } from "../history";
-import { openDemo } from "../models";
+import { chooseDemo } from "../models";
 import { demo, spoken } from "../state";
 import { isDark, toggleTheme } from "../theme";
 import { LinkIcon, MoonIcon, SunIcon } from "./icons";
@@ -36,7 +36,7 @@ export function Header() {
 function DemoChooser() {
   const choose = (id: string) => {
     const found = findDemo(id);
-    if (found) void openDemo(found);
+    if (found) void chooseDemo(found);
   };
   return (
     <label class="chooser">
