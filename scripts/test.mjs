@@ -176,7 +176,7 @@ await main(async () => {
   await test("Building both engines", ["npm", "WebAssembly"], () => built(buildEngine));
   await test("Building the page", ["npm"], () => built(buildPage));
   await test("Browser tests", ["npm", "browser"], () =>
-    nodeTests(browserTests(), "--test-concurrency=1"),
+    nodeTests(browserTests(), "--test-concurrency=1", "--test-timeout=240000"),
   );
 
   if (failures.length > 0) console.log(`\nFailed: ${failures.join("; ")}.`);
