@@ -5,7 +5,7 @@
 import { mkdirSync } from "node:fs";
 import { cpus } from "node:os";
 import { join } from "node:path";
-import { download, dropFiles, untilState, withPage } from "../tests/browser/harness.mjs";
+import { closeBrowser, download, dropFiles, untilState, withPage } from "../tests/browser/harness.mjs";
 import { build } from "./build.mjs";
 import { main, must, root } from "./steps/run.mjs";
 
@@ -23,6 +23,7 @@ await main(async () => {
   await must("cargo", [...bench, "--write", folder], { hint });
   const files = ["face-a.npz", "face-b.npz"].map((name) => join(folder, name));
   for (const build of ["threads", "serial"]) await inChromium(build, files);
+  await closeBrowser();
 });
 
 async function inChromium(build, files) {

@@ -10,7 +10,7 @@ use crate::model::ModelError;
 
 /// Formats that can be read, as listed to the user.
 pub(super) const ACCEPTED: &str =
-    "statismo or Scalismo HDF5 (.h5) and NumPy archives (.npz) with a mean and a basis";
+    "Accepted: statismo or Scalismo HDF5 (.h5) and NumPy archives (.npz) with a mean and a basis.";
 
 /// Why a file could not be read or written.
 #[derive(Debug, Clone, PartialEq)]
@@ -204,7 +204,7 @@ impl FormatError {
             Fault::LfsPointer { .. } => {
                 "Get the real file with `git lfs pull`, or from the repository's download link."
             }
-            Fault::Unknown { .. } => "Export the model in one of the accepted formats.",
+            Fault::Unknown { .. } => ACCEPTED,
             Fault::NoModel { .. } => {
                 "Export the model from statismo or Scalismo, or save its arrays as `mean` and `basis` \
                  with `numpy.savez`."
@@ -274,7 +274,7 @@ impl fmt::Display for Fault {
                 for byte in start {
                     write!(f, " {byte:02x}")?;
                 }
-                write!(f, "). Accepted: {ACCEPTED}.")
+                write!(f, ").")
             }
             Self::Truncated { what, needed, present } => write!(
                 f,

@@ -42,7 +42,13 @@ function launch() {
   return launched;
 }
 
-after(async () => (await launched)?.close());
+/** For programs that are no tests: lets go of the browser, so that they can end. */
+export async function closeBrowser() {
+  await (await launched)?.close();
+  launched = null;
+}
+
+after(closeBrowser);
 
 /**
  * Serves dist/, opens an empty page, runs `test` with `{url, page, browser, errors}`, and puts
