@@ -5,7 +5,13 @@
 import { mkdirSync } from "node:fs";
 import { cpus } from "node:os";
 import { join } from "node:path";
-import { closeBrowser, download, dropFiles, untilState, withPage } from "../tests/browser/harness.mjs";
+import {
+  closeBrowser,
+  download,
+  dropFiles,
+  untilState,
+  withPage,
+} from "../tests/browser/harness.mjs";
 import { build } from "./build.mjs";
 import { main, must, root } from "./steps/run.mjs";
 
