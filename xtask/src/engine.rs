@@ -57,7 +57,7 @@ pub(crate) fn lint(variant: Variant) -> Result {
         None => Command::new(cargo()),
     };
     // The profile of the real build: build scripts and macros are then compiled once.
-    command.args(["clippy", "--quiet", "--lib"]);
+    command.args(["clippy", "--quiet", "--profile", "engine", "--lib"]);
     prepare(&mut command, variant)?;
     command.args(["--", "-D", "warnings"]);
     succeed(&mut command, "clippy")
