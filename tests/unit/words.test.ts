@@ -62,7 +62,7 @@ test("convergence is only claimed on both counts", () => {
   const at = (rHatMax: number | null, essBulkMin: number | null) =>
     words.liveBelief({ rHatMax, essBulkMin } as Progress);
   assert.equal(at(null, null), "waiting for the first draws");
-  assert.equal(at(1.002, 900), "converged");
+  assert.equal(at(1.002, 900), "converged so far");
   assert.equal(at(1.002, 100), "not converged yet");
   assert.equal(at(1.05, 900), "not converged yet");
 });

@@ -115,12 +115,15 @@ export function belief(report: Report): { converged: boolean; phrase: Phrase } {
   return { converged, phrase };
 }
 
-/** While running: whether what is there so far could be believed. */
+/**
+ * While running: whether what is there so far could be believed. The engine looks at the first
+ * modes only then; the report judges all of them.
+ */
 export function liveBelief(progress: Progress): string {
   const { rHatMax, essBulkMin } = progress;
   if (rHatMax === null && essBulkMin === null) return "waiting for the first draws";
   const settled = (rHatMax ?? 1) < R_HAT && (essBulkMin ?? 0) >= ESS;
-  return settled ? "converged" : "not converged yet";
+  return settled ? "converged so far" : "not converged yet";
 }
 
 const STAGES: Record<Progress["stage"], string> = {

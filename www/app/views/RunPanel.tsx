@@ -86,7 +86,7 @@ function Running() {
           <dd>{progress?.essBulkMin == null ? "–" : number(progress.essBulkMin)}</dd>
         </div>
       </dl>
-      <p class="belief" data-converged={belief === "converged"}>
+      <p class="belief" data-converged={belief === "converged so far"}>
         {belief}
       </p>
     </>
