@@ -16,6 +16,7 @@
 use rand_chacha::ChaCha8Rng;
 
 use super::{Chains, Draws, Gaussian, Schedule, Stream, Target, fill_normal, stream, uniform};
+use crate::parallel;
 
 /// Share of proposals that come from the defensive component.
 const DEFENSIVE_SHARE: f64 = 0.05;
@@ -62,8 +63,22 @@ impl IndependenceChains {
         Self { fit, defence, schedule, step: 0, random, states: Vec::new(), draws }
     }
 
-    fn propose(&mut self, chain: usize) -> Proposal {
-        let random = &mut self.random[chain];
+    /// The next `steps` proposals of every chain, step after step.
+    fn propose(&mut self, steps: usize) -> Vec<Proposal> {
+        let chains = parallel::map(self.schedule.chains, |chain| {
+            let mut random = self.random[chain].clone();
+            let proposals: Vec<Proposal> = (0..steps).map(|_| self.draw(&mut random)).collect();
+            (random, proposals)
+        });
+        let (random, proposals): (Vec<_>, Vec<_>) = chains.into_iter().unzip();
+        self.random = random;
+        let mut proposals: Vec<_> = proposals.into_iter().map(Vec::into_iter).collect();
+        (0..steps)
+            .flat_map(|_| proposals.iter_mut().filter_map(Iterator::next).collect::<Vec<_>>())
+            .collect()
+    }
+
+    fn draw(&self, random: &mut ChaCha8Rng) -> Proposal {
         let mut z = vec![0.0; self.fit.dimension()];
         let defensive = uniform(random) < DEFENSIVE_SHARE;
         fill_normal(random, &mut z);
@@ -121,12 +136,11 @@ impl Chains for IndependenceChains {
     fn advance(&mut self, target: &dyn Target, steps: usize) {
         let chains = self.schedule.chains;
         if self.states.is_empty() {
-            let starts: Vec<Proposal> = (0..chains).map(|chain| self.propose(chain)).collect();
+            let starts = self.propose(1);
             self.states = self.evaluate(target, &starts);
         }
         let steps = steps.min(self.remaining());
-        let proposals: Vec<Proposal> =
-            (0..steps).flat_map(|_| 0..chains).map(|chain| self.propose(chain)).collect();
+        let proposals = self.propose(steps);
         let proposed = self.evaluate(target, &proposals);
         for (index, (state, proposal)) in proposed.into_iter().zip(&proposals).enumerate() {
             let step = self.step + index / chains;
