@@ -31,4 +31,4 @@ mod parallel;
 pub mod report;
 pub mod sampling;
 #[cfg(target_arch = "wasm32")]
-mod wasm;
+pub mod wasm;
