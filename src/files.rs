@@ -265,13 +265,12 @@ fn write_shape(
 }
 
 fn write_draws(results: &Results) -> Vec<u8> {
-    let arrays: Vec<(String, Array)> = results
+    let (names, arrays): (Vec<String>, Vec<Array>) = results
         .to_arrays()
         .into_iter()
         .map(|stored| (stored.name, Array { shape: stored.shape, data: Data::F32(stored.values) }))
-        .collect();
-    let named: Vec<(&str, Array)> =
-        arrays.iter().map(|(name, array)| (name.as_str(), array.clone())).collect();
+        .unzip();
+    let named: Vec<(&str, Array)> = names.iter().map(String::as_str).zip(arrays).collect();
     formats::write_arrays(&named)
 }
 

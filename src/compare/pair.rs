@@ -121,6 +121,8 @@ pub struct Side {
     gram: DMatrix<f64>,
     gram_shift: DVector<f64>,
     gram_constant: f64,
+    /// Largest |value| in R and r₀.
+    largest_residual: f64,
     kernel: DistanceKernel,
 }
 
@@ -151,6 +153,7 @@ impl Side {
             gram: cross(&residual, &residual),
             gram_shift: residual.tr_mul(&offset),
             gram_constant: offset.norm_squared(),
+            largest_residual: residual.amax().max(offset.amax()),
             kernel: DistanceKernel::new(from.dimension(), from.mode_count(), &residual_rows),
             offset: offset.as_slice().to_vec(),
             residual: residual_rows,
@@ -249,12 +252,7 @@ impl Side {
 
     /// Whether M₂ holds every shape of this side to rounding: the difference is empty.
     pub fn is_contained(&self, scale: f64) -> bool {
-        let largest = self
-            .residual
-            .iter()
-            .chain(&self.offset)
-            .fold(0.0_f64, |largest, value| largest.max(value.abs()));
-        largest <= 1e-9 * scale
+        self.largest_residual <= 1e-9 * scale
     }
 }
 

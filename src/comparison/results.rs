@@ -126,9 +126,13 @@ impl Comparison {
 
     /// The intersection model from what there is.
     pub(super) fn intersection_so_far(&self) -> Option<LinearModel> {
-        let joint = self.joint.as_ref()?;
-        let moments = self.pooled_moments()?;
-        joint.model(&moments, self.most_modes()).map(|model| self.dressed(model))
+        self.model_of(&self.pooled_moments()?)
+    }
+
+    /// The model with these joint-basis moments.
+    fn model_of(&self, moments: &Moments) -> Option<LinearModel> {
+        let model = self.joint.as_ref()?.model(moments, self.most_modes())?;
+        Some(self.dressed(model))
     }
 
     /// Joint-basis moments of the intersection from what there is: both sides pooled equally.
@@ -156,15 +160,13 @@ impl Comparison {
         let (Some(joint), Some(moments)) = (&self.joint, self.pooled_moments()) else {
             return Err(ComparisonError::FlatIntersection);
         };
-        let model = joint.model(&moments, self.most_modes());
-        let intersection = self.dressed(model.ok_or(ComparisonError::FlatIntersection)?);
-        let results = self.results();
-        let sides = [0, 1].map(|side| summary::of_chains(&results.intersection[side]));
+        let intersection = self.model_of(&moments).ok_or(ComparisonError::FlatIntersection)?;
+        let sides = [0, 1].map(|side| summary::of_chains(self.chains[side].draws()));
         let [grassmann, grassmann_affine] = grassmann(joint, &intersection);
-        let distances: Vec<f64> = results
-            .intersection
+        let distances: Vec<f64> = self
+            .chains
             .iter()
-            .flat_map(|draws| draws.statistics.iter().flatten().copied())
+            .flat_map(|chains| chains.draws().statistics.iter().flatten().copied())
             .collect();
         let [a, b] = self.described.clone();
         let mut report = Report {
@@ -185,8 +187,8 @@ impl Comparison {
                 vertex_sd: Spread::of(&intersection.vertex_standard_deviations()),
             },
             differences: Differences {
-                a_without_b: self.difference(0, &results.differences[0]),
-                b_without_a: self.difference(1, &results.differences[1]),
+                a_without_b: self.difference(0),
+                b_without_a: self.difference(1),
             },
             overlap: self.overlap(joint),
             warnings: Vec::new(),
@@ -198,9 +200,9 @@ impl Comparison {
         Ok(())
     }
 
-    fn difference(&self, side: usize, draws: &Draws) -> DifferenceReport {
-        let (probability, standard_error) =
-            self.rejections.get(side).map_or((0.0, 0.0), |run| run.probability());
+    fn difference(&self, side: usize) -> DifferenceReport {
+        let (probability, standard_error) = self.rejections[side].probability();
+        let draws = self.rejections[side].draws();
         let model = self.pair.models()[side];
         let factor = Moments::of(draws.iter_slices(), draws.dimension).factor();
         let vertex_sd = if draws.len() < 2 {

@@ -2,7 +2,7 @@
 
 use super::{Comparison, Sampler};
 use crate::measure::mean_vertex_distance;
-use crate::model::{Alignment, Cells, align_to};
+use crate::model::{Alignment, Cells, procrustes};
 use crate::report::{Report, Warning};
 
 /// Share of a model's shapes above which its difference is called nearly everything.
@@ -52,9 +52,11 @@ impl Comparison {
             ));
         }
         if self.settings.align == Alignment::None && a.point_count() > 2 {
-            let (moved, _) = align_to(a, b, Alignment::Rigid);
+            let mut moved = b.mean().clone();
+            procrustes(a.mean().as_slice(), moved.as_slice(), a.dimension(), Alignment::Rigid)
+                .move_points(moved.as_mut_slice());
             let before = report.overlap.mean_to_mean;
-            let after = mean_vertex_distance(a.mean(), moved.mean(), a.dimension());
+            let after = mean_vertex_distance(a.mean(), &moved, a.dimension());
             if before > 1e-6 * a.size() && after < (1.0 - WORTH_ALIGNING) * before {
                 warnings.push(warning(
                     "not-aligned",

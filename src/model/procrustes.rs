@@ -78,7 +78,8 @@ impl Similarity {
     fn each_point(&self, points: &mut [f64], scale: f64, translate: bool) {
         let dimension = self.rotation.nrows();
         for point in points.chunks_exact_mut(dimension) {
-            let old = DVector::from_column_slice(point);
+            let mut old = [0.0; 3];
+            old[..dimension].copy_from_slice(point);
             for (row, value) in point.iter_mut().enumerate() {
                 let turned: f64 =
                     (0..dimension).map(|column| self.rotation[(row, column)] * old[column]).sum();
