@@ -1,5 +1,6 @@
 //! Two models in one frame: the residual operator, the targets, the Gaussian fits.
 
+mod difference;
 mod fit;
 mod joint;
 mod kernel;
@@ -8,6 +9,7 @@ mod targets;
 mod tolerance;
 mod vertex_norm;
 
+pub use difference::Difference;
 pub use fit::{
     Fit, FitMethod, expected_distance, fit_reweighted, fit_rms, fit_variational_step,
     without_distance,
@@ -15,5 +17,5 @@ pub use fit::{
 pub use joint::{Joint, Moments};
 pub use kernel::DistanceKernel;
 pub use pair::{Pair, PairError, Side};
-pub use targets::{Difference, Intersection};
+pub use targets::Intersection;
 pub use tolerance::{Tolerance, recommended_tolerance};

@@ -234,6 +234,37 @@ impl Side {
         sum / self.point_count() as f64
     }
 
+    /// d and ∇d = (1/n) Σ_v R_vᵀ r_v/‖r_v‖ (q) in double precision, one shape: the reference for the
+    /// kernel. Points where r_v = 0 add nothing.
+    pub fn distance_and_gradient(&self, coefficients: &[f64]) -> (f64, Vec<f64>) {
+        let residual = self.residual_at(coefficients);
+        let mut gradient = vec![0.0; self.modes];
+        let mut sum = 0.0;
+        let points = residual.chunks_exact(self.dimension);
+        let rows = self.residual.chunks_exact(self.dimension * self.modes);
+        for (point, vertex) in points.zip(rows) {
+            let norm = point.iter().map(|value| value * value).sum::<f64>().sqrt();
+            sum += norm;
+            if norm > 0.0 {
+                for (value, row) in point.iter().zip(vertex.chunks_exact(self.modes)) {
+                    for (target, weight) in gradient.iter_mut().zip(row) {
+                        *target += value / norm * weight;
+                    }
+                }
+            }
+        }
+        let scale = 1.0 / self.point_count() as f64;
+        (sum * scale, gradient.into_iter().map(|value| value * scale).collect())
+    }
+
+    /// ‖a′‖² + ‖a‖² and half its gradient, Aᵀ(a₀ + A a) + a (q).
+    pub fn plausibility(&self, coefficients: &[f64]) -> (f64, Vec<f64>) {
+        let point = DVector::from_column_slice(coefficients);
+        let half = &self.projection_gram * &point + &self.projection_shift + &point;
+        let square = point.dot(&half) + self.projection_shift.dot(&point);
+        (square + self.projection_constant, half.as_slice().to_vec())
+    }
+
     /// ‖a′‖² + ‖a‖²: twice the negative logarithm of L_P(a)·p(a), up to a constant.
     pub fn plausibility_square(&self, coefficients: &[f64]) -> f64 {
         let mut square = self.projection_constant;

@@ -1,31 +1,42 @@
-//! The two densities of the method, ready for a sampler.
+//! The intersection posterior, ready for a sampler.
 
 use nalgebra::DVector;
 
 use super::Side;
-use crate::sampling::{Evaluation, RejectionTarget, Target};
+use crate::parallel;
+use crate::sampling::{Evaluation, Target};
 
 /// d(x′, x) of many shapes, with the residual at a centre taken in double precision.
 #[derive(Debug)]
-struct Distances<'a> {
-    side: &'a Side,
+pub(super) struct Distances<'a> {
+    pub(super) side: &'a Side,
     centre: Vec<f64>,
     offset: Vec<f32>,
 }
 
 impl<'a> Distances<'a> {
     #[allow(clippy::cast_possible_truncation, reason = "single precision is the point")]
-    fn new(side: &'a Side, centre: Vec<f64>) -> Self {
+    pub(super) fn new(side: &'a Side, centre: Vec<f64>) -> Self {
         let offset = side.residual_at(&centre).into_iter().map(|value| value as f32).collect();
         Self { side, centre, offset }
     }
 
-    fn of(&self, points: &[f64]) -> Vec<f64> {
+    pub(super) fn of(&self, points: &[f64]) -> Vec<f64> {
         let steps: Vec<f64> = points
             .chunks_exact(self.centre.len())
             .flat_map(|point| point.iter().zip(&self.centre).map(|(a, c)| a - c))
             .collect();
         self.side.kernel().distances(&self.offset, &steps)
+    }
+
+    /// The same, with ∇d of each (B × q).
+    fn with_gradients(&self, points: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        let modes = self.centre.len();
+        let found = parallel::map(points.len() / modes, |index| {
+            self.side.distance_and_gradient(&points[index * modes..(index + 1) * modes])
+        });
+        let (distances, gradients): (Vec<_>, Vec<_>) = found.into_iter().unzip();
+        (distances, gradients.concat())
     }
 }
 
@@ -64,36 +75,30 @@ impl Target for Intersection<'_> {
             })
             .collect()
     }
-}
 
-/// The difference (eqs. 15, 16): p(a) ∝ (1 − exp(−½(d/σ)²))·exp(−½‖a‖²), without L_P. The statistic of a
-/// draw is its distance d.
-#[derive(Debug)]
-pub struct Difference<'a> {
-    distances: Distances<'a>,
-    sigma: f64,
-}
-
-impl<'a> Difference<'a> {
-    /// With tolerance σ.
-    pub fn new(side: &'a Side, sigma: f64) -> Self {
-        Self { distances: Distances::new(side, vec![0.0; side.mode_count()]), sigma }
-    }
-}
-
-impl RejectionTarget for Difference<'_> {
-    fn dimension(&self) -> usize {
-        self.distances.side.mode_count()
-    }
-
-    fn acceptance(&self, points: &[f64]) -> Vec<(f64, f64)> {
-        self.distances
-            .of(points)
-            .into_iter()
-            .map(|distance| {
-                let scaled = distance / self.sigma;
-                (-libm::expm1(-0.5 * scaled * scaled), distance)
-            })
-            .collect()
+    /// ∇ log p = −(d/σ²)·∇d − Aᵀ(a₀ + A a) − a, with ∇d = (1/n) Σ R_vᵀ r_v/‖r_v‖.
+    fn differentiate(&self, points: &[f64]) -> (Vec<Evaluation>, Vec<f64>) {
+        let modes = self.dimension();
+        let (distances, slopes) = self.distances.with_gradients(points);
+        let precision = 1.0 / (self.sigma * self.sigma);
+        let side = self.distances.side;
+        let rows = parallel::map(distances.len(), |index| {
+            let point = &points[index * modes..(index + 1) * modes];
+            let slope = &slopes[index * modes..(index + 1) * modes];
+            let (plausibility, half_gradient) = side.plausibility(point);
+            let scaled = distances[index] / self.sigma;
+            let evaluation = Evaluation {
+                log_density: -0.5 * (scaled * scaled + plausibility),
+                statistic: distances[index],
+            };
+            let gradient: Vec<f64> = slope
+                .iter()
+                .zip(half_gradient)
+                .map(|(slope, plain)| -distances[index] * precision * slope - plain)
+                .collect();
+            (evaluation, gradient)
+        });
+        let (evaluations, gradients): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
+        (evaluations, gradients.concat())
     }
 }

@@ -37,6 +37,9 @@ pub trait Target: Sync {
 
     /// Evaluates B points, given row by row (B × q).
     fn evaluate(&self, points: &[f64]) -> Vec<Evaluation>;
+
+    /// The same with the gradient of the log density at each point (B × q, row by row).
+    fn differentiate(&self, points: &[f64]) -> (Vec<Evaluation>, Vec<f64>);
 }
 
 /// Kept draws of an ensemble of chains, and how they came about.
@@ -179,6 +182,10 @@ pub(crate) mod test_targets {
                     Evaluation { log_density: -0.5 * square, statistic: square }
                 })
                 .collect()
+        }
+
+        fn differentiate(&self, points: &[f64]) -> (Vec<Evaluation>, Vec<f64>) {
+            (self.evaluate(points), points.iter().map(|value| -value).collect())
         }
     }
 }
