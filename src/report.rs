@@ -172,8 +172,114 @@ pub struct IntersectionReport {
     pub diagnostics: Diagnostics,
     /// Of the draws that start from A and from B.
     pub sides: Sides,
+    /// The same for each coefficient.
+    #[serde(default)]
+    pub coefficients: Option<BothSides<ModeDiagnostics>>,
     /// Of the per-vertex standard deviation of the intersection model.
     pub vertex_sd: Spread,
+    /// Which sampler ran on each side, why, and what the moments come from.
+    #[serde(default)]
+    pub inference: Option<BothSides<InferenceReport>>,
+    /// How far the model may be off; absent where its draws do not tell.
+    #[serde(default)]
+    pub accuracy: Option<Accuracy>,
+    /// What the two sides say apart from one another; absent when only one makes the model.
+    #[serde(default)]
+    pub disagreement: Option<Disagreement>,
+    /// σ against the distances of the two models.
+    #[serde(default)]
+    pub tolerance: Option<ToleranceReport>,
+}
+
+/// One of something for each side: shapes of A near B, and of B near A.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BothSides<T> {
+    /// Shapes of A near B.
+    pub a: T,
+    /// Shapes of B near A.
+    pub b: T,
+}
+
+/// What the moments of a side are made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum MomentSource {
+    /// The Gaussian fit's own; where there are weighted draws, their correction is within its own error.
+    ClosedForm,
+    /// The fit corrected by weighted draws and their gradients.
+    Weighted,
+    /// The draws of the chains.
+    Draws,
+}
+
+/// How one side was inferred.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct InferenceReport {
+    /// The sampler that ran.
+    pub sampler: crate::comparison::Sampler,
+    /// Why, in a sentence.
+    pub reason: String,
+    /// The Gaussian fit that it builds on.
+    pub fit: crate::compare::FitMethod,
+    /// What the moments are made of.
+    pub moments: MomentSource,
+}
+
+/// Standard errors of the intersection model. Modes are counted from 1 in words, from 0 in lists.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Accuracy {
+    /// Of the covariance, as a share of it (Frobenius norm).
+    pub covariance: f64,
+    /// Of each standard deviation.
+    pub standard_deviations: Vec<f64>,
+    /// Radians by which each mode may turn.
+    pub mode_turns: Vec<f64>,
+    /// Predicted error of the Grassmann distance of the first k modes, k = 1, 2, …
+    pub grassmann: Vec<f64>,
+    /// Leading modes that are determined one by one (turn below 0.2 radians).
+    pub modes_trusted: usize,
+}
+
+/// How far the models that either side alone would give lie apart.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Disagreement {
+    /// Mean distance between corresponding points of the two means.
+    pub mean_to_mean: f64,
+    /// Frobenius norm of the difference of the covariances, as a share of the pooled one's.
+    pub covariance: f64,
+    /// Share of the pooled variance that lies between the two means.
+    pub between_share: f64,
+    /// Σ λᵢ of either side's own law.
+    pub total_variance: BothSides<f64>,
+    /// Standard deviations of either side's own model.
+    pub standard_deviations: BothSides<Vec<f64>>,
+    /// Grassmann distance (the paper's) between the first 1, 3, 5 and 10 modes of the two.
+    pub grassmann: Vec<f64>,
+}
+
+/// σ beside the distances of the two models, in the unit of A.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct ToleranceReport {
+    /// The σ that would be recommended.
+    pub recommended: f64,
+    /// σ in use as a share of the size of A.
+    pub relative: f64,
+    /// Expected distance as σ → 0: how near the models come.
+    pub nearest: f64,
+    /// Expected distance as σ → ∞, where only plausibility acts.
+    pub farthest: f64,
+    /// E d at the σ in use by √(d(μ)² + q_eff σ²), averaged over the sides.
+    pub predicted: f64,
+    /// Dimensions on which the distance acts, q_eff = tr[Σ(Λ − I − AᵀA)], averaged over the sides.
+    pub effective_dimensions: f64,
+    /// Least distance of a plausible shape of A from a plausible shape of B (both within the 99 % ellipsoid).
+    pub meeting: Option<f64>,
+    /// How far true members lie from their own model: as given, or from the modes that were cut off.
+    pub noise: Option<f64>,
 }
 
 /// Diagnostics of the two sides of the intersection.
@@ -215,8 +321,39 @@ pub struct Diagnostics {
     pub evaluations: u64,
     /// Draws kept.
     pub draws: usize,
-    /// R-hat below 1.01 and at least 400 effective draws for every mode.
+    /// R-hat below 1.01 and at least 400 effective draws for every mode, or Pareto k below 0.7 and an
+    /// effective size of the weights above 1,000.
     pub converged: bool,
+    /// Effective size of the importance weights; absent where there are none.
+    #[serde(default)]
+    pub importance_ess: Option<f64>,
+    /// Largest Monte-Carlo standard error of a coefficient's mean.
+    #[serde(default)]
+    pub mcse_mean: Option<f64>,
+    /// Largest Monte-Carlo standard error of a coefficient's standard deviation.
+    #[serde(default)]
+    pub mcse_sd: Option<f64>,
+    /// Largest correlation of a coefficient with its next draw.
+    #[serde(default)]
+    pub autocorrelation: Option<f64>,
+}
+
+/// Diagnostics of each coefficient, first mode first.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct ModeDiagnostics {
+    /// Rank-normalised R-hat, the larger of split and folded.
+    pub r_hat: Vec<f64>,
+    /// Bulk effective sample size.
+    pub ess_bulk: Vec<f64>,
+    /// Tail effective sample size.
+    pub ess_tail: Vec<f64>,
+    /// Monte-Carlo standard error of the mean.
+    pub mcse_mean: Vec<f64>,
+    /// Monte-Carlo standard error of the standard deviation.
+    pub mcse_sd: Vec<f64>,
+    /// Correlation with the next draw.
+    pub autocorrelation: Vec<f64>,
 }
 
 /// The two set differences.

@@ -1,12 +1,15 @@
 //! Diagnostics of draws, as the report states them.
 
 use crate::parallel;
-use crate::report::Diagnostics;
-use crate::sampling::{ChainSummary, Draws, pareto_k, summarise};
+use super::inference::{Inference, LARGEST_PARETO_K};
+use crate::report::{Diagnostics, ModeDiagnostics};
+use crate::sampling::{ChainSummary, Draws, importance_ess, pareto_k, summarise};
 
 /// Bounds below which nothing is called converged.
 const LARGEST_R_HAT: f64 = 1.01;
 const LEAST_EFFECTIVE_DRAWS: f64 = 400.0;
+/// Effective size of the weights above which they converge by themselves, where their Pareto k is small.
+const LEAST_EFFECTIVE_WEIGHTS: f64 = 1000.0;
 /// Fewer draws than this in a chain say nothing about it.
 const LEAST_DRAWS_OF_A_CHAIN: usize = 4;
 
@@ -29,32 +32,52 @@ pub(super) fn coefficients(draws: &Draws, most: usize) -> Vec<ChainSummary> {
     })
 }
 
-/// Diagnostics of one side of the intersection.
-pub(super) fn of_chains(draws: &Draws) -> Diagnostics {
+/// Diagnostics of one side of the intersection, the worst and each coefficient's.
+pub(super) fn of_inference(inference: &Inference) -> (Diagnostics, ModeDiagnostics) {
+    let draws = inference.draws();
     let summaries = coefficients(draws, usize::MAX);
-    let least = |value: fn(&ChainSummary) -> f64| {
-        let smallest = summaries.iter().map(value).fold(f64::INFINITY, f64::min);
-        if smallest.is_finite() { smallest } else { 0.0 }
-    };
-    let r_hat_max = summaries
-        .iter()
-        .map(|summary| summary.r_hat)
-        .fold(None, |largest: Option<f64>, r_hat| Some(largest.unwrap_or(r_hat).max(r_hat)))
+    let each = |value: fn(&ChainSummary) -> f64| {
         // Frozen chains have an infinite R-hat, which JSON cannot hold.
-        .map(|r_hat| r_hat.min(1e6));
-    let ess_bulk_min = least(|summary| summary.ess_bulk);
-    let ess_tail_min = least(|summary| summary.ess_tail);
-    Diagnostics {
+        summaries.iter().map(|summary| value(summary).min(1e6)).collect::<Vec<f64>>()
+    };
+    let modes = ModeDiagnostics {
+        r_hat: each(|summary| summary.r_hat),
+        ess_bulk: each(|summary| summary.ess_bulk),
+        ess_tail: each(|summary| summary.ess_tail),
+        mcse_mean: each(|summary| summary.mcse_mean),
+        mcse_sd: each(|summary| summary.mcse_sd),
+        autocorrelation: each(|summary| summary.autocorrelation),
+    };
+    let least = |values: &[f64]| values.iter().copied().reduce(f64::min).unwrap_or(0.0);
+    let most = |values: &[f64]| values.iter().copied().reduce(f64::max);
+    let (ess_bulk_min, ess_tail_min) = (least(&modes.ess_bulk), least(&modes.ess_tail));
+    let r_hat_max = most(&modes.r_hat);
+    // Independent proposals are weighted draws as well, and more of them.
+    let (pareto_k, effective_weights) = if draws.log_weights.is_empty() {
+        let found = inference.weighted();
+        (found.and_then(|found| found.pareto_k), found.map(|found| found.effective_size))
+    } else {
+        (pareto_k(&draws.log_weights), Some(importance_ess(&draws.log_weights)))
+    };
+    let by_chains = r_hat_max.is_some_and(|r_hat| r_hat < LARGEST_R_HAT)
+        && ess_bulk_min.min(ess_tail_min) >= LEAST_EFFECTIVE_DRAWS;
+    let by_weights = effective_weights.is_some_and(|size| size > LEAST_EFFECTIVE_WEIGHTS)
+        && pareto_k.is_none_or(|k| k < LARGEST_PARETO_K);
+    let worst = Diagnostics {
         r_hat_max,
         ess_bulk_min,
         ess_tail_min,
         acceptance: draws.acceptance_rate(),
-        pareto_k: pareto_k(&draws.log_weights),
-        evaluations: draws.evaluations,
+        pareto_k,
+        evaluations: inference.evaluations(),
         draws: draws.len(),
-        converged: r_hat_max.is_some_and(|r_hat| r_hat < LARGEST_R_HAT)
-            && ess_bulk_min.min(ess_tail_min) >= LEAST_EFFECTIVE_DRAWS,
-    }
+        converged: by_chains || by_weights,
+        importance_ess: effective_weights,
+        mcse_mean: most(&modes.mcse_mean),
+        mcse_sd: most(&modes.mcse_sd),
+        autocorrelation: most(&modes.autocorrelation),
+    };
+    (worst, modes)
 }
 
 /// Diagnostics of independent draws by rejection.
@@ -69,6 +92,10 @@ pub(super) fn of_independent(draws: &Draws) -> Diagnostics {
         evaluations: draws.evaluations,
         draws: draws.len(),
         converged: count >= LEAST_EFFECTIVE_DRAWS,
+        importance_ess: None,
+        mcse_mean: None,
+        mcse_sd: None,
+        autocorrelation: None,
     }
 }
 
@@ -87,5 +114,12 @@ pub(super) fn worst(a: &Diagnostics, b: &Diagnostics) -> Diagnostics {
         evaluations: a.evaluations + b.evaluations,
         draws: a.draws + b.draws,
         converged: a.converged && b.converged,
+        importance_ess: match (a.importance_ess, b.importance_ess) {
+            (Some(x), Some(y)) => Some(x.min(y)),
+            (one, other) => one.or(other),
+        },
+        mcse_mean: larger(a.mcse_mean, b.mcse_mean),
+        mcse_sd: larger(a.mcse_sd, b.mcse_sd),
+        autocorrelation: larger(a.autocorrelation, b.autocorrelation),
     }
 }
