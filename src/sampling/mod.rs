@@ -5,12 +5,16 @@
 
 mod diagnostics;
 mod gaussian;
+mod hmc;
 mod independence;
+mod mala;
 mod normal_quantile;
 mod pareto;
+mod pcn;
 mod random;
 mod random_walk;
 mod rejection;
+mod whitened;
 
 pub use diagnostics::{ChainSummary, split_r_hat, summarise};
 pub use gaussian::Gaussian;
@@ -20,6 +24,7 @@ pub use pareto::pareto_k;
 pub use random::{Stream, fill_normal, stream, uniform};
 pub use random_walk::{RandomWalkChains, Scaling};
 pub use rejection::{Rejection, RejectionTarget};
+pub use whitened::WhitenedChains;
 
 /// What a target says of one point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -186,6 +191,93 @@ pub(crate) mod test_targets {
 
         fn differentiate(&self, points: &[f64]) -> (Vec<Evaluation>, Vec<f64>) {
             (self.evaluate(points), points.iter().map(|value| -value).collect())
+        }
+    }
+
+    /// Independent coordinates of density ∝ exp(−½x² − w √(1 + (x − 1)²)); the statistic is the sum of
+    /// squares.
+    #[derive(Debug)]
+    pub(crate) struct Bent {
+        pub(crate) dimension: usize,
+        pub(crate) weight: f64,
+    }
+
+    impl Bent {
+        fn log_density(&self, x: f64) -> f64 {
+            -0.5 * x * x - self.weight * (1.0 + (x - 1.0) * (x - 1.0)).sqrt()
+        }
+
+        /// E x and E x² by the rule of trapezoids, which is exact to rounding here.
+        pub(crate) fn moments(&self) -> [f64; 2] {
+            let mut sums = [0.0; 3];
+            for index in -4000..=4000 {
+                let x = f64::from(index) * 0.0025;
+                let density = libm::exp(self.log_density(x));
+                for (sum, power) in sums.iter_mut().zip([1.0, x, x * x]) {
+                    *sum += density * power;
+                }
+            }
+            [sums[1] / sums[0], sums[2] / sums[0]]
+        }
+    }
+
+    impl Target for Bent {
+        fn dimension(&self) -> usize {
+            self.dimension
+        }
+
+        fn evaluate(&self, points: &[f64]) -> Vec<Evaluation> {
+            self.differentiate(points).0
+        }
+
+        fn differentiate(&self, points: &[f64]) -> (Vec<Evaluation>, Vec<f64>) {
+            let evaluations = points.chunks_exact(self.dimension).map(|point| Evaluation {
+                log_density: point.iter().map(|&x| self.log_density(x)).sum(),
+                statistic: point.iter().map(|x| x * x).sum(),
+            });
+            let slope =
+                |x: f64| -x - self.weight * (x - 1.0) / (1.0 + (x - 1.0) * (x - 1.0)).sqrt();
+            (evaluations.collect(), points.iter().map(|&x| slope(x)).collect())
+        }
+    }
+
+    /// log p = −½‖a‖² − ½ (d/σ)² with d = (1/q) Σ √(δ² + (a_i − c_i)²), every second c_i being 1: nearly an
+    /// L1 norm, the hardest distance for Gaussian fits. The statistic −a·∇ log p(a) has mean q.
+    #[derive(Debug)]
+    pub(crate) struct Sparse {
+        pub(crate) dimension: usize,
+        pub(crate) sigma: f64,
+        pub(crate) smoothing: f64,
+    }
+
+    impl Target for Sparse {
+        fn dimension(&self) -> usize {
+            self.dimension
+        }
+
+        fn evaluate(&self, points: &[f64]) -> Vec<Evaluation> {
+            self.differentiate(points).0
+        }
+
+        fn differentiate(&self, points: &[f64]) -> (Vec<Evaluation>, Vec<f64>) {
+            let size = self.dimension as f64;
+            let mut gradients = Vec::new();
+            let evaluations = points.chunks_exact(self.dimension).map(|point| {
+                let offset = |index: usize| point[index] - (index % 2) as f64;
+                let norm = |x: f64| (x * x + self.smoothing * self.smoothing).sqrt();
+                let distance =
+                    (0..self.dimension).map(|index| norm(offset(index))).sum::<f64>() / size;
+                let factor = distance / (self.sigma * self.sigma * size);
+                let gradient: Vec<f64> = (0..self.dimension)
+                    .map(|index| -point[index] - factor * offset(index) / norm(offset(index)))
+                    .collect();
+                let square: f64 = point.iter().map(|x| x * x).sum();
+                let scaled = distance / self.sigma;
+                let statistic = -point.iter().zip(&gradient).map(|(x, g)| x * g).sum::<f64>();
+                gradients.extend(gradient);
+                Evaluation { log_density: -0.5 * (square + scaled * scaled), statistic }
+            });
+            (evaluations.collect(), gradients)
         }
     }
 }
