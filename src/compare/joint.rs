@@ -133,6 +133,18 @@ impl Joint {
         &self.origin
     }
 
+    /// Bᵀm₁ (p), and how far m₁ lies from span B: where the origin of the coordinates of the points is.
+    pub fn origin_coordinates(&self) -> (DVector<f64>, f64) {
+        let inside = self.basis.tr_mul(&self.origin);
+        let outside = (&self.origin - &self.basis * &inside).norm();
+        (inside, outside)
+    }
+
+    /// The shape at the given coordinates (d·n).
+    pub fn shape(&self, coordinates: &DVector<f64>) -> DVector<f64> {
+        &self.origin + &self.basis * coordinates
+    }
+
     /// The law of shapes of side 0 (A) or 1 (B) whose coefficients have the given moments.
     pub fn lift(&self, side: usize, coefficients: &Moments) -> Moments {
         let scaled = &self.scaled[side];

@@ -1,10 +1,12 @@
 //! The Gaussian fit of one side, step by step, and the pilot that picks it.
 //!
 //! The variational fit runs to rest; a pilot of 256 draws takes the effective share of its importance
-//! weights, (Σw)²/(N Σw²). Only where that is low are the rms and reweighted fits tried as well.
+//! weights, (Σw)²/(N Σw²). Only where that is low are the reweighted, Laplace and rms fits tried as well. A
+//! fit that is asked for by name is taken as it is.
 
+use super::settings::{FitChoice, Settings};
 use crate::compare::{
-    Fit, FitMethod, Intersection, Side, fit_reweighted, fit_rms, fit_variational_step,
+    Fit, FitMethod, Intersection, Side, fit_laplace, fit_reweighted, fit_rms, fit_variational_step,
 };
 use crate::sampling::{Gaussian, Stream, Target, fill_normal, stream};
 
@@ -24,6 +26,7 @@ const REWEIGHTED_ROUNDS: usize = 6;
 pub(super) struct Fitting {
     sigma: f64,
     seed: u64,
+    choice: FitChoice,
     side: usize,
     rms: Gaussian,
     current: Gaussian,
@@ -34,11 +37,17 @@ pub(super) struct Fitting {
 
 impl Fitting {
     /// Starts from the rms fit; `None` when its numbers overflow.
-    pub(super) fn new(operator: &Side, sigma: f64, seed: u64, side: usize) -> Option<Self> {
+    pub(super) fn new(
+        operator: &Side,
+        sigma: f64,
+        settings: &Settings,
+        side: usize,
+    ) -> Option<Self> {
         let rms = fit_rms(operator, sigma)?;
         Some(Self {
             sigma,
-            seed,
+            seed: settings.seed,
+            choice: settings.fit,
             side,
             current: rms.clone(),
             rms,
@@ -50,6 +59,17 @@ impl Fitting {
 
     /// One iteration; the fit once it is decided.
     pub(super) fn advance(&mut self, operator: &Side) -> Option<Fit> {
+        match self.choice {
+            FitChoice::Rms => return Some(self.rms_fit()),
+            FitChoice::Reweighted | FitChoice::Laplace => {
+                let named = self.others(operator).into_iter().find(|fit| {
+                    (fit.method == FitMethod::Laplace) == (self.choice == FitChoice::Laplace)
+                });
+                // Where the mode has no curvature to speak of, the rms fit is what is left.
+                return Some(named.unwrap_or_else(|| self.rms_fit()));
+            }
+            FitChoice::Auto | FitChoice::Variational => {}
+        }
         if !self.settled {
             match fit_variational_step(operator, self.sigma, &self.current) {
                 Some((next, step)) => {
@@ -62,23 +82,35 @@ impl Fitting {
             return None;
         }
         let variational = Fit { method: FitMethod::Variational, gaussian: self.current.clone() };
+        if self.choice == FitChoice::Variational {
+            return Some(variational);
+        }
         let share = self.effective_share(operator, &variational.gaussian);
         let few = operator.point_count() < FEW_POINTS;
         if share >= if few { GOOD_ENOUGH_FOR_FEW } else { GOOD_ENOUGH } {
             return Some(variational);
         }
         let mut best = (share, variational);
-        let reweighted = fit_reweighted(operator, self.sigma, &self.rms, REWEIGHTED_ROUNDS);
-        let others =
-            [(FitMethod::Reweighted, reweighted), (FitMethod::Rms, Some(self.rms.clone()))];
-        for (method, gaussian) in others {
-            let Some(gaussian) = gaussian else { continue };
-            let share = self.effective_share(operator, &gaussian);
+        for fit in self.others(operator) {
+            let share = self.effective_share(operator, &fit.gaussian);
             if share > best.0 {
-                best = (share, Fit { method, gaussian });
+                best = (share, fit);
             }
         }
         Some(best.1)
+    }
+
+    fn rms_fit(&self) -> Fit {
+        Fit { method: FitMethod::Rms, gaussian: self.rms.clone() }
+    }
+
+    /// The fits beside the variational one, as far as they exist.
+    fn others(&self, operator: &Side) -> Vec<Fit> {
+        let reweighted = fit_reweighted(operator, self.sigma, &self.rms, REWEIGHTED_ROUNDS)
+            .map(|gaussian| Fit { method: FitMethod::Reweighted, gaussian });
+        let laplace = fit_laplace(operator, self.sigma, &self.current)
+            .map(|gaussian| Fit { method: FitMethod::Laplace, gaussian });
+        reweighted.into_iter().chain(laplace).chain([self.rms_fit()]).collect()
     }
 
     /// Evaluations that pilots have cost.

@@ -10,15 +10,16 @@ use super::settings::{Sampler, Settings};
 use crate::compare::{Fit, Intersection, Moments, Side, without_distance};
 use crate::report::{InferenceReport, MomentSource};
 use crate::sampling::{
-    Chains, Draws, EndedChains, FitChains, Gaussian, HmcChains, Importance, ImportanceEstimate,
-    ImportanceMoments, IndependenceChains, MalaChains, PcnChains, RandomWalkChains, Scaling,
-    Schedule,
+    Chains, Draws, EndedChains, FitChains, Gaussian, Importance, ImportanceEstimate, ImportanceMoments,
+    IndependenceChains, RandomWalkChains, Scaling, Schedule, WhitenedChains,
 };
 
 /// Pareto k of the weights from which means over them are not to be trusted.
 pub(super) const LARGEST_PARETO_K: f64 = 0.7;
 /// Acceptance of independence proposals below which another sampler is chosen.
 const LEAST_ACCEPTANCE: f64 = 0.2;
+/// Leaps of a Hamiltonian step at the most.
+const MOST_LEAPS: usize = 10;
 /// Draws of a side below which the intersection is described by its fit.
 const LEAST_DRAWS: usize = 32;
 
@@ -35,11 +36,13 @@ pub(super) struct Estimate {
 #[derive(Debug)]
 pub(super) struct Inference {
     side: usize,
-    fitting: Fitting,
+    fitting: Option<Fitting>,
     fit: Option<Fit>,
     importance: Option<Importance>,
     weighted: Option<ImportanceEstimate>,
     chosen: Option<(Sampler, String)>,
+    /// Moments of a run that was put back.
+    stored: Option<Moments>,
     chains: Box<dyn Chains>,
     ended: bool,
 }
@@ -49,14 +52,30 @@ impl Inference {
     pub(super) fn new(operator: &Side, side: usize, sigma: f64, settings: &Settings) -> Option<Self> {
         Some(Self {
             side,
-            fitting: Fitting::new(operator, sigma, settings, side)?,
+            fitting: Some(Fitting::new(operator, sigma, settings, side)?),
             fit: None,
             importance: None,
             weighted: None,
             chosen: None,
+            stored: None,
             chains: Box::new(EndedChains(Draws::new(operator.mode_count(), settings.chains))),
             ended: false,
         })
+    }
+
+    /// A side that has ended, known by its draws and, where they were kept, its moments.
+    pub(super) fn ended(draws: Draws, moments: Option<Moments>) -> Self {
+        Self {
+            side: 0,
+            fitting: None,
+            fit: None,
+            importance: None,
+            weighted: None,
+            chosen: None,
+            stored: moments,
+            chains: Box::new(EndedChains(draws)),
+            ended: true,
+        }
     }
 
     pub(super) fn fit(&self) -> Option<&Fit> {
@@ -74,13 +93,14 @@ impl Inference {
     /// Evaluations of the density so far; a gradient counts as two.
     pub(super) fn evaluations(&self) -> u64 {
         let weighted = self.importance.as_ref().map_or(0, Importance::evaluations);
-        self.fitting.evaluations() + weighted + self.chains.draws().evaluations
+        let pilots = self.fitting.as_ref().map_or(0, Fitting::evaluations);
+        pilots + weighted + self.chains.draws().evaluations
     }
 
     /// One iteration of the fit; whether it is decided.
     pub(super) fn advance_fit(&mut self, operator: &Side) -> bool {
         if self.fit.is_none() {
-            self.fit = self.fitting.advance(operator);
+            self.fit = self.fitting.as_mut().and_then(|fitting| fitting.advance(operator));
         }
         self.fit.is_some()
     }
@@ -159,6 +179,9 @@ impl Inference {
                 Moments { mean: gaussian.mean().clone(), covariance: gaussian.covariance() };
             Some(Estimate { source: MomentSource::ClosedForm, total, groups })
         };
+        if let Some(total) = self.stored.clone() {
+            return Some(Estimate { source: MomentSource::Draws, total, groups: Vec::new() });
+        }
         if asked == Sampler::Variational {
             return closed(Vec::new());
         }
@@ -230,9 +253,11 @@ fn start(
             let defence = without_distance(operator)?;
             Box::new(IndependenceChains::new(fit, defence, schedule, seed, side))
         }
-        Sampler::Hmc => Box::new(HmcChains::new(fit, schedule, seed, side)),
-        Sampler::Mala => Box::new(MalaChains::new(fit, schedule, seed, side)),
-        Sampler::Pcn => Box::new(PcnChains::new(fit, schedule, seed, side)),
+        Sampler::Hmc => {
+            Box::new(WhitenedChains::hamiltonian(fit, MOST_LEAPS, schedule, seed, side))
+        }
+        Sampler::Mala => Box::new(WhitenedChains::langevin(fit, schedule, seed, side)),
+        Sampler::Pcn => Box::new(WhitenedChains::crank_nicolson(fit, schedule, seed, side)),
         Sampler::Paper => walk(Scaling::AsPublished),
         Sampler::PaperCorrected => walk(Scaling::Corrected),
     })

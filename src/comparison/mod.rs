@@ -8,8 +8,11 @@
 //! Stages: residual operators of both sides → joint basis → σ → Gaussian fits → pilot → chains of the
 //! intersection → rejection for the differences → measures.
 
+mod accuracy;
 mod error;
 mod fitting;
+mod inference;
+mod preview;
 mod regions;
 mod results;
 mod settings;
@@ -17,22 +20,21 @@ mod summary;
 mod warnings;
 
 pub use error::ComparisonError;
+pub use preview::{Prediction, SweepPoint};
 pub use regions::{Region, RegionShapes, ShapeSource};
 pub use results::{Results, StoredArray};
-pub use settings::{Sampler, Settings, SettingsError};
+pub use settings::{FitChoice, Plausibility, Pooling, Sampler, Settings, SettingsError};
 
 use serde::Serialize;
 
 use crate::compare::{
-    Difference, Fit, Intersection, Joint, Pair, Side, Tolerance, recommended_tolerance,
-    without_distance,
+    Difference, Joint, Meeting, Pair, Side, Tolerance, nearest_meeting, plausible_radius,
+    recommended_tolerance,
 };
 use crate::model::LinearModel;
 use crate::report::{ModelReport, Report, Seconds};
-use crate::sampling::{
-    Chains, Draws, EndedChains, IndependenceChains, RandomWalkChains, Rejection, Scaling, Schedule,
-};
-use fitting::Fitting;
+use crate::sampling::{Draws, Rejection};
+use inference::Inference;
 
 /// Proposals of the rejection sampler for each draw wanted, before it gives up.
 const MOST_PROPOSALS_PER_DRAW: u64 = 100;
@@ -89,9 +91,8 @@ pub struct Comparison {
     sides: Vec<Side>,
     joint: Option<Joint>,
     tolerance: Option<Tolerance>,
-    fitting: Vec<Fitting>,
-    fits: Vec<Fit>,
-    chains: Vec<Box<dyn Chains>>,
+    meeting: Option<Meeting>,
+    inferences: Vec<Inference>,
     rejections: Vec<Rejection>,
     live: Option<(usize, f64, f64)>,
     cancelled: bool,
@@ -133,9 +134,8 @@ impl Comparison {
             sides: Vec::new(),
             joint: None,
             tolerance: None,
-            fitting: Vec::new(),
-            fits: Vec::new(),
-            chains: Vec::new(),
+            meeting: None,
+            inferences: Vec::new(),
             rejections: Vec::new(),
             live: None,
             cancelled: false,
@@ -156,10 +156,10 @@ impl Comparison {
         let described = [report.models.a.clone(), report.models.b.clone()];
         let mut run = Self::new(a, b, described, report.settings.clone())?;
         let modes = run.pair.models().map(LinearModel::mode_count);
-        let Results { intersection, differences } = Results::from_arrays(draws, modes)?;
+        let Results { intersection, differences, moments } = Results::from_arrays(draws, modes)?;
         run.joint = Some(run.pair.joint());
-        run.chains =
-            intersection.map(|draws| Box::new(EndedChains(draws)) as Box<dyn Chains>).into();
+        let ended = intersection.into_iter().zip(moments);
+        run.inferences = ended.map(|(draws, moments)| Inference::ended(draws, moments)).collect();
         run.rejections = differences.map(Rejection::ended).into();
         let intersection = run.intersection_so_far().ok_or(ComparisonError::FlatIntersection)?;
         run.finished = Some(Finished { report, intersection });
@@ -176,7 +176,7 @@ impl Comparison {
         match self.stage {
             Stage::Prepare => self.prepare(),
             Stage::Fit => self.fit()?,
-            Stage::Intersection => self.draw_intersection(evaluations),
+            Stage::Intersection => self.draw_intersection(evaluations)?,
             Stage::Differences => self.draw_differences(),
             Stage::Measure => self.measure()?,
             Stage::Done => {}
@@ -241,21 +241,33 @@ impl Comparison {
         let none =
             |side: usize, chains: usize| Draws::new(self.pair.models()[side].mode_count(), chains);
         let chain = |side: usize| {
-            self.chains.get(side).map_or_else(|| none(side, 0), |chains| chains.draws().clone())
+            self.inferences.get(side).map_or_else(|| none(side, 0), |one| one.draws().clone())
         };
         let difference = |side: usize| {
             self.rejections.get(side).map_or_else(|| none(side, 1), |run| run.draws().clone())
         };
-        Results { intersection: [chain(0), chain(1)], differences: [difference(0), difference(1)] }
+        let moments = |side: usize| {
+            Some(self.inferences.get(side)?.estimate(self.settings.sampler)?.total)
+        };
+        Results {
+            intersection: [chain(0), chain(1)],
+            differences: [difference(0), difference(1)],
+            moments: [moments(0), moments(1)],
+        }
     }
 
     fn prepare(&mut self) {
         if self.sides.len() < 2 {
-            self.sides.push(self.pair.side(self.sides.len()));
+            self.push_side();
         } else if self.joint.is_none() {
             self.joint = Some(self.pair.joint());
+        } else if self.meeting.is_none() && !self.is_contained(0) {
+            let radii = self.pair.models().map(|model| plausible_radius(model.mode_count()));
+            self.meeting = nearest_meeting(&self.pair, radii);
         } else {
-            let tolerance = recommended_tolerance(&self.pair, [&self.sides[0], &self.sides[1]]);
+            let noise = self.settings.noise;
+            let sides = [&self.sides[0], &self.sides[1]];
+            let tolerance = recommended_tolerance(&self.pair, sides, noise);
             self.settings.sigma_recommended = self.settings.sigma.is_none();
             self.settings.sigma.get_or_insert(tolerance.sigma);
             self.tolerance = Some(tolerance);
@@ -263,75 +275,75 @@ impl Comparison {
         }
     }
 
+    fn push_side(&mut self) {
+        let share = self.settings.plausibility.share();
+        self.sides.push(self.pair.side(self.sides.len()).with_plausibility(share));
+    }
+
+    /// The residual operators of both sides and the joint basis, where a run that was put back lacks them.
+    fn prepare_sides(&mut self) {
+        while self.sides.len() < 2 {
+            self.push_side();
+        }
+        self.joint.get_or_insert_with(|| self.pair.joint());
+    }
+
     /// σ in use; the recommended one is known after [`Stage::Prepare`].
     fn sigma(&self) -> f64 {
         self.settings.sigma.unwrap_or(f64::NAN)
     }
 
+    /// The error of side `side` whose numbers overflow.
+    fn overflow(&self, side: usize) -> ComparisonError {
+        ComparisonError::Fit { side: ["A", "B"][side], sigma: self.sigma() }
+    }
+
     fn fit(&mut self) -> Result<(), ComparisonError> {
-        let side = self.fits.len();
-        let failed =
-            |side: usize, sigma: f64| ComparisonError::Fit { side: ["A", "B"][side], sigma };
         let sigma = self.sigma();
-        if self.fitting.len() <= side {
-            let fitting = Fitting::new(&self.sides[side], sigma, self.settings.seed, side);
-            self.fitting.push(fitting.ok_or_else(|| failed(side, sigma))?);
-        } else if let Some(fit) = self.fitting[side].advance(&self.sides[side]) {
-            self.fits.push(fit);
-        }
-        if self.fits.len() == 2 {
-            for side in 0..2 {
-                let chains = self.start_chains(side).ok_or_else(|| failed(side, sigma))?;
-                self.chains.push(chains);
-                let wanted = self.settings.draws;
-                self.rejections.push(Rejection::new(
-                    self.sides[side].mode_count(),
-                    wanted,
-                    MOST_PROPOSALS_PER_DRAW * wanted as u64,
-                    self.settings.seed,
-                    side,
-                ));
+        match self.inferences.iter().position(|one| one.fit().is_none()) {
+            Some(side) => {
+                self.inferences[side].advance_fit(&self.sides[side]);
             }
-            self.stage = if self.cancelled { Stage::Measure } else { Stage::Intersection };
+            None if self.inferences.len() < 2 => {
+                let side = self.inferences.len();
+                let inference = Inference::new(&self.sides[side], side, sigma, &self.settings);
+                self.inferences.push(inference.ok_or_else(|| self.overflow(side))?);
+            }
+            None => {
+                self.start_differences();
+                self.stage = if self.cancelled { Stage::Measure } else { Stage::Intersection };
+            }
         }
         Ok(())
     }
 
-    fn start_chains(&self, side: usize) -> Option<Box<dyn Chains>> {
-        let settings = &self.settings;
-        let schedule = Schedule {
-            chains: settings.chains,
-            burn_in: settings.burn_in,
-            thin: settings.thin,
-            kept: settings.draws.div_ceil(settings.chains),
-        };
-        let walk = |scaling: Scaling| -> Box<dyn Chains> {
-            let modes = self.sides[side].mode_count();
-            Box::new(RandomWalkChains::new(modes, scaling, schedule, settings.seed, side))
-        };
-        Some(match settings.sampler {
-            Sampler::Independence => Box::new(IndependenceChains::new(
-                self.fits[side].gaussian.clone(),
-                without_distance(&self.sides[side])?,
-                schedule,
-                settings.seed,
+    fn start_differences(&mut self) {
+        for side in 0..2 {
+            let wanted = self.settings.difference_draws;
+            self.rejections.push(Rejection::new(
+                self.sides[side].mode_count(),
+                wanted,
+                MOST_PROPOSALS_PER_DRAW * wanted as u64,
+                self.settings.seed,
                 side,
-            )),
-            Sampler::Paper => walk(Scaling::AsPublished),
-            Sampler::PaperCorrected => walk(Scaling::Corrected),
-        })
+            ));
+        }
     }
 
-    fn draw_intersection(&mut self, evaluations: usize) {
-        let steps = evaluations.div_ceil(self.settings.chains).max(1);
+    fn draw_intersection(&mut self, evaluations: usize) -> Result<(), ComparisonError> {
         let sigma = self.sigma();
         // The side that is behind goes first, so that both grow together.
-        let side = usize::from(self.chains[1].remaining() > self.chains[0].remaining());
-        let centre = self.fits[side].gaussian.mean();
-        let target = Intersection::new(&self.sides[side], sigma, centre);
-        self.chains[side].advance(&target, steps);
-        if self.chains.iter().all(|chains| chains.remaining() == 0) {
-            self.stage = Stage::Differences;
+        let done = [0, 1].map(|side| self.inferences[side].fraction(&self.settings));
+        let side = usize::from(done[1] < done[0]);
+        let unfinished = [side, 1 - side].into_iter().find(|&side| !self.inferences[side].is_done());
+        match unfinished {
+            Some(side) => self.inferences[side]
+                .advance(&self.sides[side], sigma, &self.settings, evaluations)
+                .ok_or_else(|| self.overflow(side)),
+            None => {
+                self.stage = Stage::Differences;
+                Ok(())
+            }
         }
     }
 
@@ -353,29 +365,34 @@ impl Comparison {
     }
 
     fn progress(&mut self) -> Progress {
-        let draws: usize = self.chains.iter().map(|chains| chains.draws().len()).sum();
-        let made: f64 = self.chains.iter().map(|chains| chains.draws().proposed as f64).sum();
-        let accepted: f64 = self.chains.iter().map(|chains| chains.draws().accepted as f64).sum();
+        let sum = |value: fn(&Draws) -> u64| {
+            self.inferences.iter().map(|one| value(one.draws())).sum::<u64>()
+        };
+        let (made, accepted) = (sum(|draws| draws.proposed), sum(|draws| draws.accepted));
+        let draws = self.inferences.iter().map(|one| one.draws().len()).sum();
         self.refresh_live(draws);
-        let evaluations = self.evaluations();
         Progress {
             stage: self.stage,
             fraction: self.fraction(),
-            evaluations,
+            evaluations: self.evaluations(),
             draws,
-            acceptance: (made > 0.0).then(|| accepted / made),
+            acceptance: (made > 0).then(|| accepted as f64 / made as f64),
             r_hat_max: self.live.map(|(_, r_hat, _)| r_hat),
             ess_bulk_min: self.live.map(|(_, _, ess)| ess),
             sigma: self.settings.sigma,
-            has_intersection: self.fits.len() == 2,
+            has_intersection: self.has_fits(),
         }
     }
 
+    /// Whether both sides have their fit.
+    fn has_fits(&self) -> bool {
+        self.inferences.len() == 2 && self.inferences.iter().all(|one| one.fit().is_some())
+    }
+
     fn evaluations(&self) -> u64 {
-        let chains: u64 = self.chains.iter().map(|chains| chains.draws().evaluations).sum();
+        let inferences: u64 = self.inferences.iter().map(Inference::evaluations).sum();
         let rejections: u64 = self.rejections.iter().map(|run| run.draws().evaluations).sum();
-        let pilots: u64 = self.fitting.iter().map(Fitting::evaluations).sum();
-        chains + rejections + pilots
+        inferences + rejections
     }
 
     /// Live diagnostics over the first coefficients, renewed when the draws have grown by a tenth.
@@ -383,16 +400,13 @@ impl Comparison {
         const COEFFICIENTS: usize = 3;
         const LEAST: usize = 8;
         let grown = self.live.is_none_or(|(before, _, _)| draws * 10 >= before * 11);
-        let enough = !self.chains.is_empty()
-            && self
-                .chains
-                .iter()
-                .all(|chains| chains.draws().statistics.iter().all(|chain| chain.len() >= LEAST));
+        let long = |one: &Inference| one.draws().statistics.iter().all(|chain| chain.len() >= LEAST);
+        let enough = !self.inferences.is_empty() && self.inferences.iter().all(long);
         if grown && enough {
             let summaries: Vec<_> = self
-                .chains
+                .inferences
                 .iter()
-                .flat_map(|chains| summary::coefficients(chains.draws(), COEFFICIENTS))
+                .flat_map(|one| summary::coefficients(one.draws(), COEFFICIENTS))
                 .collect();
             let r_hat = summaries.iter().map(|one| one.r_hat).fold(1.0, f64::max);
             let ess = summaries.iter().map(|one| one.ess_bulk).fold(f64::INFINITY, f64::min);
@@ -403,11 +417,13 @@ impl Comparison {
     fn fraction(&self) -> f64 {
         let done = match self.stage {
             Stage::Prepare => 0.02 * self.sides.len() as f64,
-            Stage::Fit => 0.08 + 0.06 * self.fits.len() as f64,
+            Stage::Fit => {
+                0.08 + 0.06 * self.inferences.iter().filter(|one| one.fit().is_some()).count() as f64
+            }
             Stage::Intersection => {
-                let total = 2.0 * self.schedule_steps();
-                let left: f64 = self.chains.iter().map(|chains| chains.remaining() as f64).sum();
-                0.2 + 0.5 * (1.0 - left / total)
+                let done: f64 =
+                    self.inferences.iter().map(|one| one.fraction(&self.settings)).sum();
+                0.2 + 0.25 * done
             }
             Stage::Differences => {
                 0.7 + 0.125 * self.rejections.iter().map(Rejection::fraction).sum::<f64>()
@@ -416,10 +432,5 @@ impl Comparison {
             Stage::Done => 1.0,
         };
         done.clamp(0.0, 1.0)
-    }
-
-    fn schedule_steps(&self) -> f64 {
-        let settings = &self.settings;
-        (settings.burn_in + settings.thin * settings.draws.div_ceil(settings.chains)) as f64
     }
 }

@@ -70,7 +70,7 @@ pub struct RegionShapes {
 }
 
 #[allow(clippy::cast_possible_truncation, reason = "shapes to look at are single precision")]
-fn single<'a>(values: impl IntoIterator<Item = &'a f64>) -> Vec<f32> {
+pub(super) fn single<'a>(values: impl IntoIterator<Item = &'a f64>) -> Vec<f32> {
     values.into_iter().map(|value| *value as f32).collect()
 }
 
@@ -110,9 +110,9 @@ impl Comparison {
             Some(finished) => Cow::Borrowed(&finished.intersection),
             None => Cow::Owned(self.intersection_so_far()?),
         };
-        let draws: Vec<&Draws> = self.chains.iter().map(|chains| chains.draws()).collect();
+        let draws: Vec<&Draws> = self.inferences.iter().map(|one| one.draws()).collect();
         // A restored run has no fit to fall back on: it shows what draws there are.
-        let enough = if self.fits.len() == 2 { count.max(1) } else { 1 };
+        let enough = if self.has_fits() { count.max(1) } else { 1 };
         let drawn = draws.len() == 2 && draws.iter().all(|draws| draws.len() >= enough);
         let mut random = stream(seed, Stream::Display, 2, 0);
         let mut samples = Vec::with_capacity(count * model.mean().len());
@@ -125,7 +125,7 @@ impl Comparison {
                 let mut z = vec![0.0; from.mode_count()];
                 fill_normal(&mut random, &mut z);
                 let mut point = vec![0.0; z.len()];
-                self.fits.get(side)?.gaussian.place(&z, &mut point);
+                self.inferences.get(side)?.fit()?.gaussian.place(&z, &mut point);
                 from.shape(&point)
             };
             samples.extend(single(shape.iter()));

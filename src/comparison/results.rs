@@ -2,7 +2,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Comparison, ComparisonError, Finished, Stage, summary};
+use super::accuracy::accuracy;
+use super::inference::Estimate;
+use super::{Comparison, ComparisonError, Finished, Pooling, Stage, summary};
 use crate::compare::{Joint, Moments};
 use crate::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, bhattacharyya_distance,
@@ -10,13 +12,11 @@ use crate::measure::{
 };
 use crate::model::{LinearModel, cross};
 use crate::report::{
-    DifferenceReport, Differences, Grassmann, IntersectionReport, MeanSd, Models, Overlap, Report,
-    SCHEMA, Seconds, Sides, Spread,
+    BothSides, DifferenceReport, Differences, Disagreement, Grassmann, InferenceReport,
+    IntersectionReport, MeanSd, Models, Overlap, Report, SCHEMA, Seconds, Sides, Spread,
+    ToleranceReport,
 };
 use crate::sampling::Draws;
-
-/// Draws of each side below which the intersection is described by its fit.
-const LEAST_DRAWS: usize = 32;
 
 /// All draws of a run, as coefficients: index 0 belongs to model A, 1 to model B.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,6 +25,9 @@ pub struct Results {
     pub intersection: [Draws; 2],
     /// Independent draws of A\B and B\A.
     pub differences: [Draws; 2],
+    /// Moments of the coefficients of either side of the intersection, which make its model; absent before
+    /// there is a fit.
+    pub moments: [Option<Moments>; 2],
 }
 
 /// One array of stored draws: name, shape, numbers in row-major order.
@@ -38,11 +41,17 @@ pub struct StoredArray {
     pub values: Vec<f32>,
 }
 
+/// Of the arrays that hold the moments.
+const MOMENTS: [[&str; 2]; 2] = [
+    ["intersection_a_mean", "intersection_a_covariance"],
+    ["intersection_b_mean", "intersection_b_covariance"],
+];
 const NAMES: [&str; 4] = ["intersection_a", "intersection_b", "a_without_b", "b_without_a"];
 
 impl Results {
     /// As arrays: `intersection_a|b` (chains, draws, modes) and `a_without_b`, `b_without_a` (draws, modes),
-    /// each with its distances under `…_distance`.
+    /// each with its distances under `…_distance`; and `intersection_a|b_mean` (modes) and `…_covariance`
+    /// (modes, modes) of the coefficients.
     #[allow(clippy::cast_possible_truncation, reason = "draws are stored in single precision")]
     pub fn to_arrays(&self) -> Vec<StoredArray> {
         let mut arrays = Vec::new();
@@ -70,6 +79,21 @@ impl Results {
                 name: name.to_owned(),
                 shape,
                 values: draws.values.iter().flat_map(values).collect(),
+            });
+        }
+        let single = |values: &[f64]| values.iter().map(|value| *value as f32).collect();
+        for (moments, [mean, covariance]) in self.moments.iter().zip(MOMENTS) {
+            let Some(moments) = moments else { continue };
+            let modes = moments.mean.len();
+            arrays.push(StoredArray {
+                name: mean.to_owned(),
+                shape: vec![modes],
+                values: single(moments.mean.as_slice()),
+            });
+            arrays.push(StoredArray {
+                name: covariance.to_owned(),
+                shape: vec![modes, modes],
+                values: single(moments.covariance.as_slice()),
             });
         }
         arrays
@@ -107,44 +131,62 @@ impl Results {
             }
             Ok(draws)
         };
-        Ok(Self { intersection: [read(0)?, read(1)?], differences: [read(2)?, read(3)?] })
+        let moments = |side: usize| {
+            let find = |name: &str, size: usize| {
+                let array = arrays.iter().find(|array| array.name == name)?;
+                let values: Vec<f64> = array.values.iter().copied().map(f64::from).collect();
+                (values.len() == size).then_some(values)
+            };
+            let (modes, [mean, covariance]) = (modes[side], MOMENTS[side]);
+            Some(Moments {
+                mean: DVector::from_vec(find(mean, modes)?),
+                covariance: DMatrix::from_vec(modes, modes, find(covariance, modes * modes)?),
+            })
+        };
+        Ok(Self {
+            intersection: [read(0)?, read(1)?],
+            differences: [read(2)?, read(3)?],
+            moments: [moments(0), moments(1)],
+        })
     }
 }
 
 impl Comparison {
-    /// Moments of the coefficients of one side of the intersection: of the draws, or of the fit while
-    /// there are too few.
-    pub(super) fn intersection_moments(&self, side: usize) -> Option<Moments> {
-        if let Some(chains) = self.chains.get(side)
-            && chains.draws().len() >= LEAST_DRAWS
-        {
-            return Some(Moments::of(chains.draws().iter_slices(), chains.draws().dimension));
-        }
-        let gaussian = &self.fits.get(side)?.gaussian;
-        Some(Moments { mean: gaussian.mean().clone(), covariance: gaussian.covariance() })
-    }
-
     /// The intersection model from what there is.
     pub(super) fn intersection_so_far(&self) -> Option<LinearModel> {
         self.model_of(&self.pooled_moments()?)
     }
 
     /// The model with these joint-basis moments.
-    fn model_of(&self, moments: &Moments) -> Option<LinearModel> {
+    pub(super) fn model_of(&self, moments: &Moments) -> Option<LinearModel> {
         let model = self.joint.as_ref()?.model(moments, self.most_modes())?;
         Some(self.dressed(model))
     }
 
-    /// Joint-basis moments of the intersection from what there is: both sides pooled equally.
+    /// Joint-basis moments of the intersection from what there is: the chosen sides, pooled equally.
     pub(super) fn pooled_moments(&self) -> Option<Moments> {
-        let joint = self.joint.as_ref()?;
-        let lifted = |side: usize| Some(joint.lift(side, &self.intersection_moments(side)?));
-        Some(Moments::pooled(&lifted(0)?, &lifted(1)?))
+        pooled(self.joint.as_ref()?, &self.estimates()?)
+    }
+
+    /// Moments of the coefficients of the sides that make the model.
+    fn estimates(&self) -> Option<Vec<(usize, Estimate)>> {
+        self.pooled_sides()
+            .iter()
+            .map(|&side| Some((side, self.inferences.get(side)?.estimate(self.settings.sampler)?)))
+            .collect()
+    }
+
+    pub(super) fn pooled_sides(&self) -> &'static [usize] {
+        match self.settings.pooling {
+            Pooling::Both => &[0, 1],
+            Pooling::A => &[0],
+            Pooling::B => &[1],
+        }
     }
 
     /// Modes of the intersection model: no more than the smaller model has, since an intersection of two
     /// spaces has no more dimensions. What the pooled draws spread beyond is their tolerance.
-    fn most_modes(&self) -> usize {
+    pub(super) fn most_modes(&self) -> usize {
         self.pair.a().mode_count().min(self.pair.b().mode_count())
     }
 
@@ -157,16 +199,19 @@ impl Comparison {
     }
 
     pub(super) fn measure(&mut self) -> Result<(), ComparisonError> {
-        let (Some(joint), Some(moments)) = (&self.joint, self.pooled_moments()) else {
-            return Err(ComparisonError::FlatIntersection);
+        let flat = ComparisonError::FlatIntersection;
+        let (Some(joint), Some(estimates)) = (&self.joint, self.estimates()) else {
+            return Err(flat);
         };
-        let intersection = self.model_of(&moments).ok_or(ComparisonError::FlatIntersection)?;
-        let sides = [0, 1].map(|side| summary::of_chains(self.chains[side].draws()));
-        let [grassmann, grassmann_affine] = grassmann(joint, &intersection);
+        let Some(moments) = pooled(joint, &estimates) else { return Err(flat) };
+        let intersection = self.model_of(&moments).ok_or(flat)?;
+        let [(worst_a, modes_a), (worst_b, modes_b)] =
+            [0, 1].map(|side| summary::of_inference(&self.inferences[side]));
+        let [grassmann, grassmann_affine] = grassmann(joint, &moments, self.most_modes());
         let distances: Vec<f64> = self
-            .chains
+            .pooled_sides()
             .iter()
-            .flat_map(|chains| chains.draws().statistics.iter().flatten().copied())
+            .flat_map(|&side| self.inferences[side].draws().statistics.iter().flatten().copied())
             .collect();
         let [a, b] = self.described.clone();
         let mut report = Report {
@@ -182,9 +227,18 @@ impl Comparison {
                 mean_distance: MeanSd::of(&distances),
                 grassmann,
                 grassmann_affine,
-                diagnostics: summary::worst(&sides[0], &sides[1]),
-                sides: Sides { a: sides[0], b: sides[1] },
+                diagnostics: match self.settings.pooling {
+                    Pooling::Both => summary::worst(&worst_a, &worst_b),
+                    Pooling::A => worst_a,
+                    Pooling::B => worst_b,
+                },
+                sides: Sides { a: worst_a, b: worst_b },
+                coefficients: Some(BothSides { a: modes_a, b: modes_b }),
                 vertex_sd: Spread::of(&intersection.vertex_standard_deviations()),
+                inference: self.inference_report(),
+                accuracy: accuracy(joint, &estimates, &moments, intersection.mode_count()),
+                disagreement: self.disagreement(joint, &estimates, &moments),
+                tolerance: self.tolerance_report(),
             },
             differences: Differences {
                 a_without_b: self.difference(0),
@@ -198,6 +252,67 @@ impl Comparison {
         self.finished = Some(Finished { report, intersection });
         self.stage = Stage::Done;
         Ok(())
+    }
+
+    fn inference_report(&self) -> Option<BothSides<InferenceReport>> {
+        let of = |side: usize| {
+            let inference = self.inferences.get(side)?;
+            inference.report(inference.estimate(self.settings.sampler)?.source)
+        };
+        Some(BothSides { a: of(0)?, b: of(1)? })
+    }
+
+    /// How far the two sides lie apart; `None` when only one is used.
+    fn disagreement(
+        &self,
+        joint: &Joint,
+        estimates: &[(usize, Estimate)],
+        pooled: &Moments,
+    ) -> Option<Disagreement> {
+        let [(_, first), (_, second)] = estimates else { return None };
+        let [first, second] = [joint.lift(0, &first.total), joint.lift(1, &second.total)];
+        let apart = &first.mean - &second.mean;
+        let components = [&first, &second].map(Moments::principal_components);
+        let deviations = |side: usize| components[side].1.iter().map(|value| value.sqrt()).collect();
+        let space = |moments: &Moments, side: usize, modes: usize| AffineSpace {
+            point: moments.mean.clone(),
+            basis: components[side].0.columns(0, modes).into_owned(),
+        };
+        let fewest = components[0].0.ncols().min(components[1].0.ncols());
+        let [a, b] = [&first, &second].map(|moments| joint.shape(&moments.mean));
+        Some(Disagreement {
+            mean_to_mean: mean_vertex_distance(&a, &b, self.pair.a().dimension()),
+            covariance: (&first.covariance - &second.covariance).norm() / pooled.covariance.norm(),
+            between_share: 0.25 * apart.norm_squared() / pooled.covariance.trace(),
+            total_variance: BothSides {
+                a: first.covariance.trace(),
+                b: second.covariance.trace(),
+            },
+            standard_deviations: BothSides { a: deviations(0), b: deviations(1) },
+            grassmann: [1, 3, 5, 10]
+                .into_iter()
+                .filter(|&modes| modes <= fewest)
+                .map(|modes| {
+                    let [a, b] = [space(&first, 0, modes), space(&second, 1, modes)];
+                    affine_grassmann_distance(&a, &b, Displacement::Unit)
+                })
+                .collect(),
+        })
+    }
+
+    fn tolerance_report(&self) -> Option<ToleranceReport> {
+        let tolerance = self.tolerance?;
+        let predicted = self.prediction()?;
+        Some(ToleranceReport {
+            recommended: tolerance.sigma,
+            relative: self.sigma() / self.pair.scale(),
+            nearest: tolerance.nearest,
+            farthest: tolerance.farthest,
+            predicted: predicted.distance,
+            effective_dimensions: predicted.effective_dimensions,
+            meeting: self.meeting.as_ref().map(|meeting| meeting.distance),
+            noise: tolerance.noise,
+        })
     }
 
     fn difference(&self, side: usize) -> DifferenceReport {
@@ -240,11 +355,17 @@ impl Comparison {
     }
 }
 
-/// Affine Grassmann distances of the intersection, the paper's and Lim's, in coordinates that hold
-/// all of the spaces: the joint basis, and the direction in which A's mean leaves it.
-fn grassmann(joint: &Joint, intersection: &LinearModel) -> [Grassmann; 2] {
-    let inside = joint.basis().tr_mul(joint.origin());
-    let outside = (joint.origin() - joint.basis() * &inside).norm();
+/// Joint-basis moments of the equal mixture of the sides given.
+pub(super) fn pooled(joint: &Joint, estimates: &[(usize, Estimate)]) -> Option<Moments> {
+    let lifted = estimates.iter().map(|(side, estimate)| joint.lift(*side, &estimate.total));
+    lifted.reduce(|first, second| Moments::pooled(&first, &second))
+}
+
+/// Affine Grassmann distances of the model of `moments` with `most` modes at the most, the paper's and
+/// Lim's, in coordinates that hold all of the spaces: the joint basis, and the direction in which A's mean
+/// leaves it.
+pub(super) fn grassmann(joint: &Joint, moments: &Moments, most: usize) -> [Grassmann; 2] {
+    let (inside, outside) = joint.origin_coordinates();
     let space = |mean: &DVector<f64>, basis: DMatrix<f64>| AffineSpace {
         point: (mean + &inside).insert_row(inside.len(), outside),
         basis: basis.insert_row(inside.len(), 0.0),
@@ -255,8 +376,8 @@ fn grassmann(joint: &Joint, intersection: &LinearModel) -> [Grassmann; 2] {
         space(joint.mean(1), joint.modes(1)),
         space(&union.mean, union.principal_components().0),
     ];
-    let mean = joint.basis().tr_mul(&(intersection.mean() - joint.origin()));
-    let both = space(&mean, cross(joint.basis(), intersection.basis()));
+    let modes = moments.principal_components().0;
+    let both = space(&moments.mean, modes.columns(0, modes.ncols().min(most)).into_owned());
     [Displacement::Unit, Displacement::Full].map(|displacement| {
         let [to_a, to_b, to_union] =
             [0, 1, 2].map(|k| affine_grassmann_distance(&both, &others[k], displacement));
