@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use shapevenn::comparison::{Comparison, Sampler, Settings, Stage};
@@ -61,8 +62,8 @@ struct Compare {
     #[arg(long)]
     seed: Option<u64>,
     /// How the intersection is sampled
-    #[arg(long, value_enum, default_value = "independence")]
-    sampler: SamplerName,
+    #[arg(long, value_parser = named(Sampler::ALL), default_value = "auto")]
+    sampler: Sampler,
     /// Chains on each side
     #[arg(long)]
     chains: Option<usize>,
@@ -87,26 +88,6 @@ struct Compare {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum SamplerName {
-    /// Independence Metropolis–Hastings from a Gaussian fit
-    Independence,
-    /// The paper's random walk, exactly as published
-    Paper,
-    /// The paper's random walk with the Hastings factor it lacks
-    PaperCorrected,
-}
-
-impl From<SamplerName> for Sampler {
-    fn from(name: SamplerName) -> Self {
-        match name {
-            SamplerName::Independence => Self::Independence,
-            SamplerName::Paper => Self::Paper,
-            SamplerName::PaperCorrected => Self::PaperCorrected,
-        }
-    }
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
 enum AlignName {
     /// Compare the models as they stand
     None,
@@ -124,6 +105,17 @@ impl From<AlignName> for Alignment {
             AlignName::Similarity => Self::Similarity,
         }
     }
+}
+
+/// A parser of one of the names, which the help lists.
+fn named<T: Clone + Send + Sync + 'static, const N: usize>(
+    all: [(T, &'static str); N],
+) -> impl TypedValueParser<Value = T> {
+    let names = PossibleValuesParser::new(all.clone().map(|(_, name)| name));
+    names.map(move |given| {
+        let found = all.iter().position(|(_, name)| *name == given).unwrap_or(0);
+        all[found].0.clone()
+    })
 }
 
 /// What ends the command early.
@@ -237,7 +229,7 @@ fn to_json(value: &impl serde::Serialize) -> Result<String, Failure> {
 }
 
 fn settings(arguments: &Compare) -> Settings {
-    let defaults = Settings::of(arguments.sampler.into());
+    let defaults = Settings::of(arguments.sampler);
     Settings {
         sigma: arguments.sigma,
         seed: arguments.seed.unwrap_or(defaults.seed),

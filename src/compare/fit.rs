@@ -18,6 +18,7 @@
 //! drops the variance of d; the pilot of [`crate::comparison`] then prefers the reweighted one.
 
 use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
 
 use super::Side;
 use super::vertex_norm::{NormMoments, NormQuadrature};
@@ -28,10 +29,13 @@ use crate::sampling::Gaussian;
 const BLOCK: usize = 512;
 
 /// Which approximation made a fit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum FitMethod {
     /// d by the root mean square.
     Rms,
+    /// The mode and the curvature there.
+    Laplace,
     /// d² by a reweighted sum of squares.
     Reweighted,
     /// Variational, with expected norms.

@@ -4,7 +4,9 @@ mod difference;
 mod fit;
 mod joint;
 mod kernel;
+mod meeting;
 mod pair;
+mod stubs;
 mod targets;
 mod tolerance;
 mod vertex_norm;
@@ -16,6 +18,8 @@ pub use fit::{
 };
 pub use joint::{Joint, Moments};
 pub use kernel::DistanceKernel;
+pub use meeting::{Meeting, nearest_meeting, plausible_radius};
+pub use stubs::*;
 pub use pair::{Pair, PairError, Side};
 pub use targets::Intersection;
 pub use tolerance::{Tolerance, recommended_tolerance};

@@ -10,7 +10,7 @@ use crate::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, bhattacharyya_distance,
     mean_vertex_distance, principal_angles, vertex_standard_deviations,
 };
-use crate::model::{LinearModel, cross};
+use crate::model::LinearModel;
 use crate::report::{
     BothSides, DifferenceReport, Differences, Disagreement, Grassmann, InferenceReport,
     IntersectionReport, MeanSd, Models, Overlap, Report, SCHEMA, Seconds, Sides, Spread,

@@ -4,8 +4,10 @@
 //! has its own stream of random numbers, so that its draws do not depend on how the work is cut.
 
 mod diagnostics;
+mod fit_draws;
 mod gaussian;
 mod hmc;
+mod importance;
 mod independence;
 mod mala;
 mod normal_quantile;
@@ -17,10 +19,12 @@ mod rejection;
 mod whitened;
 
 pub use diagnostics::{ChainSummary, split_r_hat, summarise};
+pub use fit_draws::FitChains;
 pub use gaussian::Gaussian;
+pub use importance::{Importance, ImportanceEstimate, ImportanceMoments};
 pub use independence::IndependenceChains;
 pub use normal_quantile::normal_quantile;
-pub use pareto::pareto_k;
+pub use pareto::{importance_ess, pareto_k, pareto_smooth};
 pub use random::{Stream, fill_normal, stream, uniform};
 pub use random_walk::{RandomWalkChains, Scaling};
 pub use rejection::{Rejection, RejectionTarget};
