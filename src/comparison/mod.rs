@@ -30,7 +30,8 @@ use crate::compare::{
 use crate::model::LinearModel;
 use crate::report::{ModelReport, Report, Seconds};
 use crate::sampling::{
-    Chains, Draws, EndedChains, IndependenceChains, RandomWalkChains, Rejection, Scaling, Schedule,
+    Chains, Draws, EndedChains, Envelope, IndependenceChains, RandomWalkChains, Rejection, Scaling,
+    Schedule,
 };
 use fitting::Fitting;
 
@@ -285,7 +286,7 @@ impl Comparison {
                 self.chains.push(chains);
                 let wanted = self.settings.draws;
                 self.rejections.push(Rejection::new(
-                    self.sides[side].mode_count(),
+                    Envelope::Prior(self.sides[side].mode_count()),
                     wanted,
                     MOST_PROPOSALS_PER_DRAW * wanted as u64,
                     self.settings.seed,
@@ -341,7 +342,7 @@ impl Comparison {
             (0..2).find(|&side| !self.rejections[side].is_done() && !self.is_contained(side));
         match unfinished {
             Some(side) => {
-                self.rejections[side].advance(&Difference::new(&self.sides[side], sigma));
+                self.rejections[side].advance(&Difference::new(&self.sides[side], sigma), 1);
             }
             None => self.stage = Stage::Measure,
         }

@@ -11,6 +11,7 @@ mod pareto;
 mod random;
 mod random_walk;
 mod rejection;
+mod tilted;
 
 pub use diagnostics::{ChainSummary, split_r_hat, summarise};
 pub use gaussian::Gaussian;
@@ -19,7 +20,8 @@ pub use normal_quantile::normal_quantile;
 pub use pareto::pareto_k;
 pub use random::{Stream, fill_normal, stream, uniform};
 pub use random_walk::{RandomWalkChains, Scaling};
-pub use rejection::{Rejection, RejectionTarget};
+pub use rejection::{Envelope, Rejection, RejectionTarget};
+pub use tilted::Tilted;
 
 /// What a target says of one point.
 #[derive(Debug, Clone, Copy, PartialEq)]

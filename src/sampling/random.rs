@@ -22,6 +22,8 @@ pub enum Stream {
     Rejection = 3,
     /// Shapes picked for display.
     Display = 4,
+    /// Scores of prior draws, whose quantile is the threshold of a difference.
+    Quantile = 5,
 }
 
 /// The generator of `seed` for one purpose. `side` is 0 for A and 1 for B; `index` counts chains or
