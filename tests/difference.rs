@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use shapevenn::compare::{Difference, Pair, Side};
 use shapevenn::comparison::Settings;
 use shapevenn::model::{Alignment, LinearModel};
-use shapevenn::sampling::Rejection;
+use shapevenn::sampling::{Envelope, Rejection};
 
 /// Two lines in a plane, one point: A along x through (0, h) with deviation s, B through the origin at
 /// the angle t. The residual of A is one number, r = h cos t − s a sin t, normal about h cos t.
@@ -94,10 +94,10 @@ fn kolmogorov(draws: &[f64], law: &Tilted) -> f64 {
 }
 
 fn rejected(side: &Side, sigma: f64, wanted: usize, seed: u64) -> Rejection {
-    let mut run = Rejection::new(side.mode_count(), wanted, u64::MAX, seed, 0);
+    let mut run = Rejection::new(Envelope::Prior(side.mode_count()), wanted, u64::MAX, seed, 0);
     let target = Difference::new(side, sigma);
     while !run.is_done() {
-        run.advance(&target);
+        run.advance(&target, 16);
     }
     run
 }

@@ -55,7 +55,8 @@ pub fn nearest_meeting(pair: &Pair, radii: [f64; 2]) -> Option<Meeting> {
         let solution = problem.solve(&weights, radii)?;
         let norms = problem.norms(&solution);
         let distance = norms.iter().sum::<f64>() / problem.points as f64;
-        let at_rest = best.as_ref().is_some_and(|before| before.distance - distance <= AT_REST * distance);
+        let at_rest =
+            best.as_ref().is_some_and(|before| before.distance - distance <= AT_REST * distance);
         if best.as_ref().is_none_or(|before| distance < before.distance) {
             best = Some(Meeting {
                 distance,
@@ -189,7 +190,10 @@ mod tests {
         // Means 10 apart along the line, 2 standard deviations of either: 6 remain.
         let found = meeting(&line(0.0, 0.0), &line(10.0, 0.0), 2.0);
         assert!((found.distance - 6.0).abs() < 0.05, "{found:?}");
-        assert!((found.norm_a - 2.0).abs() < 0.02 && (found.norm_b - 2.0).abs() < 0.02, "{found:?}");
+        assert!(
+            (found.norm_a - 2.0).abs() < 0.02 && (found.norm_b - 2.0).abs() < 0.02,
+            "{found:?}"
+        );
         let closer = meeting(&line(0.0, 0.0), &line(10.0, 0.0), 5.5);
         assert!(closer.distance < 1e-3, "5.5 + 5.5 reach 10: {closer:?}");
     }

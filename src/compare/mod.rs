@@ -19,7 +19,7 @@ pub use fit::{
 pub use joint::{Joint, Moments};
 pub use kernel::DistanceKernel;
 pub use meeting::{Meeting, nearest_meeting, plausible_radius};
-pub use stubs::*;
 pub use pair::{Pair, PairError, Side};
+pub use stubs::*;
 pub use targets::Intersection;
 pub use tolerance::{Tolerance, recommended_tolerance};

@@ -50,7 +50,8 @@ pub(super) fn accuracy(
             };
             vectors.tr_mul(&(covariance * &vectors))
         });
-        let mean = turned.iter().fold(DMatrix::zeros(most, most), |sum, one| sum + one) / count as f64;
+        let mean =
+            turned.iter().fold(DMatrix::zeros(most, most), |sum, one| sum + one) / count as f64;
         for one in turned {
             variance += (one - &mean).map(|value| value * value) / (count * (count - 1)) as f64;
         }
@@ -61,7 +62,9 @@ pub(super) fn accuracy(
     };
     let shown = kept.min(most);
     let mode_turns: Vec<f64> = (0..shown)
-        .map(|i| turn(i, &mut (0..most).filter(|&j| j != i)).sqrt().min(core::f64::consts::FRAC_PI_2))
+        .map(|i| {
+            turn(i, &mut (0..most).filter(|&j| j != i)).sqrt().min(core::f64::consts::FRAC_PI_2)
+        })
         .collect();
     let grassmann = (1..=shown)
         .map(|k| (0..k).map(|i| turn(i, &mut (k..most))).sum::<f64>().sqrt())

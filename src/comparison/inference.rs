@@ -10,8 +10,8 @@ use super::settings::{Sampler, Settings};
 use crate::compare::{Fit, Intersection, Moments, Side, without_distance};
 use crate::report::{InferenceReport, MomentSource};
 use crate::sampling::{
-    Chains, Draws, EndedChains, FitChains, Gaussian, Importance, ImportanceEstimate, ImportanceMoments,
-    IndependenceChains, RandomWalkChains, Scaling, Schedule, WhitenedChains,
+    Chains, Draws, EndedChains, FitChains, Gaussian, Importance, ImportanceEstimate,
+    ImportanceMoments, IndependenceChains, RandomWalkChains, Scaling, Schedule, WhitenedChains,
 };
 
 /// Pareto k of the weights from which means over them are not to be trusted.
@@ -49,7 +49,12 @@ pub(super) struct Inference {
 
 impl Inference {
     /// Starts with the fit; `None` when its numbers overflow.
-    pub(super) fn new(operator: &Side, side: usize, sigma: f64, settings: &Settings) -> Option<Self> {
+    pub(super) fn new(
+        operator: &Side,
+        side: usize,
+        sigma: f64,
+        settings: &Settings,
+    ) -> Option<Self> {
         Some(Self {
             side,
             fitting: Some(Fitting::new(operator, sigma, settings, side)?),
@@ -200,7 +205,8 @@ impl Inference {
         if draws.len() < LEAST_DRAWS {
             return closed(Vec::new());
         }
-        let of_chain = |chain: &Vec<f64>| Moments::of(chain.chunks_exact(draws.dimension), draws.dimension);
+        let of_chain =
+            |chain: &Vec<f64>| Moments::of(chain.chunks_exact(draws.dimension), draws.dimension);
         Some(Estimate {
             source: MomentSource::Draws,
             total: Moments::of(draws.iter_slices(), draws.dimension),

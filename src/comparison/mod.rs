@@ -33,7 +33,7 @@ use crate::compare::{
 };
 use crate::model::LinearModel;
 use crate::report::{ModelReport, Report, Seconds};
-use crate::sampling::{Draws, Rejection};
+use crate::sampling::{Draws, Envelope, Rejection};
 use inference::Inference;
 
 /// Proposals of the rejection sampler for each draw wanted, before it gives up.
@@ -246,9 +246,8 @@ impl Comparison {
         let difference = |side: usize| {
             self.rejections.get(side).map_or_else(|| none(side, 1), |run| run.draws().clone())
         };
-        let moments = |side: usize| {
-            Some(self.inferences.get(side)?.estimate(self.settings.sampler)?.total)
-        };
+        let moments =
+            |side: usize| Some(self.inferences.get(side)?.estimate(self.settings.sampler)?.total);
         Results {
             intersection: [chain(0), chain(1)],
             differences: [difference(0), difference(1)],
@@ -321,7 +320,7 @@ impl Comparison {
         for side in 0..2 {
             let wanted = self.settings.difference_draws;
             self.rejections.push(Rejection::new(
-                self.sides[side].mode_count(),
+                Envelope::Prior(self.sides[side].mode_count()),
                 wanted,
                 MOST_PROPOSALS_PER_DRAW * wanted as u64,
                 self.settings.seed,
@@ -335,7 +334,8 @@ impl Comparison {
         // The side that is behind goes first, so that both grow together.
         let done = [0, 1].map(|side| self.inferences[side].fraction(&self.settings));
         let side = usize::from(done[1] < done[0]);
-        let unfinished = [side, 1 - side].into_iter().find(|&side| !self.inferences[side].is_done());
+        let unfinished =
+            [side, 1 - side].into_iter().find(|&side| !self.inferences[side].is_done());
         match unfinished {
             Some(side) => self.inferences[side]
                 .advance(&self.sides[side], sigma, &self.settings, evaluations)
@@ -353,7 +353,7 @@ impl Comparison {
             (0..2).find(|&side| !self.rejections[side].is_done() && !self.is_contained(side));
         match unfinished {
             Some(side) => {
-                self.rejections[side].advance(&Difference::new(&self.sides[side], sigma));
+                self.rejections[side].advance(&Difference::new(&self.sides[side], sigma), 1);
             }
             None => self.stage = Stage::Measure,
         }
@@ -400,7 +400,8 @@ impl Comparison {
         const COEFFICIENTS: usize = 3;
         const LEAST: usize = 8;
         let grown = self.live.is_none_or(|(before, _, _)| draws * 10 >= before * 11);
-        let long = |one: &Inference| one.draws().statistics.iter().all(|chain| chain.len() >= LEAST);
+        let long =
+            |one: &Inference| one.draws().statistics.iter().all(|chain| chain.len() >= LEAST);
         let enough = !self.inferences.is_empty() && self.inferences.iter().all(long);
         if grown && enough {
             let summaries: Vec<_> = self
@@ -418,7 +419,8 @@ impl Comparison {
         let done = match self.stage {
             Stage::Prepare => 0.02 * self.sides.len() as f64,
             Stage::Fit => {
-                0.08 + 0.06 * self.inferences.iter().filter(|one| one.fit().is_some()).count() as f64
+                0.08 + 0.06
+                    * self.inferences.iter().filter(|one| one.fit().is_some()).count() as f64
             }
             Stage::Intersection => {
                 let done: f64 =

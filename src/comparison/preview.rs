@@ -6,10 +6,10 @@
 
 use serde::Serialize;
 
+use super::Comparison;
 use super::inference::Estimate;
 use super::regions::{RegionShapes, ShapeSource, single};
 use super::results::{grassmann, pooled};
-use super::Comparison;
 use crate::compare::{Moments, Side, effective_dimensions, quick_fit};
 use crate::report::{Grassmann, MomentSource};
 use crate::sampling::{Gaussian, Stream, fill_normal, stream};
@@ -52,8 +52,13 @@ impl Comparison {
     }
 
     fn predicted(&self, sigma: f64, fits: &[&Gaussian]) -> Option<Prediction> {
-        let mut sum =
-            Prediction { sigma, distance: 0.0, nearest: 0.0, effective_dimensions: 0.0, mean_norm: 0.0 };
+        let mut sum = Prediction {
+            sigma,
+            distance: 0.0,
+            nearest: 0.0,
+            effective_dimensions: 0.0,
+            mean_norm: 0.0,
+        };
         if fits.len() < 2 || self.sides.len() < 2 {
             return None;
         }

@@ -273,7 +273,8 @@ impl Comparison {
         let [first, second] = [joint.lift(0, &first.total), joint.lift(1, &second.total)];
         let apart = &first.mean - &second.mean;
         let components = [&first, &second].map(Moments::principal_components);
-        let deviations = |side: usize| components[side].1.iter().map(|value| value.sqrt()).collect();
+        let deviations =
+            |side: usize| components[side].1.iter().map(|value| value.sqrt()).collect();
         let space = |moments: &Moments, side: usize, modes: usize| AffineSpace {
             point: moments.mean.clone(),
             basis: components[side].0.columns(0, modes).into_owned(),
@@ -284,10 +285,7 @@ impl Comparison {
             mean_to_mean: mean_vertex_distance(&a, &b, self.pair.a().dimension()),
             covariance: (&first.covariance - &second.covariance).norm() / pooled.covariance.norm(),
             between_share: 0.25 * apart.norm_squared() / pooled.covariance.trace(),
-            total_variance: BothSides {
-                a: first.covariance.trace(),
-                b: second.covariance.trace(),
-            },
+            total_variance: BothSides { a: first.covariance.trace(), b: second.covariance.trace() },
             standard_deviations: BothSides { a: deviations(0), b: deviations(1) },
             grassmann: [1, 3, 5, 10]
                 .into_iter()

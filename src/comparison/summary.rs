@@ -1,7 +1,7 @@
 //! Diagnostics of draws, as the report states them.
 
-use crate::parallel;
 use super::inference::{Inference, LARGEST_PARETO_K};
+use crate::parallel;
 use crate::report::{Diagnostics, ModeDiagnostics};
 use crate::sampling::{ChainSummary, Draws, importance_ess, pareto_k, summarise};
 

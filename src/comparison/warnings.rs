@@ -123,9 +123,9 @@ impl Comparison {
     /// d at the means of the fits, averaged over the sides.
     fn closest_approach(&self) -> f64 {
         let fits = self.inferences.iter().filter_map(|one| one.fit());
-        let at_mean = fits.zip(&self.sides).map(|(fit, side)| {
-            0.5 * side.mean_vertex_distance(fit.gaussian.mean().as_slice())
-        });
+        let at_mean = fits
+            .zip(&self.sides)
+            .map(|(fit, side)| 0.5 * side.mean_vertex_distance(fit.gaussian.mean().as_slice()));
         at_mean.sum()
     }
 

@@ -23,9 +23,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{
-    Gaussian, Stream, Target, fill_normal, importance_ess, pareto_smooth, stream,
-};
+use super::{Gaussian, Stream, Target, fill_normal, importance_ess, pareto_smooth, stream};
 use crate::parallel;
 
 /// Groups of pairs whose moments tell the error.

@@ -16,6 +16,7 @@ mod pcn;
 mod random;
 mod random_walk;
 mod rejection;
+mod tilted;
 mod whitened;
 
 pub use diagnostics::{ChainSummary, split_r_hat, summarise};
@@ -27,7 +28,8 @@ pub use normal_quantile::normal_quantile;
 pub use pareto::{importance_ess, pareto_k, pareto_smooth};
 pub use random::{Stream, fill_normal, stream, uniform};
 pub use random_walk::{RandomWalkChains, Scaling};
-pub use rejection::{Rejection, RejectionTarget};
+pub use rejection::{Envelope, Rejection, RejectionTarget};
+pub use tilted::Tilted;
 pub use whitened::WhitenedChains;
 
 /// What a target says of one point.

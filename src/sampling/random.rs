@@ -24,6 +24,8 @@ pub enum Stream {
     Display = 4,
     /// A block of weighted draws of a fit.
     Importance = 5,
+    /// Scores of prior draws, whose quantile is the threshold of a difference.
+    Quantile = 6,
 }
 
 /// The generator of `seed` for one purpose. `side` is 0 for A and 1 for B; `index` counts chains or

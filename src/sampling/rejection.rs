@@ -1,18 +1,25 @@
-//! Exact draws from p(a) ∝ g(a)·N(a; 0, I) with 0 ≤ g ≤ 1, by rejection from N(0, I).
+//! Exact draws from p(a) ∝ g(a)·N(a; 0, I) with 0 ≤ g ≤ 1, by rejection under an envelope.
 //!
-//! A proposal is accepted with probability g(a); accepted proposals are independent draws from
-//! p, and the mean of g over all proposals estimates E g = ∫ g N(0, I) with standard error
-//! sd(g)/√N. Proposals come in blocks with their own random stream.
+//! An [`Envelope`] is a function t ≥ g whose law ∝ t(a)·N(a; 0, I) can be drawn from. A proposal of that
+//! law is accepted with probability w = g/t; accepted proposals are independent draws from p. As
+//! E_t w = E g/E t, the mean of w times E t (in closed form) estimates E g = ∫ g N(0, I), and the smaller
+//! E t is, the more is accepted: which envelope is better is known before anything is drawn.
 //!
-//! **Limits.** Needs 1/E g proposals for each draw; it gives up after a given number and keeps what
-//! it has.
+//! Proposals come in blocks with their own random stream, several at once: the draws do not depend on
+//! how many.
+//!
+//! **Limits.** Needs E t/E g proposals for each draw; it gives up after a given number and keeps what
+//! it has. Two numbers are kept of every proposal.
 
-use super::{Draws, Stream, fill_normal, stream, uniform};
+use rand::Rng;
+
+use super::{Draws, Stream, Tilted, fill_normal, stream, uniform};
+use crate::parallel;
 
 /// Proposals of one random stream.
 const BLOCK: usize = 256;
 
-/// The acceptance probability g, with the statistic to record for each draw.
+/// The share g of the prior that is in p, with the statistic to record for each draw.
 pub trait RejectionTarget: Sync {
     /// q.
     fn dimension(&self) -> usize;
@@ -21,63 +28,132 @@ pub trait RejectionTarget: Sync {
     fn acceptance(&self, points: &[f64]) -> Vec<(f64, f64)>;
 }
 
+/// A function t ≥ g on R^q whose law ∝ t(a)·N(a; 0, I) can be drawn from.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Envelope {
+    /// t = 1: proposals are draws of N(0, I) on R^q.
+    Prior(usize),
+    /// A quadratic.
+    Tilted(Tilted),
+}
+
+impl Envelope {
+    /// q.
+    pub fn dimension(&self) -> usize {
+        match self {
+            Self::Prior(dimension) => *dimension,
+            Self::Tilted(law) => law.dimension(),
+        }
+    }
+
+    /// E t under N(0, I).
+    pub fn mean(&self) -> f64 {
+        match self {
+            Self::Prior(_) => 1.0,
+            Self::Tilted(law) => law.mean(),
+        }
+    }
+
+    /// Fills `points` (B × q) with proposals, and gives t at each.
+    fn propose(&self, random: &mut impl Rng, points: &mut [f64]) -> Vec<f64> {
+        match self {
+            Self::Prior(dimension) => {
+                fill_normal(random, points);
+                vec![1.0; points.len() / dimension]
+            }
+            Self::Tilted(law) => points
+                .chunks_exact_mut(law.dimension())
+                .map(|point| law.draw(random, point))
+                .collect(),
+        }
+    }
+}
+
 /// A resumable run of the rejection sampler.
 #[derive(Debug, Clone)]
 pub struct Rejection {
+    envelope: Envelope,
     seed: u64,
     side: usize,
     wanted: usize,
     most_proposals: u64,
     block: usize,
-    sum: f64,
-    sum_of_squares: f64,
+    /// (w, E t/t) of every proposal.
+    proposals: Vec<(f64, f64)>,
     draws: Draws,
 }
 
+/// What is random about one block.
+struct Block {
+    points: Vec<f64>,
+    bounds: Vec<f64>,
+    uniforms: Vec<f64>,
+}
+
 impl Rejection {
-    /// Wants `wanted` draws on R^q and gives up after about `most_proposals` proposals.
+    /// Wants `wanted` draws and gives up after about `most_proposals` proposals.
     pub fn new(
-        dimension: usize,
+        envelope: Envelope,
         wanted: usize,
         most_proposals: u64,
         seed: u64,
         side: usize,
     ) -> Self {
+        let draws = Draws::new(envelope.dimension(), 1);
         Self {
+            envelope,
             seed,
             side,
             wanted,
             most_proposals,
             block: 0,
-            sum: 0.0,
-            sum_of_squares: 0.0,
-            draws: Draws::new(dimension, 1),
+            proposals: Vec::new(),
+            draws,
         }
     }
 
     /// A run that has ended, known by its draws.
     pub fn ended(draws: Draws) -> Self {
-        Self { draws, ..Self::new(0, 0, 0, 0, 0) }
+        Self { draws, ..Self::new(Envelope::Prior(0), 0, 0, 0, 0) }
     }
 
-    /// Proposes one block, or less when that gives the last draw wanted.
-    pub fn advance(&mut self, target: &dyn RejectionTarget) {
-        let dimension = self.draws.dimension;
-        let mut random = stream(self.seed, Stream::Rejection, self.side, self.block);
-        let mut points = vec![0.0; BLOCK * dimension];
-        fill_normal(&mut random, &mut points);
-        let accepted = target.acceptance(&points);
-        for (point, (probability, statistic)) in points.chunks_exact(dimension).zip(accepted) {
-            self.sum += probability;
-            self.sum_of_squares += probability * probability;
-            let kept = uniform(&mut random) < probability;
+    /// Proposes `blocks` blocks of 256, or fewer where fewer can be enough; none once it is done.
+    pub fn advance(&mut self, target: &dyn RejectionTarget, blocks: usize) {
+        // Even if all is accepted, a block beyond these would be the first that may not be needed.
+        let missing = self.wanted.saturating_sub(self.draws.len()).div_ceil(BLOCK);
+        let allowed =
+            self.most_proposals.saturating_sub(self.draws.proposed).div_ceil(BLOCK as u64);
+        let count = blocks.min(missing).min(usize::try_from(allowed).unwrap_or(usize::MAX));
+        if count == 0 {
+            return;
+        }
+        let proposed = parallel::map(count, |index| self.propose(self.block + index));
+        let points: Vec<f64> =
+            proposed.iter().flat_map(|block| block.points.iter().copied()).collect();
+        let found = target.acceptance(&points);
+        let random = proposed.iter().flat_map(|block| block.bounds.iter().zip(&block.uniforms));
+        for ((point, (share, statistic)), (bound, uniform)) in
+            points.chunks_exact(self.draws.dimension).zip(found).zip(random)
+        {
+            // g ≤ t up to the rounding of either.
+            let accepted = if share < *bound { share / bound } else { 1.0 };
+            self.proposals.push((accepted, self.envelope.mean() / bound));
+            let kept = *uniform < accepted;
             self.draws.count(kept);
             if kept && self.draws.len() < self.wanted {
                 self.draws.keep(0, point, statistic);
             }
         }
-        self.draws.evaluations += BLOCK as u64;
-        self.block += 1;
+        self.draws.evaluations += (count * BLOCK) as u64;
+        self.block += count;
+    }
+
+    fn propose(&self, block: usize) -> Block {
+        let mut random = stream(self.seed, Stream::Rejection, self.side, block);
+        let mut points = vec![0.0; BLOCK * self.envelope.dimension()];
+        let bounds = self.envelope.propose(&mut random, &mut points);
+        let uniforms = (0..BLOCK).map(|_| uniform(&mut random)).collect();
+        Block { points, bounds, uniforms }
     }
 
     /// Whether all draws are there, or the sampler has given up.
@@ -92,15 +168,28 @@ impl Rejection {
         drawn.max(proposed).min(1.0)
     }
 
-    /// E g with its standard error.
+    /// E g with its standard error; zeros before there are proposals.
     pub fn probability(&self) -> (f64, f64) {
-        let count = self.draws.proposed as f64;
-        if count < 2.0 {
+        let (mean, error) = mean_and_error(self.proposals.iter().map(|(accepted, _)| *accepted));
+        (mean * self.envelope.mean(), error * self.envelope.mean())
+    }
+
+    /// The overlap of p with N(0, I), 1 − their total variation distance, with its standard error;
+    /// zeros before anything is accepted.
+    ///
+    /// With Z = E g it is ∫ min(1, g/Z) N(0, I) = E_t min(E t/t, w/E_t w), estimated from all proposals.
+    /// The error takes in that E_t w is estimated too (delta method).
+    pub fn overlap(&self) -> (f64, f64) {
+        let (mean, _) = mean_and_error(self.proposals.iter().map(|(accepted, _)| *accepted));
+        if mean == 0.0 {
             return (0.0, 0.0);
         }
-        let mean = self.sum / count;
-        let variance = (self.sum_of_squares / count - mean * mean).max(0.0) * count / (count - 1.0);
-        (mean, (variance / count).sqrt())
+        // −∂ overlap/∂ log E_t w.
+        let tilted = self.proposals.iter().map(|(accepted, prior)| (accepted / mean, prior));
+        let slope: f64 =
+            tilted.clone().filter(|(here, prior)| here < prior).map(|(here, _)| here).sum();
+        let slope = slope / self.proposals.len() as f64;
+        mean_and_error(tilted.map(|(here, prior)| here.min(*prior) - slope * (here - 1.0)))
     }
 
     /// What was accepted, as one chain of independent draws.
@@ -109,14 +198,29 @@ impl Rejection {
     }
 }
 
+/// Mean of independent values with its standard error; zeros for fewer than two.
+fn mean_and_error(values: impl ExactSizeIterator<Item = f64>) -> (f64, f64) {
+    let count = values.len() as f64;
+    if count < 2.0 {
+        return (0.0, 0.0);
+    }
+    let (sum, squares) =
+        values.fold((0.0, 0.0), |(sum, squares), value| (sum + value, squares + value * value));
+    let mean = sum / count;
+    let variance = (squares / count - mean * mean).max(0.0) * count / (count - 1.0);
+    (mean, (variance / count).sqrt())
+}
+
 #[cfg(test)]
 mod tests {
+    use nalgebra::{DMatrix, DVector};
+
     use super::*;
 
     /// g(a) = 1 − exp(−½ t a²): E g = 1 − (1 + t)^−½, and under g·N the mean of a² is known.
-    struct Tilted(f64);
+    struct Square(f64);
 
-    impl RejectionTarget for Tilted {
+    impl RejectionTarget for Square {
         fn dimension(&self) -> usize {
             1
         }
@@ -129,9 +233,9 @@ mod tests {
     #[test]
     fn probability_and_moments_equal_the_closed_form() {
         let tilt = 3.0;
-        let mut run = Rejection::new(1, 20_000, u64::MAX, 2, 0);
+        let mut run = Rejection::new(Envelope::Prior(1), 20_000, u64::MAX, 2, 0);
         while !run.is_done() {
-            run.advance(&Tilted(tilt));
+            run.advance(&Square(tilt), 16);
         }
         let root = 1.0 / (1.0 + tilt).sqrt();
         let (probability, error) = run.probability();
@@ -148,11 +252,93 @@ mod tests {
 
     #[test]
     fn it_gives_up_when_nothing_is_accepted() {
-        let mut run = Rejection::new(1, 10, 3000, 2, 0);
+        let mut run = Rejection::new(Envelope::Prior(1), 10, 3000, 2, 0);
         while !run.is_done() {
-            run.advance(&Tilted(0.0));
+            run.advance(&Square(0.0), 16);
         }
         assert!(run.draws().is_empty(), "g = 0 accepts nothing");
         assert_eq!(run.probability(), (0.0, 0.0), "and has probability 0");
+    }
+
+    /// t(a) = ½ t a², for which 1 − exp(−t) ≤ t.
+    fn square_envelope(tilt: f64) -> Envelope {
+        let value = DVector::from_element(1, 0.5 * tilt);
+        let law = Tilted::new(0.0, &DVector::zeros(1), DMatrix::identity(1, 1), &value);
+        Envelope::Tilted(law.expect("E t = t/2"))
+    }
+
+    fn finished(envelope: Envelope, tilt: f64, blocks: usize) -> Rejection {
+        let mut run = Rejection::new(envelope, 20_000, u64::MAX, 5, 0);
+        while !run.is_done() {
+            run.advance(&Square(tilt), blocks);
+        }
+        run
+    }
+
+    #[test]
+    fn either_envelope_gives_the_probability_and_the_overlap_in_closed_form() {
+        for tilt in [0.2, 1.0, 3.0] {
+            let probability = 1.0 - 1.0 / (1.0_f64 + tilt).sqrt();
+            // Midpoint rule for ∫ min(1, g/Z) φ on [−12, 12].
+            let step = 1e-3;
+            let overlap: f64 = (0..24_000)
+                .map(|k| {
+                    let a = -12.0 + (f64::from(k) + 0.5) * step;
+                    let share = -libm::expm1(-0.5 * tilt * a * a) / probability;
+                    share.min(1.0) * libm::exp(-0.5 * a * a) * step
+                })
+                .sum::<f64>()
+                / (2.0 * core::f64::consts::PI).sqrt();
+            for envelope in [Envelope::Prior(1), square_envelope(tilt)] {
+                let rate = probability / envelope.mean();
+                let run = finished(envelope, tilt, 16);
+                let (found, error) = run.probability();
+                assert!((found - probability).abs() < 5.0 * error, "t = {tilt}: {found}");
+                let (found, error) = run.overlap();
+                assert!((found - overlap).abs() < 5.0 * error, "t = {tilt}: {found}, {overlap}");
+                assert!(1.0 - found > 5.0 * error, "t = {tilt}: the prior would pass");
+                let accepted = run.draws().acceptance_rate();
+                let bound = 5.0 * (rate * (1.0 - rate) / run.draws().proposed as f64).sqrt();
+                assert!((accepted - rate).abs() < bound, "t = {tilt}: acceptance {accepted}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_error_of_the_overlap_is_its_spread_over_repeats() {
+        const REPEATS: usize = 400;
+        for envelope in [Envelope::Prior(1), square_envelope(1.0)] {
+            let found: Vec<(f64, f64)> = (0..REPEATS)
+                .map(|seed| {
+                    let mut run = Rejection::new(envelope.clone(), 500, u64::MAX, seed as u64, 1);
+                    while !run.is_done() {
+                        run.advance(&Square(1.0), 1);
+                    }
+                    run.overlap()
+                })
+                .collect();
+            let count = REPEATS as f64;
+            let mean = found.iter().map(|(value, _)| value).sum::<f64>() / count;
+            let square = found
+                .iter()
+                .map(|(value, error)| (value - mean) * (value - mean) / (error * error))
+                .sum::<f64>()
+                / count;
+            let bound = 5.0 * (2.0 / count).sqrt();
+            assert!((square - 1.0).abs() < bound, "mean square of z is {square}");
+        }
+    }
+
+    #[test]
+    fn draws_do_not_depend_on_how_many_blocks_run_at_once() {
+        for envelope in [Envelope::Prior(1), square_envelope(1.0)] {
+            let one = finished(envelope.clone(), 1.0, 1);
+            for blocks in [2, 7, usize::MAX] {
+                let many = finished(envelope.clone(), 1.0, blocks);
+                assert_eq!(one.draws(), many.draws(), "{blocks} blocks");
+                assert_eq!(one.probability(), many.probability(), "{blocks} blocks");
+                assert_eq!(one.overlap(), many.overlap(), "{blocks} blocks");
+            }
+        }
     }
 }

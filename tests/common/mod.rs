@@ -58,27 +58,84 @@ pub fn model(
 /// A smooth, face-like pair with `modes` modes each on `points` points, in millimetres: a shared and a
 /// private part, and means a little apart.
 pub fn face_like_pair(points: usize, modes: usize) -> (LinearModel, LinearModel) {
-    let place = |v: usize| {
-        let share = (v as f64 + 0.5) / points as f64;
-        let (sine, cosine) =
-            libm::sincos(core::f64::consts::PI * (1.0 + 5.0_f64.sqrt()) * v as f64);
-        let radius = share.sqrt();
-        [75.0 * radius * cosine, 100.0 * radius * sine, 85.0 * (1.0 - 0.85 * share).sqrt()]
-    };
-    let mut random = stream(12, Stream::Display, 9, 1);
-    let mut draw = |count: usize| {
-        let mut values = vec![0.0; count];
-        fill_normal(&mut random, &mut values);
-        values
-    };
+    let mut random = Numbers(stream(12, Stream::Display, 9, 1));
     let total = 3 * modes;
-    let mut fields = DMatrix::<f64>::zeros(3 * points, total);
-    for field in 0..total {
-        let length = 60.0 * libm::pow(0.1, field as f64 / total as f64);
+    let fields = smooth_fields(points, total, 60.0, &mut random);
+    let mean = DVector::from_iterator(3 * points, (0..points).flat_map(|v| face_point(v, points)));
+    let build = |mix: Vec<f64>, shift: Vec<f64>| {
+        let decay: Vec<f64> = (0..total).map(|k| 3.1 * libm::pow(k as f64 + 1.0, -0.85)).collect();
+        let shift: DVector<f64> = DVector::from_fn(total, |k, _| 0.25 * decay[k] * shift[k]);
+        let basis = &fields * mixed(&decay, modes, &mix);
+        LinearModel::from_scaled_basis(3, &mean + &fields * shift, basis).unwrap().0
+    };
+    let a = build(random.take(total * modes), random.take(total));
+    let b = build(random.take(total * modes), random.take(total));
+    (a, b)
+}
+
+/// Global shapes against local ones about the mouth, brows and cheeks, like identity and expression: the
+/// same mean, and spaces that meet at few angles.
+pub fn identity_expression_like_pair(points: usize, modes: usize) -> (LinearModel, LinearModel) {
+    const CENTRES: [([f64; 2], f64); 6] = [
+        ([0.0, -45.0], 28.0),
+        ([0.0, -45.0], 35.0),
+        ([-28.0, 35.0], 18.0),
+        ([28.0, 35.0], 18.0),
+        ([-35.0, -15.0], 20.0),
+        ([35.0, -15.0], 20.0),
+    ];
+    let mut random = Numbers(stream(12, Stream::Display, 9, 3));
+    let total = 3 * modes;
+    let mean = DVector::from_iterator(3 * points, (0..points).flat_map(|v| face_point(v, points)));
+    let global = smooth_fields(points, total, 60.0, &mut random);
+    let mut local = smooth_fields(points, total, 30.0, &mut random);
+    for (k, mut field) in local.column_iter_mut().enumerate() {
+        let ([x, y], width) = CENTRES[k % 6];
+        for v in 0..points {
+            let place = face_point(v, points);
+            let square = (place[0] - x) * (place[0] - x) + (place[1] - y) * (place[1] - y);
+            let window = libm::exp(-square / (2.0 * width * width)) + 0.04;
+            field.rows_mut(3 * v, 3).scale_mut(window);
+        }
+        let norm = field.norm();
+        field *= (points as f64).sqrt() / norm;
+    }
+    let mut build = |fields: DMatrix<f64>, size: f64, fall: f64| {
+        let decay: Vec<f64> = (0..total).map(|k| size * libm::pow(k as f64 + 1.0, -fall)).collect();
+        let basis = fields * mixed(&decay, modes, &random.take(total * modes));
+        LinearModel::from_scaled_basis(3, mean.clone(), basis).unwrap().0
+    };
+    (build(global, 3.1, 0.85), build(local, 1.8, 1.1))
+}
+
+struct Numbers(rand_chacha::ChaCha8Rng);
+
+impl Numbers {
+    fn take(&mut self, count: usize) -> Vec<f64> {
+        let mut values = vec![0.0; count];
+        fill_normal(&mut self.0, &mut values);
+        values
+    }
+}
+
+/// Point v of `points` on a face-like height field, in millimetres.
+fn face_point(v: usize, points: usize) -> [f64; 3] {
+    let share = (v as f64 + 0.5) / points as f64;
+    let (sine, cosine) = libm::sincos(core::f64::consts::PI * (1.0 + 5.0_f64.sqrt()) * v as f64);
+    let radius = share.sqrt();
+    [75.0 * radius * cosine, 100.0 * radius * sine, 85.0 * (1.0 - 0.85 * share).sqrt()]
+}
+
+/// `count` random fields (3·points × count) of one millimetre root mean square a point, from waves whose
+/// length falls from `longest` to a tenth of it.
+fn smooth_fields(points: usize, count: usize, longest: f64, random: &mut Numbers) -> DMatrix<f64> {
+    let mut fields = DMatrix::<f64>::zeros(3 * points, count);
+    for field in 0..count {
+        let length = longest * libm::pow(0.1, field as f64 / count as f64);
         for _ in 0..4 {
-            let wave = draw(7);
+            let wave = random.take(7);
             for v in 0..points {
-                let [x, y, z] = place(v);
+                let [x, y, z] = face_point(v, points);
                 let phase = (wave[0] * x + wave[1] * y + wave[2] * z) / length + 6.0 * wave[6];
                 let value = libm::cos(phase);
                 for axis in 0..3 {
@@ -89,19 +146,15 @@ pub fn face_like_pair(points: usize, modes: usize) -> (LinearModel, LinearModel)
         let norm = fields.column(field).norm();
         fields.column_mut(field).scale_mut((points as f64).sqrt() / norm);
     }
-    let mean = DVector::from_iterator(3 * points, (0..points).flat_map(place));
-    let build = |mix: Vec<f64>, shift: Vec<f64>| {
-        let decay: Vec<f64> = (0..total).map(|k| 3.1 * libm::pow(k as f64 + 1.0, -0.85)).collect();
-        let weights = DMatrix::from_fn(total, modes, |k, mode| {
-            let own = if k % modes == mode && k < modes { 1.0 } else { 0.0 };
-            decay[k] * (own + 0.12 * mix[k * modes + mode])
-        });
-        let shift: DVector<f64> = DVector::from_fn(total, |k, _| 0.25 * decay[k] * shift[k]);
-        LinearModel::from_scaled_basis(3, &mean + &fields * shift, &fields * weights).unwrap().0
-    };
-    let a = build(draw(total * modes), draw(total));
-    let b = build(draw(total * modes), draw(total));
-    (a, b)
+    fields
+}
+
+/// Weights (fields × modes): each mode mostly one field, a little of all others.
+fn mixed(decay: &[f64], modes: usize, mix: &[f64]) -> DMatrix<f64> {
+    DMatrix::from_fn(decay.len(), modes, |k, mode| {
+        let own = if k % modes == mode && k < modes { 1.0 } else { 0.0 };
+        decay[k] * (own + 0.12 * mix[k * modes + mode])
+    })
 }
 
 /// `count` draws of a Gaussian, from its own random numbers.
