@@ -1,6 +1,7 @@
 //! What the reader of a report should know before believing its numbers.
 
-use super::{Comparison, Sampler};
+use super::inference::LARGEST_PARETO_K;
+use super::{Comparison, Plausibility, Sampler};
 use crate::measure::mean_vertex_distance;
 use crate::model::{Alignment, Cells, procrustes};
 use crate::report::{Report, Warning};
@@ -13,6 +14,12 @@ const NEARLY_NONE: f64 = 0.01;
 /// Distance of the most plausible common shape, in σ, beyond which the models do not meet within the
 /// tolerance. (The mean distance over the draws would not do: it grows with the number of modes.)
 const APART: f64 = 10.0;
+/// Share of the range of distances above which σ hardly acts.
+const IDLE: f64 = 0.95;
+/// Difference in log p between single and double precision that is worth a word.
+const LARGEST_DENSITY_ERROR: f64 = 0.05;
+/// Modes about whose ties a reader is told.
+const LEADING_MODES: usize = 5;
 /// Share of the mean-to-mean distance that a rigid motion must remove to be worth a word.
 const WORTH_ALIGNING: f64 = 0.3;
 
@@ -72,7 +79,6 @@ impl Comparison {
 
     fn about_the_intersection(&self, report: &Report, warnings: &mut Vec<Warning>) {
         let intersection = &report.intersection;
-        let symbol = report.models.a.unit.symbol();
         if self.cancelled {
             warnings.push(warning(
                 "cancelled",
@@ -80,13 +86,34 @@ impl Comparison {
                 "Run again for the full number of draws.",
             ));
         }
-        if !intersection.diagnostics.converged {
+        let diagnostics = &intersection.diagnostics;
+        let unsafe_weights = diagnostics.pareto_k.is_some_and(|k| k >= LARGEST_PARETO_K);
+        if unsafe_weights && self.settings.sampler != Sampler::Auto {
             warnings.push(warning(
-                "not-converged",
-                "The draws of the intersection have not converged yet.".to_owned(),
-                "Draw more, or use the independence sampler.",
+                "pareto-k",
+                format!(
+                    "The Gaussian fit misses a part of the intersection: Pareto k is {}, above 0.7.",
+                    rounded(diagnostics.pareto_k.unwrap_or(f64::NAN))
+                ),
+                "Choose the sampler “auto” or “hmc”, which do not depend on the fit.",
             ));
         }
+        if !diagnostics.converged {
+            let state = match diagnostics.r_hat_max {
+                Some(r_hat) => format!(
+                    "R-hat is {}, and the worst mode has {:.0} effective draws",
+                    rounded(r_hat),
+                    diagnostics.ess_bulk_min.min(diagnostics.ess_tail_min)
+                ),
+                None => "there are too few draws to tell".to_owned(),
+            };
+            warnings.push(warning(
+                "not-converged",
+                format!("The draws of the intersection have not converged: {state}."),
+                "Draw more, or choose the sampler “auto”.",
+            ));
+        }
+        self.about_ties(report, warnings);
         if self.settings.sampler == Sampler::Paper {
             warnings.push(warning(
                 "as-published",
@@ -94,11 +121,18 @@ impl Comparison {
                 "Use it to compare with the paper only.",
             ));
         }
+        self.about_sigma(report, warnings);
+    }
+
+    /// Whether the models meet at all, and whether σ says anything.
+    fn about_sigma(&self, report: &Report, warnings: &mut Vec<Warning>) {
+        let symbol = report.models.a.unit.symbol();
+        let Some(tolerance) = self.tolerance else { return };
         let closest = self.closest_approach();
-        if let Some(tolerance) = self.tolerance
-            && tolerance.farthest > 1e-9 * self.pair.scale()
-            && tolerance.farthest - tolerance.nearest <= 1e-3 * tolerance.farthest
-        {
+        let meeting = self.meeting.as_ref().map_or(0.0, |meeting| meeting.distance);
+        let range = tolerance.farthest - tolerance.nearest;
+        let apart = tolerance.farthest > 1e-9 * self.pair.scale();
+        if apart && range <= 1e-3 * tolerance.farthest {
             warnings.push(warning(
                 "parallel",
                 format!(
@@ -106,6 +140,20 @@ impl Comparison {
                     rounded(tolerance.nearest)
                 ),
                 "Align B to A, or check how the files were centred.",
+            ));
+            return;
+        }
+        if let Some(noise) = tolerance.noise
+            && meeting > noise
+        {
+            warnings.push(warning(
+                "no-intersection-within-noise",
+                format!(
+                    "No intersection within noise: plausible shapes of the two models come no nearer than {} {symbol}, and true members lie within {} {symbol} of their own model.",
+                    rounded(meeting),
+                    rounded(noise)
+                ),
+                "What is shown is their closest approach, not shapes that both can make.",
             ));
         } else if closest > APART * self.sigma() {
             warnings.push(warning(
@@ -118,6 +166,75 @@ impl Comparison {
                 "Read it as “as near as the two come”, choose a larger σ, or use more modes.",
             ));
         }
+        let predicted =
+            report.intersection.tolerance.as_ref().map_or(f64::NAN, |found| found.predicted);
+        if apart && predicted > tolerance.nearest + IDLE * range {
+            warnings.push(warning(
+                "sigma-large",
+                format!(
+                    "σ = {} {symbol} is so large that the distance hardly acts: the shapes lie {} {symbol} from the other model, and would lie {} {symbol} from it without any tolerance.",
+                    rounded(self.sigma()),
+                    rounded(predicted),
+                    rounded(tolerance.farthest)
+                ),
+                "Choose a smaller σ; the recommended one uses a quarter of what there is.",
+            ));
+        }
+        let error = self.density_error();
+        if error > LARGEST_DENSITY_ERROR {
+            warnings.push(warning(
+                "sigma-small",
+                format!(
+                    "σ = {} {symbol} is so small beside the models that single precision blurs the density (by {} in its logarithm).",
+                    rounded(self.sigma()),
+                    rounded(error)
+                ),
+                "Choose a larger σ.",
+            ));
+        }
+    }
+
+    /// Largest |Δ log p| between single and double precision over a few draws of each side.
+    fn density_error(&self) -> f64 {
+        const DRAWS: usize = 8;
+        let sigma = self.sigma();
+        let mut largest = 0.0_f64;
+        for (inference, side) in self.inferences.iter().zip(&self.sides) {
+            let draws = inference.draws();
+            let stride = (draws.len() / DRAWS).max(1);
+            let distances = draws.statistics.iter().flatten();
+            for (point, distance) in draws.iter_slices().zip(distances).step_by(stride).take(DRAWS)
+            {
+                let exact = side.mean_vertex_distance(point);
+                let error = 0.5 * (exact - distance) * (exact + distance) / (sigma * sigma);
+                largest = largest.max(error.abs());
+            }
+        }
+        largest
+    }
+
+    /// Modes that are not determined one by one.
+    fn about_ties(&self, report: &Report, warnings: &mut Vec<Warning>) {
+        let Some(accuracy) = &report.intersection.accuracy else { return };
+        let first = accuracy.modes_trusted;
+        if first >= LEADING_MODES.min(accuracy.mode_turns.len()) {
+            return;
+        }
+        let turn = accuracy.mode_turns[first].to_degrees();
+        let share = |k: usize| report.intersection.standard_deviations.get(k).copied();
+        let message = match (share(first), share(first + 1)) {
+            (Some(this), Some(next)) if next > 0.9 * this => format!(
+                "Modes {} and {} of the intersection have nearly equal variance: only the two together are determined, either alone may turn by {turn:.0}°.",
+                first + 1,
+                first + 2
+            ),
+            _ => format!(
+                "Mode {} of the intersection is not determined by these draws: it may turn by {turn:.0}°.",
+                first + 1
+            ),
+        };
+        let hint = "Compare what such modes span, not the modes one by one; more weighted draws help where it is not a tie.";
+        warnings.push(warning("near-tie", message, hint));
     }
 
     /// d at the means of the fits, averaged over the sides.
@@ -139,6 +256,20 @@ impl Comparison {
                 && difference.diagnostics.draws > 0
                 && difference.probability > NEARLY_ALL
         };
+        if self.is_contained(0) && self.is_contained(1) {
+            let half = match self.settings.plausibility {
+                Plausibility::Product => {
+                    " Their intersection has less variance than either, half where the two are the same, because the paper's posterior counts plausibility twice."
+                }
+                Plausibility::Idempotent => "",
+            };
+            warnings.push(warning(
+                "identical-spaces",
+                format!("The two models make the same shapes: both differences are empty.{half}"),
+                "The setting “idempotent” gives a model compared with itself its own variance.",
+            ));
+            return;
+        }
         if nearly_all(0) && nearly_all(1) {
             warnings.push(warning(
                 "nearly-all-differs",
@@ -152,7 +283,7 @@ impl Comparison {
                 warnings.push(warning(
                     "empty-difference",
                     format!(
-                        "{other} can make every shape of {this}: {this} without {other} is empty."
+                        "{this} lies inside {other}, which can make every shape of it: {this} without {other} is empty."
                     ),
                     "Nothing to do: there is no difference to show.",
                 ));

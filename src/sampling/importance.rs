@@ -28,6 +28,8 @@ use crate::parallel;
 
 /// Groups of pairs whose moments tell the error.
 const GROUPS: usize = 16;
+/// Corrections below this share of a standard deviation are what single precision leaves.
+const ROUNDING: f64 = 1e-4;
 /// Pairs with one stream of random numbers.
 const BLOCK: usize = 32;
 
@@ -78,10 +80,15 @@ pub struct ImportanceEstimate {
 
 impl ImportanceEstimate {
     /// Whether the fit's own moments are the better estimate: the square of the correction less that of its
-    /// noise, an estimate of the fit's squared error, is below the noise.
+    /// noise, an estimate of the fit's squared error, is below the noise, or is rounding.
     pub fn is_within_error(&self) -> bool {
         let (size, noise) = self.correction;
-        size - noise < noise
+        size - noise < noise || size.sqrt() < ROUNDING
+    }
+
+    /// Standard error of mean and covariance together, in coordinates whitened by the fit (Frobenius).
+    pub fn standard_error(&self) -> f64 {
+        self.correction.1.sqrt()
     }
 }
 
