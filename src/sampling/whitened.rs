@@ -14,6 +14,19 @@
 //! **Cost.** A step evaluates the target once, or once with its gradient for every leap; with the
 //! product T z (and Tᵀ ∇) of q²/2 multiplications. A gradient counts as two evaluations.
 //!
+//! Effective draws of the worst coefficient or its square for 1000 evaluations, with the variational
+//! fit, by `cargo test --test samplers effective_draws -- --ignored --nocapture`:
+//!
+//! | posterior | independence | Hamiltonian | its L = 1 | Langevin | Crank–Nicolson |
+//! |---|---|---|---|---|---|
+//! | faces, 50 modes, σ = 0.02 | 561 | 185 | 210 | 55 | 217 |
+//! | faces, 50 modes, σ = 0.1 | 826 | 358 | 359 | 54 | 247 |
+//! | coordinates, 100 modes, σ = 0.1 | 42 | 24 | 9 | 10 | 30 |
+//! | coordinates, 100 modes, σ = 0.01 | 4 (R-hat 1.8) | 7 | 2 (1.5) | 3 (1.4) | 4 (1.8) |
+//!
+//! In "coordinates" every mode moves one coordinate of one point: the fit is poor, k-hat 0.5 and
+//! 1.0. Effective draws with an R-hat far from 1 say nothing.
+//!
 //! **Limits.** One size for all directions, taken from the fit: where the fit is wrong by a factor
 //! in some direction, that direction mixes slower by the same factor.
 //!
