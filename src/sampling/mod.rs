@@ -127,6 +127,11 @@ pub trait Chains: core::fmt::Debug + Send {
     /// Steps each chain still has to make.
     fn remaining(&self) -> usize;
 
+    /// Evaluations that the next step of a chain takes, so that callers can advance in even pieces.
+    fn evaluations_per_step(&self) -> usize {
+        1
+    }
+
     /// What was drawn so far.
     fn draws(&self) -> &Draws;
 }

@@ -83,6 +83,11 @@ pub(super) trait Move: core::fmt::Debug + Send {
     /// Whether states need the gradient.
     fn needs_gradient(&self) -> bool;
 
+    /// How often a proposal looks at the target.
+    fn looks(&self, _size: f64) -> usize {
+        1
+    }
+
     /// One proposal for each chain, with the logarithm of p(z′) k(z | z′) / p(z) k(z′ | z). `look`
     /// evaluates the target at z (chains × q).
     fn propose(
@@ -199,6 +204,11 @@ impl WhitenedChains {
     }
 }
 
+/// Evaluations that one look at the target counts for.
+fn cost(gradient: bool) -> usize {
+    if gradient { 2 } else { 1 }
+}
+
 /// The states at z (chains × q).
 fn look(
     fit: &Gaussian,
@@ -223,7 +233,7 @@ fn look(
     } else {
         (target.evaluate(&points), Vec::new())
     };
-    *evaluations += found.len() as u64 * if gradient { 2 } else { 1 };
+    *evaluations += (found.len() * cost(gradient)) as u64;
     States { z, points, evaluations: found, slopes }
 }
 
@@ -239,6 +249,10 @@ impl Chains for WhitenedChains {
 
     fn remaining(&self) -> usize {
         self.schedule.steps() - self.step
+    }
+
+    fn evaluations_per_step(&self) -> usize {
+        self.proposing.looks(self.size) * cost(self.proposing.needs_gradient())
     }
 
     fn draws(&self) -> &Draws {
@@ -387,6 +401,7 @@ mod tests {
                 "crank-nicolson" => 1.0,
                 _ => 2.0,
             };
+            assert_eq!(chains.evaluations_per_step() as f64, each, "{name}: as announced");
             let after = (chains.draws().evaluations - before) as f64;
             assert_eq!(after, each * 4.0 * 20.0, "{name}: evaluations after the burn-in");
             assert_eq!(chains.draws().proposed, 80, "{name}: proposals");
