@@ -52,13 +52,6 @@ struct Hamiltonian {
     most_leaps: usize,
 }
 
-impl Hamiltonian {
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 ≤ L ≤ most")]
-    fn leaps(&self, size: f64) -> usize {
-        (ANGLE / size + 0.5).floor().clamp(1.0, self.most_leaps.max(1) as f64) as usize
-    }
-}
-
 /// One chain under way.
 struct Flight {
     size: f64,
@@ -108,6 +101,11 @@ impl Move for Hamiltonian {
         true
     }
 
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 ≤ L ≤ most")]
+    fn looks(&self, size: f64) -> usize {
+        (ANGLE / size + 0.5).floor().clamp(1.0, self.most_leaps.max(1) as f64) as usize
+    }
+
     fn propose(
         &self,
         size: f64,
@@ -123,7 +121,7 @@ impl Move for Hamiltonian {
             flights.iter_mut().zip(rows).for_each(|(flight, (z, slope))| flight.kick(z, slope));
         };
         let mut states = from.clone();
-        for _ in 0..self.leaps(size) {
+        for _ in 0..self.looks(size) {
             kick(&mut flights, &states);
             for (flight, z) in flights.iter_mut().zip(states.z.chunks_exact_mut(dimension)) {
                 flight.rotate(z);

@@ -19,7 +19,7 @@ mod rejection;
 mod tilted;
 mod whitened;
 
-pub use diagnostics::{ChainSummary, split_r_hat, summarise};
+pub use diagnostics::{ChainSummary, autocorrelation, split_r_hat, summarise};
 pub use fit_draws::FitChains;
 pub use gaussian::Gaussian;
 pub use importance::{Importance, ImportanceEstimate, ImportanceMoments};
@@ -126,6 +126,11 @@ pub trait Chains: core::fmt::Debug + Send {
 
     /// Steps each chain still has to make.
     fn remaining(&self) -> usize;
+
+    /// Evaluations that the next step of a chain takes, so that callers can advance in even pieces.
+    fn evaluations_per_step(&self) -> usize {
+        1
+    }
 
     /// What was drawn so far.
     fn draws(&self) -> &Draws;

@@ -14,6 +14,19 @@
 //! **Cost.** A step evaluates the target once, or once with its gradient for every leap; with the
 //! product T z (and Tᵀ ∇) of q²/2 multiplications. A gradient counts as two evaluations.
 //!
+//! Effective draws of the worst coefficient or its square for 1000 evaluations, with the variational
+//! fit, by `cargo test --test samplers effective_draws -- --ignored --nocapture`:
+//!
+//! | posterior | independence | Hamiltonian | its L = 1 | Langevin | Crank–Nicolson |
+//! |---|---|---|---|---|---|
+//! | faces, 50 modes, σ = 0.02 | 561 | 185 | 210 | 55 | 217 |
+//! | faces, 50 modes, σ = 0.1 | 826 | 358 | 359 | 54 | 247 |
+//! | coordinates, 100 modes, σ = 0.1 | 42 | 24 | 9 | 10 | 30 |
+//! | coordinates, 100 modes, σ = 0.01 | 4 (R-hat 1.8) | 7 | 2 (1.5) | 3 (1.4) | 4 (1.8) |
+//!
+//! In "coordinates" every mode moves one coordinate of one point: the fit is poor, k-hat 0.5 and
+//! 1.0. Effective draws with an R-hat far from 1 say nothing.
+//!
 //! **Limits.** One size for all directions, taken from the fit: where the fit is wrong by a factor
 //! in some direction, that direction mixes slower by the same factor.
 //!
@@ -69,6 +82,11 @@ pub(super) trait Move: core::fmt::Debug + Send {
 
     /// Whether states need the gradient.
     fn needs_gradient(&self) -> bool;
+
+    /// How often a proposal looks at the target.
+    fn looks(&self, _size: f64) -> usize {
+        1
+    }
 
     /// One proposal for each chain, with the logarithm of p(z′) k(z | z′) / p(z) k(z′ | z). `look`
     /// evaluates the target at z (chains × q).
@@ -186,6 +204,11 @@ impl WhitenedChains {
     }
 }
 
+/// Evaluations that one look at the target counts for.
+fn cost(gradient: bool) -> usize {
+    if gradient { 2 } else { 1 }
+}
+
 /// The states at z (chains × q).
 fn look(
     fit: &Gaussian,
@@ -210,7 +233,7 @@ fn look(
     } else {
         (target.evaluate(&points), Vec::new())
     };
-    *evaluations += found.len() as u64 * if gradient { 2 } else { 1 };
+    *evaluations += (found.len() * cost(gradient)) as u64;
     States { z, points, evaluations: found, slopes }
 }
 
@@ -226,6 +249,10 @@ impl Chains for WhitenedChains {
 
     fn remaining(&self) -> usize {
         self.schedule.steps() - self.step
+    }
+
+    fn evaluations_per_step(&self) -> usize {
+        self.proposing.looks(self.size) * cost(self.proposing.needs_gradient())
     }
 
     fn draws(&self) -> &Draws {
@@ -374,6 +401,7 @@ mod tests {
                 "crank-nicolson" => 1.0,
                 _ => 2.0,
             };
+            assert_eq!(chains.evaluations_per_step() as f64, each, "{name}: as announced");
             let after = (chains.draws().evaluations - before) as f64;
             assert_eq!(after, each * 4.0 * 20.0, "{name}: evaluations after the burn-in");
             assert_eq!(chains.draws().proposed, 80, "{name}: proposals");
