@@ -25,10 +25,12 @@ pub mod comparison;
 pub mod demos;
 pub mod files;
 pub mod formats;
+mod lanes;
 pub mod measure;
 pub mod model;
 mod parallel;
 pub mod report;
+pub mod roofline;
 pub mod sampling;
 #[cfg(target_arch = "wasm32")]
 pub mod wasm;

@@ -116,6 +116,126 @@ fn a_distance_has_the_same_bits_whatever_runs_beside_it() {
     }
 }
 
+/// ∇d of one step in double precision, and how far single precision may be off, mode by mode.
+///
+/// A direction r̂ is off by what its residual is off over its length, twice at the most (the norm is off
+/// too), and by 8 u; a sum over 32 points adds (3·32 + 2) u of Σ|terms|.
+fn reference_gradient(case: &Case, step: &[f64]) -> (Vec<f64>, Vec<f64>) {
+    let unit = libm::exp2(-24.0);
+    let (modes, dimension) = (case.modes, case.dimension);
+    let (mut gradient, mut error) = (vec![0.0; modes], vec![0.0; modes]);
+    let points = case.offset.len() / dimension;
+    for vertex in 0..points {
+        let rows = |axis: usize| {
+            let row = vertex * dimension + axis;
+            (f64::from(case.offset[row]), &case.rows[row * modes..(row + 1) * modes])
+        };
+        let residual: Vec<f64> = (0..dimension)
+            .map(|axis| {
+                rows(axis).0 + rows(axis).1.iter().zip(step).map(|(r, a)| r * a).sum::<f64>()
+            })
+            .collect();
+        let size: f64 = (0..dimension)
+            .map(|axis| rows(axis).1.iter().zip(step).map(|(r, a)| (r * a).abs()).sum::<f64>())
+            .sum::<f64>()
+            + residual.iter().map(|value| value.abs()).sum::<f64>();
+        let norm = residual.iter().map(|value| value * value).sum::<f64>().sqrt();
+        let bound = unit * (2.0 * (modes as f64 + 4.0) * size / norm + 110.0);
+        for axis in 0..dimension {
+            for (mode, value) in rows(axis).1.iter().enumerate() {
+                gradient[mode] += residual[axis] / norm * value;
+                error[mode] += bound * value.abs();
+            }
+        }
+    }
+    let scale = 1.0 / points as f64;
+    let scaled = |values: Vec<f64>| values.into_iter().map(|value| value * scale).collect();
+    (scaled(gradient), scaled(error))
+}
+
+#[test]
+fn gradients_equal_double_precision_within_the_rounding_of_single() {
+    for dimension in [2, 3] {
+        for (points, modes) in [(1, 1), (5, 2), (31, 7), (33, 19), (257, 34), (521, 12)] {
+            let case = Case::new(dimension, points, modes, 35);
+            let kernel = case.kernel();
+            let (distances, gradients) = kernel.distances_and_gradients(&case.offset, &case.steps);
+            assert_eq!(distances, kernel.distances(&case.offset, &case.steps), "the same distance");
+            for (gradient, step) in
+                gradients.chunks_exact(modes).zip(case.steps.chunks_exact(modes))
+            {
+                let (expected, bound) = reference_gradient(&case, step);
+                for mode in 0..modes {
+                    let error = (gradient[mode] - expected[mode]).abs();
+                    assert!(
+                        error <= bound[mode],
+                        "{dimension}, {points}, {modes}: {error} > {}",
+                        bound[mode]
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn gradients_are_the_slope_of_the_distance() {
+    for dimension in [2, 3] {
+        let case = Case::new(dimension, 100, 9, 20);
+        let kernel = case.kernel();
+        let (_, gradients) = kernel.distances_and_gradients(&case.offset, &case.steps);
+        let h = 1e-4;
+        for (proposal, step) in case.steps.chunks_exact(9).enumerate() {
+            for mode in 0..9 {
+                let at = |shift: f64| {
+                    let mut moved = step.to_vec();
+                    moved[mode] += shift;
+                    case.reference(&moved).0
+                };
+                let slope = (at(h) - at(-h)) / (2.0 * h);
+                let found = gradients[proposal * 9 + mode];
+                // Differences are good to h², single precision to 1e-6 and some.
+                assert!((found - slope).abs() < 2e-5, "{dimension}, {mode}: {found}, not {slope}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_point_without_residual_adds_nothing_to_the_gradient() {
+    for dimension in [2, 3] {
+        let mut case = Case::new(dimension, 40, 6, 1);
+        let (_, all) = case.kernel().distances_and_gradients(&case.offset, &case.steps);
+        case.offset[..dimension].fill(0.0);
+        case.rows[..dimension * 6].fill(0.0);
+        let (_, without) = case.kernel().distances_and_gradients(&case.offset, &case.steps);
+        assert!(without.iter().all(|value| value.is_finite()), "no division by zero");
+        // At step zero the offset alone makes the residual, and here it vanishes under a moving point.
+        let mut other = Case::new(dimension, 40, 6, 1);
+        other.steps.fill(0.0);
+        other.offset[..dimension].fill(0.0);
+        let (_, still) = other.kernel().distances_and_gradients(&other.offset, &other.steps);
+        other.rows[..dimension * 6].fill(0.0);
+        let (_, fixed) = other.kernel().distances_and_gradients(&other.offset, &other.steps);
+        assert_eq!(still, fixed, "r = 0 adds nothing, whatever R is");
+        assert_ne!(all, without, "and the point counted before");
+    }
+}
+
+#[test]
+fn gradients_have_the_same_bits_whatever_runs_beside_them() {
+    // From 16 groups on, threads take groups and not blocks of points.
+    let case = Case::new(3, 300, 7, 600);
+    let kernel = case.kernel();
+    let whole = kernel.distances_and_gradients(&case.offset, &case.steps);
+    for (first, batch) in [(0, 1), (3, 17), (40, 64), (599, 1)] {
+        let part = &case.steps[first * 7..(first + batch) * 7];
+        let found = kernel.distances_and_gradients(&case.offset, part);
+        assert_eq!(found.0, whole.0[first..first + batch], "distances from number {first}");
+        assert_eq!(found.1, whole.1[first * 7..(first + batch) * 7], "gradients from {first}");
+    }
+}
+
 #[test]
 fn single_precision_changes_log_p_by_less_than_a_thousandth_at_posterior_draws() {
     let (a, b) = face_like_pair(600, 12);

@@ -21,22 +21,21 @@ impl<'a> Distances<'a> {
         Self { side, centre, offset }
     }
 
-    pub(super) fn of(&self, points: &[f64]) -> Vec<f64> {
-        let steps: Vec<f64> = points
+    /// Steps from the centre.
+    fn steps(&self, points: &[f64]) -> Vec<f64> {
+        points
             .chunks_exact(self.centre.len())
             .flat_map(|point| point.iter().zip(&self.centre).map(|(a, c)| a - c))
-            .collect();
-        self.side.kernel().distances(&self.offset, &steps)
+            .collect()
+    }
+
+    pub(super) fn of(&self, points: &[f64]) -> Vec<f64> {
+        self.side.kernel().distances(&self.offset, &self.steps(points))
     }
 
     /// The same, with ∇d of each (B × q).
-    fn with_gradients(&self, points: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        let modes = self.centre.len();
-        let found = parallel::map(points.len() / modes, |index| {
-            self.side.distance_and_gradient(&points[index * modes..(index + 1) * modes])
-        });
-        let (distances, gradients): (Vec<_>, Vec<_>) = found.into_iter().unzip();
-        (distances, gradients.concat())
+    pub(super) fn with_gradients(&self, points: &[f64]) -> (Vec<f64>, Vec<f64>) {
+        self.side.kernel().distances_and_gradients(&self.offset, &self.steps(points))
     }
 }
 
