@@ -24,7 +24,7 @@ pub use settings::{Sampler, Settings, SettingsError};
 use serde::Serialize;
 
 use crate::compare::{
-    Difference, Fit, Intersection, Joint, Pair, Side, Tolerance, recommended_tolerance,
+    Difference, Fit, Intersection, Joint, JointModel, Pair, Side, Tolerance, recommended_tolerance,
     without_distance,
 };
 use crate::model::LinearModel;
@@ -102,7 +102,7 @@ pub struct Comparison {
 #[derive(Debug)]
 struct Finished {
     report: Report,
-    intersection: LinearModel,
+    intersection: JointModel,
 }
 
 impl Comparison {
@@ -226,9 +226,11 @@ impl Comparison {
         &self.settings
     }
 
-    /// The intersection model, once the run is done.
-    pub fn intersection(&self) -> Option<&LinearModel> {
-        self.finished.as_ref().map(|finished| &finished.intersection)
+    /// The intersection model, once the run is done. Its modes are formed for this: it takes as much
+    /// memory as the smaller model.
+    pub fn intersection(&self) -> Option<LinearModel> {
+        let finished = self.finished.as_ref()?;
+        Some(self.dressed(self.joint.as_ref()?.formed(&finished.intersection)))
     }
 
     /// The report, once the run is done; `seconds` as the caller's clock measured them.

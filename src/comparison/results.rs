@@ -3,12 +3,12 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{Comparison, ComparisonError, Finished, Stage, summary};
-use crate::compare::{Joint, Moments};
+use crate::compare::{Joint, JointModel, Moments};
 use crate::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, bhattacharyya_distance,
     mean_vertex_distance, principal_angles, vertex_standard_deviations,
 };
-use crate::model::{LinearModel, cross};
+use crate::model::LinearModel;
 use crate::report::{
     DifferenceReport, Differences, Grassmann, IntersectionReport, MeanSd, Models, Overlap, Report,
     SCHEMA, Seconds, Sides, Spread,
@@ -124,15 +124,9 @@ impl Comparison {
         Some(Moments { mean: gaussian.mean().clone(), covariance: gaussian.covariance() })
     }
 
-    /// The intersection model from what there is.
-    pub(super) fn intersection_so_far(&self) -> Option<LinearModel> {
-        self.model_of(&self.pooled_moments()?)
-    }
-
-    /// The model with these joint-basis moments.
-    fn model_of(&self, moments: &Moments) -> Option<LinearModel> {
-        let model = self.joint.as_ref()?.model(moments, self.most_modes())?;
-        Some(self.dressed(model))
+    /// The intersection model from what there is, in the joint basis.
+    pub(super) fn intersection_so_far(&self) -> Option<JointModel> {
+        self.joint.as_ref()?.principal_components(&self.pooled_moments()?, self.most_modes())
     }
 
     /// Joint-basis moments of the intersection from what there is: both sides pooled equally.
@@ -149,7 +143,7 @@ impl Comparison {
     }
 
     /// A model that lies in A's frame, with A's cells, unit and kind.
-    fn dressed(&self, model: LinearModel) -> LinearModel {
+    pub(super) fn dressed(&self, model: LinearModel) -> LinearModel {
         let a = self.pair.a();
         let name = "A ∩ B";
         let plain = model.with_name(name).with_kind(a.kind()).with_unit(a.unit());
@@ -160,7 +154,9 @@ impl Comparison {
         let (Some(joint), Some(moments)) = (&self.joint, self.pooled_moments()) else {
             return Err(ComparisonError::FlatIntersection);
         };
-        let intersection = self.model_of(&moments).ok_or(ComparisonError::FlatIntersection)?;
+        let intersection = joint
+            .principal_components(&moments, self.most_modes())
+            .ok_or(ComparisonError::FlatIntersection)?;
         let sides = [0, 1].map(|side| summary::of_chains(self.chains[side].draws()));
         let [grassmann, grassmann_affine] = grassmann(joint, &intersection);
         let distances: Vec<f64> = self
@@ -175,8 +171,8 @@ impl Comparison {
             models: Models { a, b },
             settings: self.settings.clone(),
             intersection: IntersectionReport {
-                modes: intersection.mode_count(),
-                standard_deviations: intersection.standard_deviations().as_slice().to_vec(),
+                modes: intersection.standard_deviations.len(),
+                standard_deviations: intersection.standard_deviations.as_slice().to_vec(),
                 total_variance: intersection.total_variance(),
                 variance_kept: intersection.total_variance() / moments.covariance.trace(),
                 mean_distance: MeanSd::of(&distances),
@@ -184,7 +180,7 @@ impl Comparison {
                 grassmann_affine,
                 diagnostics: summary::worst(&sides[0], &sides[1]),
                 sides: Sides { a: sides[0], b: sides[1] },
-                vertex_sd: Spread::of(&intersection.vertex_standard_deviations()),
+                vertex_sd: Spread::of(&joint.vertex_standard_deviations(&intersection)),
             },
             differences: Differences {
                 a_without_b: self.difference(0),
@@ -242,9 +238,8 @@ impl Comparison {
 
 /// Affine Grassmann distances of the intersection, the paper's and Lim's, in coordinates that hold
 /// all of the spaces: the joint basis, and the direction in which A's mean leaves it.
-fn grassmann(joint: &Joint, intersection: &LinearModel) -> [Grassmann; 2] {
-    let inside = joint.basis().tr_mul(joint.origin());
-    let outside = (joint.origin() - joint.basis() * &inside).norm();
+fn grassmann(joint: &Joint, intersection: &JointModel) -> [Grassmann; 2] {
+    let (inside, outside) = joint.coordinates_of(joint.origin());
     let space = |mean: &DVector<f64>, basis: DMatrix<f64>| AffineSpace {
         point: (mean + &inside).insert_row(inside.len(), outside),
         basis: basis.insert_row(inside.len(), 0.0),
@@ -255,8 +250,7 @@ fn grassmann(joint: &Joint, intersection: &LinearModel) -> [Grassmann; 2] {
         space(joint.mean(1), joint.modes(1)),
         space(&union.mean, union.principal_components().0),
     ];
-    let mean = joint.basis().tr_mul(&(intersection.mean() - joint.origin()));
-    let both = space(&mean, cross(joint.basis(), intersection.basis()));
+    let both = space(&intersection.mean, intersection.modes.clone());
     [Displacement::Unit, Displacement::Full].map(|displacement| {
         let [to_a, to_b, to_union] =
             [0, 1, 2].map(|k| affine_grassmann_distance(&both, &others[k], displacement));
