@@ -214,14 +214,14 @@ pub fn write(comparison: &Comparison, seconds: Seconds, what: &Download) -> Resu
     };
     Ok(match what {
         Download::IntersectionH5 => {
-            let bytes = formats::write_statismo(intersection()?)?;
+            let bytes = formats::write_statismo(&intersection()?)?;
             written("intersection.h5", "application/x-hdf5", bytes)
         }
         Download::IntersectionNpz => {
-            written("intersection.npz", BINARY, formats::write_npz(intersection()?)?)
+            written("intersection.npz", BINARY, formats::write_npz(&intersection()?)?)
         }
         Download::DrawsNpz => {
-            intersection()?;
+            comparison.report(seconds).ok_or(Error::NothingYet)?;
             written("draws.npz", BINARY, write_draws(&comparison.results()))
         }
         Download::ReportJson => {

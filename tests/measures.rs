@@ -261,7 +261,7 @@ fn the_joint_basis_holds_both_models() {
         let size = joint.basis().ncols();
         let name = format!("{modes_a} and {modes_b} modes of {points} points");
         assert!(size <= (modes_a + modes_b + 1).min(3 * points), "{name}: {size} dimensions");
-        let gram = joint.basis().tr_mul(joint.basis());
+        let gram = joint.basis().tr_mul(&joint.basis());
         assert!((gram - DMatrix::identity(size, size)).amax() < 1e-13, "{name}: orthonormal");
         for (side, from) in pair.models().into_iter().enumerate() {
             let prior = joint.prior(side);

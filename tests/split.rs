@@ -116,7 +116,7 @@ fn draws_recover_the_shared_modes_as_well_as_their_number_allows() {
         let split = split(1 + seed % 3);
         let settings = Settings { sigma: Some(SIGMA), draws: 2512, seed, ..Settings::default() };
         let run = compared(&split.a, &split.b, settings);
-        let distance = grassmann(run.intersection().unwrap(), &split.shared, SHARED);
+        let distance = grassmann(&run.intersection().unwrap(), &split.shared, SHARED);
         let theory = sampling_error(&closed_form(&split).1, 2.0 * 2512.0);
         squares.push((distance / theory) * (distance / theory));
         distances.push(distance);
@@ -139,7 +139,7 @@ fn a_short_random_walk_does_not() {
         ..Settings::of(Sampler::PaperCorrected)
     };
     let run = compared(&split.a, &split.b, settings);
-    let distance = grassmann(run.intersection().unwrap(), &split.shared, SHARED);
+    let distance = grassmann(&run.intersection().unwrap(), &split.shared, SHARED);
     let theory = sampling_error(&closed_form(&split).1, 5000.0);
     assert!(distance > 1.5 * theory, "{distance} is within 1.5 times {theory}");
 }

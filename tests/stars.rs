@@ -16,7 +16,7 @@ fn the_first_star_pair_is_recovered() {
             let settings =
                 Settings { sigma: Some(0.003), seed, draws: 2496, ..Settings::default() };
             let run = compared(&a, &b, settings);
-            grassmann(run.intersection().unwrap(), &known, 2)
+            grassmann(&run.intersection().unwrap(), &known, 2)
         })
         .collect();
     let mean = distances.iter().sum::<f64>() / 5.0;

@@ -3,18 +3,29 @@
 //! All shapes of both models lie in m₁ + span[E₁, E₂, m₂ − m₁], at most q₁ + q₂ + 1 dimensions. PCA
 //! of the pooled draws is done there, exactly and in milliseconds; never in the d·n space.
 //!
+//! The basis itself is not held, but how it mixes those columns. With M = [E₂, δ], δ the direction from m₁
+//! to m₂, and K = E₁ᵀM, what of M lies beyond E₁ has the Gram matrix H = MᵀM − KᵀK = W diag(s²) Wᵀ, s the
+//! sines of the principal angles, and (M − E₁K) W/s is an orthonormal basis of it. H has s² to 10⁻¹⁶,
+//! which is enough for sines above 0.03. The directions below, nearly inside A, are formed, taken
+//! apart by a thin SVD that finds their sines to 10⁻¹⁶, and made orthogonal twice.
+//! Cost: 2·d·n·q₁·q₂; memory: nothing in d·n but the directions nearly inside.
+//!
 //! Both sides count equally, by moments: C = ½ΣCᵢ + ½Σ(mᵢ − m)(mᵢ − m)ᵀ. Weighing them by their
 //! evidence is no use: L_P is not normalised on a common measure, so the evidence of a side
 //! depends on the volume of its own coordinates.
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::model::{LinearModel, cross, product, thin_svd};
+use crate::model::{
+    LinearModel, cross, gram, lengths, product, product_of, row_squares_of, thin_svd,
+};
 
 /// Directions of B's basis that lie in A's to this share are not new ones.
 const SMALLEST_NEW_DIRECTION: f64 = 1e-9;
-/// Sines below which a direction is made orthogonal to A's basis a second time.
-const NEARLY_INSIDE: f64 = 1e-4;
+/// Sines below which a direction is formed.
+const NEARLY_INSIDE: f64 = 0.03;
+/// Directions that are formed together.
+const BATCH: usize = 16;
 /// Eigenvalues of the intersection below this share of the largest are rounding.
 const SMALLEST_EIGENVALUE: f64 = 1e-10;
 
@@ -36,20 +47,13 @@ impl Moments {
             mean += DVector::from_column_slice(draw);
         }
         mean /= count.max(1.0);
-        let mut covariance = DMatrix::zeros(dimension, dimension);
-        let mut centred = vec![0.0; dimension];
-        for draw in draws {
-            for (target, (value, centre)) in centred.iter_mut().zip(draw.iter().zip(mean.iter())) {
-                *target = value - centre;
-            }
-            for column in 0..dimension {
-                for row in 0..=column {
-                    covariance[(row, column)] += centred[row] * centred[column];
-                }
+        let mut centred = DMatrix::zeros(draws.clone().count(), dimension);
+        for (row, draw) in draws.enumerate() {
+            for (column, (value, centre)) in draw.iter().zip(mean.iter()).enumerate() {
+                centred[(row, column)] = value - centre;
             }
         }
-        covariance.fill_lower_triangle_with_upper_triangle();
-        Self { mean, covariance: covariance / (count - 1.0).max(1.0) }
+        Self { mean, covariance: gram(&centred) / (count - 1.0).max(1.0) }
     }
 
     /// Of the equal mixture of two laws.
@@ -61,31 +65,77 @@ impl Moments {
         Self { mean, covariance }
     }
 
-    /// F with F Fᵀ = covariance.
+    /// F with F Fᵀ = covariance: Cholesky with pivots, as many columns as the rank.
     pub fn factor(&self) -> DMatrix<f64> {
-        let svd = thin_svd(&self.covariance);
-        let mut factor = svd.left;
-        for (mut column, value) in factor.column_iter_mut().zip(svd.values.iter()) {
-            column *= value.sqrt();
+        let size = self.mean.len();
+        let mut rest = self.covariance.clone();
+        let floor = f64::EPSILON * rest.diagonal().iter().copied().fold(0.0, f64::max);
+        let mut columns: Vec<DVector<f64>> = Vec::new();
+        while columns.len() < size {
+            let (pivot, largest) = rest.diagonal().argmax();
+            if largest <= floor {
+                break;
+            }
+            let column = rest.column(pivot) / largest.sqrt();
+            rest.ger(-1.0, &column, &column, 1.0);
+            columns.push(column);
         }
-        factor
+        if columns.is_empty() { DMatrix::zeros(size, 0) } else { DMatrix::from_columns(&columns) }
     }
 
     /// Eigenvectors and eigenvalues of the covariance, largest first, without rounding.
     pub fn principal_components(&self) -> (DMatrix<f64>, DVector<f64>) {
-        let svd = thin_svd(&self.covariance);
-        let floor = SMALLEST_EIGENVALUE * svd.values[0];
-        let kept = svd.values.iter().take_while(|&&value| value > floor).count();
-        (svd.left.columns(0, kept).into_owned(), svd.values.rows(0, kept).into_owned())
+        let (vectors, values) = eigen(self.covariance.clone());
+        let floor = SMALLEST_EIGENVALUE * values[0].max(0.0);
+        let kept = values.iter().take_while(|&&value| value > floor).count();
+        (vectors.columns(0, kept).into_owned(), values.rows(0, kept).into_owned())
+    }
+}
+
+/// Eigenvectors and eigenvalues of a symmetric matrix, largest first; the largest entry of every vector is
+/// positive.
+fn eigen(matrix: DMatrix<f64>) -> (DMatrix<f64>, DVector<f64>) {
+    let found = matrix.symmetric_eigen();
+    let mut order: Vec<usize> = (0..found.eigenvalues.len()).collect();
+    order.sort_by(|&i, &j| found.eigenvalues[j].total_cmp(&found.eigenvalues[i]));
+    let mut vectors = found.eigenvectors.select_columns(&order);
+    for mut vector in vectors.column_iter_mut() {
+        if vector[vector.iamax()] < 0.0 {
+            vector.neg_mut();
+        }
+    }
+    (vectors, found.eigenvalues.select_rows(&order))
+}
+
+/// A linear model in the joint basis: mean and principal components, none of them as a shape.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointModel {
+    /// Mean (p).
+    pub mean: DVector<f64>,
+    /// Orthonormal modes (p × q), largest variance first.
+    pub modes: DMatrix<f64>,
+    /// Their standard deviations (q).
+    pub standard_deviations: DVector<f64>,
+}
+
+impl JointModel {
+    /// Σ λᵢ, in the square of the unit.
+    pub fn total_variance(&self) -> f64 {
+        self.standard_deviations.norm_squared()
     }
 }
 
 /// x = m₁ + B c for every shape of both models, B orthonormal (d·n × p).
 #[derive(Debug, Clone)]
 pub struct Joint {
-    dimension: usize,
-    origin: DVector<f64>,
-    basis: DMatrix<f64>,
+    /// Their bases are shared with those that were given.
+    models: [LinearModel; 2],
+    /// δ (d·n × 1), without a column when the means are the same.
+    apart: DMatrix<f64>,
+    /// F: directions that are nearly inside A (d·n × t).
+    formed: DMatrix<f64>,
+    /// How B mixes [E₁ E₂ δ F], as many rows as those have columns, × p.
+    mixing: DMatrix<f64>,
     /// Bᵀ(mᵢ − m₁).
     means: [DVector<f64>; 2],
     /// BᵀUᵢ.
@@ -95,62 +145,136 @@ pub struct Joint {
 impl Joint {
     /// Spans both models (in the same frame).
     pub fn new(a: &LinearModel, b: &LinearModel) -> Self {
+        let (inside, others) = (a.mode_count(), b.mode_count());
         let apart = b.mean() - a.mean();
-        let mut others = b.basis().clone().insert_column(b.mode_count(), 0.0);
         let length = apart.norm();
-        if length > 0.0 {
-            others.set_column(b.mode_count(), &(&apart / length));
+        let directions = usize::from(length > 0.0);
+        let apart = DMatrix::from_fn(apart.len(), directions, |row, _| apart[row] / length);
+
+        // H, with the parts of E₂ᵀE₂ = I that are known.
+        let leaning = side_by_side(&[&cross(a.basis(), b.basis()), &cross(a.basis(), &apart)]);
+        let mut beyond = DMatrix::identity(others + directions, others + directions);
+        let across = cross(b.basis(), &apart);
+        beyond.view_mut((0, others), across.shape()).copy_from(&across);
+        beyond.view_mut((others, 0), (directions, others)).copy_from(&across.transpose());
+        beyond -= gram(&leaning);
+        let (vectors, squares) = eigen(beyond);
+        let clear =
+            squares.iter().take_while(|&&value| value > NEARLY_INSIDE * NEARLY_INSIDE).count();
+        let mut sines = vectors.columns(0, clear).transpose();
+        let mut turned = vectors.columns(0, clear).into_owned();
+        for (index, square) in squares.iter().take(clear).enumerate() {
+            sines.row_mut(index).scale_mut(square.sqrt());
+            turned.column_mut(index).unscale_mut(square.sqrt());
         }
-        let remove = |matrix: DMatrix<f64>| {
-            let inside = cross(a.basis(), &matrix);
-            matrix - product(a.basis(), &inside)
+
+        let (rows, kept) = (inside + others + directions, inside + clear);
+        let mut mixing = DMatrix::zeros(rows, kept);
+        mixing.view_mut((0, 0), (inside, inside)).fill_with_identity();
+        mixing.view_mut((0, inside), (inside, clear)).copy_from(&-product(&leaning, &turned));
+        mixing.view_mut((inside, inside), turned.shape()).copy_from(&turned);
+        let mut joint = Self {
+            models: [a.clone(), b.clone()],
+            formed: DMatrix::zeros(apart.nrows(), 0),
+            apart,
+            mixing,
+            means: [DVector::zeros(0), DVector::zeros(0)],
+            scaled: [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)],
         };
-        let svd = thin_svd(&remove(others));
-        let new = svd.values.iter().take_while(|&&value| value > SMALLEST_NEW_DIRECTION).count();
-        let mut beyond = svd.left.columns(0, new).into_owned();
-        if new > 0 && svd.values[new - 1] < NEARLY_INSIDE {
-            // Directions that were nearly inside have lost digits to cancellation: once more.
-            beyond = thin_svd(&remove(beyond)).left;
+        let nearly = vectors.columns(clear, others + directions - clear);
+        for first in (0..nearly.ncols()).step_by(BATCH) {
+            let count = BATCH.min(nearly.ncols() - first);
+            joint.form(&nearly.columns(first, count).into_owned());
         }
-        let mut basis = a.basis().clone().insert_columns(a.mode_count(), new, 0.0);
-        basis.columns_mut(a.mode_count(), new).copy_from(&beyond);
-        Self {
-            dimension: a.dimension(),
-            origin: a.mean().clone(),
-            means: [DVector::zeros(basis.ncols()), basis.tr_mul(&apart)],
-            scaled: [cross(&basis, &a.scaled_basis()), cross(&basis, &b.scaled_basis())],
-            basis,
+
+        // Bᵀ[E₂ δ] is K, diag(s) Wᵀ and what the formed directions see.
+        let seen =
+            side_by_side(&[&cross(&joint.formed, b.basis()), &cross(&joint.formed, &joint.apart)]);
+        let coordinates = stacked(&[&leaning, &sines, &seen]);
+        let size = coordinates.nrows();
+        let mut scaled = coordinates.columns(0, others).into_owned();
+        for (mut column, deviation) in scaled.column_iter_mut().zip(b.standard_deviations().iter())
+        {
+            column *= *deviation;
         }
+        let mut own = DMatrix::zeros(size, inside);
+        own.set_diagonal(a.standard_deviations());
+        joint.scaled = [own, scaled];
+        let mean = coordinates.columns(others, directions).column_sum() * length;
+        joint.means = [DVector::zeros(size), mean];
+        joint
     }
 
-    /// B (d·n × p).
-    pub fn basis(&self) -> &DMatrix<f64> {
-        &self.basis
+    /// Adds what there is beyond the basis in these mixtures of [E₂ δ], all nearly inside A.
+    fn form(&mut self, mixtures: &DMatrix<f64>) {
+        let remove =
+            |matrix: DMatrix<f64>| &matrix - self.shapes(&self.coordinates_of_columns(&matrix));
+        let columns = product_of(&[self.models[1].basis(), &self.apart], mixtures);
+        let beyond = remove(columns);
+        let floor = SMALLEST_NEW_DIRECTION / (BATCH as f64);
+        let inside: Vec<usize> =
+            (0..beyond.ncols()).filter(|&index| beyond.column(index).norm() <= floor).collect();
+        let svd = thin_svd(&beyond.remove_columns_at(&inside));
+        let new = svd.values.iter().take_while(|&&value| value > SMALLEST_NEW_DIRECTION).count();
+        if new == 0 {
+            return;
+        }
+        // They have lost digits to cancellation: once more.
+        let found = thin_svd(&remove(svd.left.columns(0, new).into_owned())).left;
+        self.formed = side_by_side(&[&self.formed, &found]);
+        let (rows, columns) = self.mixing.shape();
+        let mut mixing = DMatrix::zeros(rows + new, columns + new);
+        mixing.view_mut((0, 0), (rows, columns)).copy_from(&self.mixing);
+        mixing.view_mut((rows, columns), (new, new)).fill_with_identity();
+        self.mixing = mixing;
+    }
+
+    /// [E₁ E₂ δ F].
+    fn parts(&self) -> [&DMatrix<f64>; 4] {
+        [self.models[0].basis(), self.models[1].basis(), &self.apart, &self.formed]
+    }
+
+    /// BX for coordinates X (p × k), d·n × k.
+    fn shapes(&self, coordinates: &DMatrix<f64>) -> DMatrix<f64> {
+        product_of(&self.parts(), &product(&self.mixing, coordinates))
+    }
+
+    /// BᵀY for shapes Y (d·n × k), p × k.
+    fn coordinates_of_columns(&self, shapes: &DMatrix<f64>) -> DMatrix<f64> {
+        let seen = self.parts().map(|part| cross(part, shapes));
+        cross(&self.mixing, &stacked(&seen.each_ref()))
+    }
+
+    /// p.
+    pub fn dimension(&self) -> usize {
+        self.mixing.ncols()
+    }
+
+    /// B (d·n × p), formed.
+    pub fn basis(&self) -> DMatrix<f64> {
+        product_of(&self.parts(), &self.mixing)
     }
 
     /// m₁ (d·n).
     pub fn origin(&self) -> &DVector<f64> {
-        &self.origin
+        self.models[0].mean()
     }
 
-    /// Bᵀm₁ (p), and how far m₁ lies from span B: where the origin of the coordinates of the points is.
-    pub fn origin_coordinates(&self) -> (DVector<f64>, f64) {
-        let inside = self.basis.tr_mul(&self.origin);
-        let outside = (&self.origin - &self.basis * &inside).norm();
-        (inside, outside)
-    }
-
-    /// The shape at the given coordinates (d·n).
-    pub fn shape(&self, coordinates: &DVector<f64>) -> DVector<f64> {
-        &self.origin + &self.basis * coordinates
+    /// The coordinates Bᵀx of a vector x (d·n, a displacement), and the length of what lies outside.
+    pub fn coordinates_of(&self, vector: &DVector<f64>) -> (DVector<f64>, f64) {
+        let column = DMatrix::from_column_slice(vector.len(), 1, vector.as_slice());
+        let inside = self.coordinates_of_columns(&column);
+        let outside = (&column - self.shapes(&inside)).norm();
+        (inside.column(0).into_owned(), outside)
     }
 
     /// The law of shapes of side 0 (A) or 1 (B) whose coefficients have the given moments.
     pub fn lift(&self, side: usize, coefficients: &Moments) -> Moments {
         let scaled = &self.scaled[side];
+        let half = product(scaled, &coefficients.covariance);
         Moments {
             mean: &self.means[side] + scaled * &coefficients.mean,
-            covariance: scaled * &coefficients.covariance * scaled.transpose(),
+            covariance: product(&half, &scaled.transpose()),
         }
     }
 
@@ -170,24 +294,70 @@ impl Joint {
 
     /// The prior law of model A (0) or B (1).
     pub fn prior(&self, side: usize) -> Moments {
-        let scaled = &self.scaled[side];
-        Moments { mean: self.means[side].clone(), covariance: scaled * scaled.transpose() }
+        let rows = self.scaled[side].transpose();
+        Moments { mean: self.means[side].clone(), covariance: gram(&rows) }
+    }
+
+    /// The leading principal components, `most` at the most; `None` when nothing varies.
+    pub fn principal_components(&self, moments: &Moments, most: usize) -> Option<JointModel> {
+        let (vectors, values) = moments.principal_components();
+        let kept = values.len().min(most);
+        (kept > 0).then(|| JointModel {
+            mean: moments.mean.clone(),
+            modes: vectors.columns(0, kept).into_owned(),
+            standard_deviations: values.rows(0, kept).map(f64::sqrt),
+        })
+    }
+
+    /// The shape m₁ + B c (d·n) with coordinates c (p).
+    pub fn shape(&self, coordinates: &DVector<f64>) -> DVector<f64> {
+        let column = DMatrix::from_column_slice(coordinates.len(), 1, coordinates.as_slice());
+        self.origin() + self.shapes(&column).column(0)
+    }
+
+    /// Per-vertex standard deviation (n) of a model in this basis; its modes are not formed.
+    pub fn vertex_standard_deviations(&self, model: &JointModel) -> Vec<f64> {
+        let mut scaled = model.modes.clone();
+        for (mut column, deviation) in
+            scaled.column_iter_mut().zip(model.standard_deviations.iter())
+        {
+            column *= *deviation;
+        }
+        let squares = row_squares_of(&self.parts(), &product(&self.mixing, &scaled));
+        lengths(&squares, self.models[0].dimension())
+    }
+
+    /// A model in this basis as a model of shapes; this forms its modes (d·n × q).
+    pub fn formed(&self, model: &JointModel) -> LinearModel {
+        LinearModel::from_orthonormal(
+            self.models[0].dimension(),
+            self.shape(&model.mean),
+            self.shapes(&model.modes),
+            model.standard_deviations.clone(),
+        )
     }
 
     /// The model of the leading principal components, `most` at the most; `None` when nothing varies.
     pub fn model(&self, moments: &Moments, most: usize) -> Option<LinearModel> {
-        let (vectors, values) = moments.principal_components();
-        let kept = values.len().min(most);
-        if kept == 0 {
-            return None;
-        }
-        let vectors = vectors.columns(0, kept).into_owned();
-        let values = values.rows(0, kept);
-        Some(LinearModel::from_orthonormal(
-            self.dimension,
-            &self.origin + &self.basis * &moments.mean,
-            product(&self.basis, &vectors),
-            values.map(f64::sqrt),
-        ))
+        Some(self.formed(&self.principal_components(moments, most)?))
     }
+}
+
+/// [X₁ X₂ …]
+fn side_by_side(parts: &[&DMatrix<f64>]) -> DMatrix<f64> {
+    let columns = parts.iter().map(|part| part.ncols()).sum();
+    let values = parts.iter().flat_map(|part| part.as_slice()).copied();
+    DMatrix::from_iterator(parts[0].nrows(), columns, values)
+}
+
+/// [X₁; X₂; …]
+fn stacked(parts: &[&DMatrix<f64>]) -> DMatrix<f64> {
+    let rows = parts.iter().map(|part| part.nrows()).sum();
+    let mut all = DMatrix::zeros(rows, parts[0].ncols());
+    let mut first = 0;
+    for part in parts {
+        all.rows_mut(first, part.nrows()).copy_from(part);
+        first += part.nrows();
+    }
+    all
 }

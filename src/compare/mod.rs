@@ -16,7 +16,7 @@ pub use fit::{
     Fit, FitMethod, expected_distance, fit_reweighted, fit_rms, fit_variational_step,
     without_distance,
 };
-pub use joint::{Joint, Moments};
+pub use joint::{Joint, JointModel, Moments};
 pub use kernel::DistanceKernel;
 pub use meeting::{Meeting, nearest_meeting, plausible_radius};
 pub use pair::{Pair, PairError, Side};

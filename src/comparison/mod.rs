@@ -28,8 +28,8 @@ pub use settings::{FitChoice, Plausibility, Pooling, Sampler, Settings, Settings
 use serde::Serialize;
 
 use crate::compare::{
-    Difference, Joint, Meeting, Pair, Side, Tolerance, nearest_meeting, plausible_radius,
-    recommended_tolerance,
+    Difference, Joint, JointModel, Meeting, Pair, Side, Tolerance, nearest_meeting,
+    plausible_radius, recommended_tolerance,
 };
 use crate::model::LinearModel;
 use crate::report::{ModelReport, Report, Seconds};
@@ -103,7 +103,7 @@ pub struct Comparison {
 #[derive(Debug)]
 struct Finished {
     report: Report,
-    intersection: LinearModel,
+    intersection: JointModel,
 }
 
 impl Comparison {
@@ -226,9 +226,11 @@ impl Comparison {
         &self.settings
     }
 
-    /// The intersection model, once the run is done.
-    pub fn intersection(&self) -> Option<&LinearModel> {
-        self.finished.as_ref().map(|finished| &finished.intersection)
+    /// The intersection model, once the run is done. Its modes are formed for this: it takes as much
+    /// memory as the smaller model.
+    pub fn intersection(&self) -> Option<LinearModel> {
+        let finished = self.finished.as_ref()?;
+        Some(self.dressed(self.joint.as_ref()?.formed(&finished.intersection)))
     }
 
     /// The report, once the run is done; `seconds` as the caller's clock measured them.

@@ -84,8 +84,9 @@ impl Comparison {
         let fits = self.fits_at(sigma)?;
         let prediction = self.predicted(sigma, &[&fits[0], &fits[1]])?;
         let model = self.model_of(&self.moments_of(&fits)?)?;
+        let joint = self.joint.as_ref()?;
         let mut random = stream(seed, Stream::Display, 2, 0);
-        let mut samples = Vec::with_capacity(count * model.mean().len());
+        let mut samples = Vec::with_capacity(count * joint.origin().len());
         for index in 0..count {
             let from = self.pair.models()[index % 2];
             let mut z = vec![0.0; from.mode_count()];
@@ -95,8 +96,8 @@ impl Comparison {
             samples.extend(single(from.shape(&point).iter()));
         }
         let shapes = RegionShapes {
-            mean: single(model.mean().iter()),
-            vertex_sd: single(&model.vertex_standard_deviations()),
+            mean: single(joint.shape(&model.mean).iter()),
+            vertex_sd: single(&joint.vertex_standard_deviations(&model)),
             samples,
             count,
             source: ShapeSource::Fit,
@@ -114,7 +115,7 @@ impl Comparison {
         let fits = self.fits_at(sigma)?;
         let moments = self.moments_of(&fits)?;
         let joint = self.joint.as_ref()?;
-        let [paper, _] = grassmann(joint, &moments, self.most_modes());
+        let [paper, _] = grassmann(joint, &self.model_of(&moments)?);
         let variance = moments.covariance.trace() / self.pair.a().point_count() as f64;
         Some(SweepPoint {
             prediction: self.predicted(sigma, &[&fits[0], &fits[1]])?,

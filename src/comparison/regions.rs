@@ -106,6 +106,7 @@ impl Comparison {
     }
 
     fn intersection_shapes(&self, count: usize, seed: u64) -> Option<RegionShapes> {
+        let joint = self.joint.as_ref()?;
         let model = match &self.finished {
             Some(finished) => Cow::Borrowed(&finished.intersection),
             None => Cow::Owned(self.intersection_so_far()?),
@@ -115,7 +116,7 @@ impl Comparison {
         let enough = if self.has_fits() { count.max(1) } else { 1 };
         let drawn = draws.len() == 2 && draws.iter().all(|draws| draws.len() >= enough);
         let mut random = stream(seed, Stream::Display, 2, 0);
-        let mut samples = Vec::with_capacity(count * model.mean().len());
+        let mut samples = Vec::with_capacity(count * joint.origin().len());
         for index in 0..count {
             let side = index % 2;
             let from = self.pair.models()[side];
@@ -131,8 +132,8 @@ impl Comparison {
             samples.extend(single(shape.iter()));
         }
         Some(RegionShapes {
-            mean: single(model.mean().iter()),
-            vertex_sd: single(&model.vertex_standard_deviations()),
+            mean: single(joint.shape(&model.mean).iter()),
+            vertex_sd: single(&joint.vertex_standard_deviations(&model)),
             samples,
             count,
             source: if drawn { ShapeSource::Draws } else { ShapeSource::Fit },

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::accuracy::accuracy;
 use super::inference::Estimate;
 use super::{Comparison, ComparisonError, Finished, Pooling, Stage, summary};
-use crate::compare::{Joint, Moments};
+use crate::compare::{Joint, JointModel, Moments};
 use crate::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, bhattacharyya_distance,
     mean_vertex_distance, principal_angles, vertex_standard_deviations,
@@ -152,15 +152,14 @@ impl Results {
 }
 
 impl Comparison {
-    /// The intersection model from what there is.
-    pub(super) fn intersection_so_far(&self) -> Option<LinearModel> {
+    /// The intersection model from what there is, in the joint basis.
+    pub(super) fn intersection_so_far(&self) -> Option<JointModel> {
         self.model_of(&self.pooled_moments()?)
     }
 
     /// The model with these joint-basis moments.
-    pub(super) fn model_of(&self, moments: &Moments) -> Option<LinearModel> {
-        let model = self.joint.as_ref()?.model(moments, self.most_modes())?;
-        Some(self.dressed(model))
+    pub(super) fn model_of(&self, moments: &Moments) -> Option<JointModel> {
+        self.joint.as_ref()?.principal_components(moments, self.most_modes())
     }
 
     /// Joint-basis moments of the intersection from what there is: the chosen sides, pooled equally.
@@ -191,7 +190,7 @@ impl Comparison {
     }
 
     /// A model that lies in A's frame, with A's cells, unit and kind.
-    fn dressed(&self, model: LinearModel) -> LinearModel {
+    pub(super) fn dressed(&self, model: LinearModel) -> LinearModel {
         let a = self.pair.a();
         let name = "A ∩ B";
         let plain = model.with_name(name).with_kind(a.kind()).with_unit(a.unit());
@@ -207,7 +206,7 @@ impl Comparison {
         let intersection = self.model_of(&moments).ok_or(flat)?;
         let [(worst_a, modes_a), (worst_b, modes_b)] =
             [0, 1].map(|side| summary::of_inference(&self.inferences[side]));
-        let [grassmann, grassmann_affine] = grassmann(joint, &moments, self.most_modes());
+        let [grassmann, grassmann_affine] = grassmann(joint, &intersection);
         let distances: Vec<f64> = self
             .pooled_sides()
             .iter()
@@ -220,8 +219,8 @@ impl Comparison {
             models: Models { a, b },
             settings: self.settings.clone(),
             intersection: IntersectionReport {
-                modes: intersection.mode_count(),
-                standard_deviations: intersection.standard_deviations().as_slice().to_vec(),
+                modes: intersection.standard_deviations.len(),
+                standard_deviations: intersection.standard_deviations.as_slice().to_vec(),
                 total_variance: intersection.total_variance(),
                 variance_kept: intersection.total_variance() / moments.covariance.trace(),
                 mean_distance: MeanSd::of(&distances),
@@ -234,9 +233,14 @@ impl Comparison {
                 },
                 sides: Sides { a: worst_a, b: worst_b },
                 coefficients: Some(BothSides { a: modes_a, b: modes_b }),
-                vertex_sd: Spread::of(&intersection.vertex_standard_deviations()),
+                vertex_sd: Spread::of(&joint.vertex_standard_deviations(&intersection)),
                 inference: self.inference_report(),
-                accuracy: accuracy(joint, &estimates, &moments, intersection.mode_count()),
+                accuracy: accuracy(
+                    joint,
+                    &estimates,
+                    &moments,
+                    intersection.standard_deviations.len(),
+                ),
                 disagreement: self.disagreement(joint, &estimates, &moments),
                 tolerance: self.tolerance_report(),
             },
@@ -359,11 +363,10 @@ pub(super) fn pooled(joint: &Joint, estimates: &[(usize, Estimate)]) -> Option<M
     lifted.reduce(|first, second| Moments::pooled(&first, &second))
 }
 
-/// Affine Grassmann distances of the model of `moments` with `most` modes at the most, the paper's and
-/// Lim's, in coordinates that hold all of the spaces: the joint basis, and the direction in which A's mean
-/// leaves it.
-pub(super) fn grassmann(joint: &Joint, moments: &Moments, most: usize) -> [Grassmann; 2] {
-    let (inside, outside) = joint.origin_coordinates();
+/// Affine Grassmann distances of the intersection, the paper's and Lim's, in coordinates that hold
+/// all of the spaces: the joint basis, and the direction in which A's mean leaves it.
+pub(super) fn grassmann(joint: &Joint, intersection: &JointModel) -> [Grassmann; 2] {
+    let (inside, outside) = joint.coordinates_of(joint.origin());
     let space = |mean: &DVector<f64>, basis: DMatrix<f64>| AffineSpace {
         point: (mean + &inside).insert_row(inside.len(), outside),
         basis: basis.insert_row(inside.len(), 0.0),
@@ -374,8 +377,7 @@ pub(super) fn grassmann(joint: &Joint, moments: &Moments, most: usize) -> [Grass
         space(joint.mean(1), joint.modes(1)),
         space(&union.mean, union.principal_components().0),
     ];
-    let modes = moments.principal_components().0;
-    let both = space(&moments.mean, modes.columns(0, modes.ncols().min(most)).into_owned());
+    let both = space(&intersection.mean, intersection.modes.clone());
     [Displacement::Unit, Displacement::Full].map(|displacement| {
         let [to_a, to_b, to_union] =
             [0, 1, 2].map(|k| affine_grassmann_distance(&both, &others[k], displacement));

@@ -18,16 +18,16 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::model::thin_svd;
+use crate::model::{cross, product, singular_values};
 
 /// Principal angles between the column spaces of two orthonormal bases (rows alike), smallest first, in
 /// radians; as many as the smaller has columns.
 pub fn principal_angles(first: &DMatrix<f64>, second: &DMatrix<f64>) -> Vec<f64> {
     let (wide, narrow) =
         if first.ncols() < second.ncols() { (second, first) } else { (first, second) };
-    let product = wide.tr_mul(narrow);
-    let cosines = thin_svd(&product).values;
-    let sines = thin_svd(&(narrow - wide * &product)).values;
+    let leaning = cross(wide, narrow);
+    let cosines = singular_values(&leaning);
+    let sines = singular_values(&(narrow - product(wide, &leaning)));
     let count = narrow.ncols();
     (0..count)
         .map(|index| {

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::model::{LinearModel, product};
+use crate::model::{LinearModel, lengths, row_squares_of};
 
 /// Per-vertex standard deviation (n), √ of the trace of each point's covariance, of shapes of `model`
 /// whose coefficients have covariance F Fᵀ. No shape is formed: it is ‖U_v F‖.
@@ -11,14 +11,7 @@ pub fn vertex_standard_deviations(model: &LinearModel, factor: &DMatrix<f64>) ->
     for (mut row, deviation) in scaled.row_iter_mut().zip(model.standard_deviations().iter()) {
         row *= *deviation;
     }
-    let moved = product(model.basis(), &scaled);
-    let mut squares = vec![0.0; model.point_count()];
-    for column in moved.column_iter() {
-        for (vertex, point) in column.as_slice().chunks_exact(model.dimension()).enumerate() {
-            squares[vertex] += point.iter().map(|value| value * value).sum::<f64>();
-        }
-    }
-    squares.into_iter().map(f64::sqrt).collect()
+    lengths(&row_squares_of(&[model.basis()], &scaled), model.dimension())
 }
 
 /// Mean distance of corresponding points of two shapes (d·n each): eq. 10 of Weiherer et al. 2024.

@@ -1,11 +1,12 @@
 //! The model type, how it is built from a scaled basis, and how it is edited.
 
 use core::fmt;
+use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector, DVectorView};
 use serde::{Deserialize, Serialize};
 
-use super::thin_svd;
+use super::{gram, into_thin_svd};
 
 /// Modes whose standard deviation is below this share of the largest are dropped: a projection
 /// divides by the standard deviation.
@@ -209,7 +210,8 @@ pub struct LinearModel {
     unit: Unit,
     dimension: usize,
     mean: DVector<f64>,
-    basis: DMatrix<f64>,
+    /// Shared: a copy of a model costs a mean, not a basis.
+    basis: Arc<DMatrix<f64>>,
     standard_deviations: DVector<f64>,
     cells: Cells,
 }
@@ -244,19 +246,21 @@ impl LinearModel {
         if scaled_basis.iter().all(|&value| value == 0.0) {
             return Err(ModelError::NoVariance);
         }
-        let orthogonality_error = largest_cosine(&scaled_basis);
         let given = scaled_basis.ncols();
-        let svd = thin_svd(&scaled_basis);
-        drop(scaled_basis);
+        let scaled_basis = without_empty_columns(scaled_basis);
+        let gram = gram(&scaled_basis);
+        let orthogonality_error = largest_cosine(&gram);
+        let svd = into_thin_svd(scaled_basis, &gram);
         let floor = SMALLEST_RELATIVE_DEVIATION * svd.values[0];
         let kept = svd.values.iter().take_while(|&&value| value >= floor).count();
+        let dropped = svd.values.len() - kept;
         let model = Self {
             name: String::new(),
             kind: Kind::Shape,
             unit: Unit::Unknown,
             dimension,
             mean,
-            basis: svd.left.columns(0, kept).into_owned(),
+            basis: Arc::new(svd.left.remove_columns(kept, dropped)),
             standard_deviations: svd.values.rows(0, kept).into_owned(),
             cells: Cells::None,
         };
@@ -276,7 +280,7 @@ impl LinearModel {
             unit: Unit::Unknown,
             dimension,
             mean,
-            basis,
+            basis: Arc::new(basis),
             standard_deviations,
             cells: Cells::None,
         }
@@ -326,8 +330,11 @@ impl LinearModel {
     #[must_use]
     pub fn truncated(&self, modes: usize) -> Self {
         let kept = modes.clamp(1, self.mode_count());
+        if kept == self.mode_count() {
+            return self.clone();
+        }
         Self {
-            basis: self.basis.columns(0, kept).into_owned(),
+            basis: Arc::new(self.basis.columns(0, kept).into_owned()),
             standard_deviations: self.standard_deviations.rows(0, kept).into_owned(),
             ..self.clone()
         }
@@ -385,7 +392,7 @@ impl LinearModel {
 
     /// The scaled basis U = (√λ₁ u₁ … √λ_q u_q), d·n × q.
     pub fn scaled_basis(&self) -> DMatrix<f64> {
-        let mut scaled = self.basis.clone();
+        let mut scaled = self.basis.as_ref().clone();
         for (mut column, deviation) in scaled.column_iter_mut().zip(self.standard_deviations.iter())
         {
             column *= *deviation;
@@ -417,14 +424,14 @@ impl LinearModel {
     /// Root mean square displacement of every point from its mean position (n), in the unit of
     /// the model: √(Σ_c Σᵢ λᵢ u²).
     pub fn vertex_standard_deviations(&self) -> Vec<f64> {
-        let mut variance = vec![0.0; self.point_count()];
+        let mut squares = vec![0.0; self.mean.len()];
         for (mode, deviation) in self.basis.column_iter().zip(self.standard_deviations.iter()) {
-            for (vertex, point) in mode.as_slice().chunks_exact(self.dimension).enumerate() {
-                variance[vertex] +=
-                    deviation * deviation * point.iter().map(|value| value * value).sum::<f64>();
+            for (square, value) in squares.iter_mut().zip(mode) {
+                let scaled = deviation * value;
+                *square += scaled * scaled;
             }
         }
-        variance.into_iter().map(f64::sqrt).collect()
+        lengths(&squares, self.dimension)
     }
 
     /// Root mean square distance of the mean's points from their centroid: the size to which a
@@ -445,7 +452,7 @@ impl LinearModel {
     pub fn moved(&self, similarity: &super::Similarity) -> Self {
         let mut moved = self.clone();
         similarity.move_points(moved.mean.as_mut_slice());
-        for mut mode in moved.basis.column_iter_mut() {
+        for mut mode in Arc::make_mut(&mut moved.basis).column_iter_mut() {
             similarity.turn_directions(mode.as_mut_slice());
         }
         moved.standard_deviations *= similarity.scale();
@@ -453,16 +460,27 @@ impl LinearModel {
     }
 }
 
-fn largest_cosine(matrix: &DMatrix<f64>) -> f64 {
-    let gram = super::cross(matrix, matrix);
+/// √ of the sum of every point's squares.
+pub(crate) fn lengths(squares: &[f64], dimension: usize) -> Vec<f64> {
+    squares.chunks_exact(dimension).map(|point| point.iter().sum::<f64>().sqrt()).collect()
+}
+
+/// Without columns that are nothing beside the longest; the rest stays in its memory.
+fn without_empty_columns(matrix: DMatrix<f64>) -> DMatrix<f64> {
+    const NOTHING: f64 = 1e-9;
+    let largest: Vec<f64> = matrix.column_iter().map(|column| column.amax()).collect();
+    let floor = NOTHING * largest.iter().copied().fold(0.0, f64::max);
+    let empty: Vec<usize> = (0..largest.len()).filter(|&index| largest[index] <= floor).collect();
+    if empty.is_empty() { matrix } else { matrix.remove_columns_at(&empty) }
+}
+
+/// Largest |cos| between two columns of the matrix with this Gram matrix.
+fn largest_cosine(gram: &DMatrix<f64>) -> f64 {
     let norms: Vec<f64> = gram.diagonal().iter().map(|square| square.sqrt()).collect();
     let mut largest = 0.0_f64;
-    for i in 0..matrix.ncols() {
-        for j in i + 1..matrix.ncols() {
-            let product = norms[i] * norms[j];
-            if product > 0.0 {
-                largest = largest.max(gram[(i, j)].abs() / product);
-            }
+    for j in 0..gram.ncols() {
+        for i in 0..j {
+            largest = largest.max(gram[(i, j)].abs() / (norms[i] * norms[j]));
         }
     }
     largest

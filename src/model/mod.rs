@@ -15,8 +15,11 @@ mod procrustes;
 mod product;
 mod thin_svd;
 
+pub(crate) use linear_model::lengths;
 pub use linear_model::{BasisCheck, Cells, Kind, LinearModel, ModelError, Unit};
 pub use population::{generalised_procrustes, principal_components};
 pub use procrustes::{Alignment, Similarity, align_to, procrustes};
-pub use product::{cross, product};
+pub use product::{cross, gram, product};
+pub(crate) use product::{product_in_place, product_of, row_squares_of};
 pub use thin_svd::{ThinSvd, thin_svd};
+pub(crate) use thin_svd::{into_thin_svd, singular_values};
