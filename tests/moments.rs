@@ -55,9 +55,9 @@ fn the_moments_are_those_of_the_target_and_not_those_of_the_fit() {
     // Chains that know nothing of weights or Stein's identity must agree with a long run of them, and must
     // be able to tell the fit from it.
     let (side, fit) = fitted();
-    let long = estimate(&side, &fit, 1 << 17, 1);
+    let long = estimate(&side, &fit, 1 << 16, 1);
     let (a, b) = pair();
-    let settings = Settings { sigma: Some(SIGMA), draws: 160_000, ..Settings::of(Sampler::Hmc) };
+    let settings = Settings { sigma: Some(SIGMA), draws: 48_000, ..Settings::of(Sampler::Hmc) };
     let run = compared(&a, &b, settings);
     let draws = &run.results().intersection[0];
     let law = Gaussian::from_precision(
@@ -76,7 +76,7 @@ fn the_moments_are_those_of_the_target_and_not_those_of_the_fit() {
 fn the_error_is_as_large_as_it_says_and_falls_with_the_root_of_the_draws() {
     const REPEATS: u64 = 12;
     let (side, fit) = fitted();
-    let long = estimate(&side, &fit, 1 << 17, 1);
+    let long = estimate(&side, &fit, 1 << 16, 1);
     let mean_square = |draws: usize| {
         let squares = (2..2 + REPEATS).map(|seed| {
             let found = estimate(&side, &fit, draws, seed);
@@ -106,7 +106,7 @@ fn gradients_beat_weighted_moments_with_a_control_variate() {
     // The same number of evaluations: N gradients against 2N values, both in antithetic pairs.
     const REPEATS: u64 = 6;
     let (side, fit) = fitted();
-    let long = estimate(&side, &fit, 1 << 17, 1);
+    let long = estimate(&side, &fit, 1 << 16, 1);
     let (mut with, mut without) = (0.0, 0.0);
     for seed in 2..2 + REPEATS {
         let found = error(&estimate(&side, &fit, 1024, seed), &long, &fit);

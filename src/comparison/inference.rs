@@ -132,8 +132,8 @@ impl Inference {
             self.chains = start(sampler, &fit.gaussian, operator, self.side, settings)?;
             self.chosen = Some((sampler, why));
         } else {
-            let chains = self.chains.draws().values.len();
-            self.chains.advance(&target, evaluations.div_ceil(chains).max(1));
+            let a_step = self.chains.draws().values.len() * self.chains.evaluations_per_step();
+            self.chains.advance(&target, evaluations.div_ceil(a_step).max(1));
             self.ended = self.chains.remaining() == 0;
         }
         Some(())
