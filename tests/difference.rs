@@ -191,7 +191,7 @@ fn the_difference_has_no_factor_for_the_projections_plausibility() {
     let run = compared(&line(1.0), &line(0.1), Settings::default());
     let found = report(&run);
     assert_eq!(found.differences.a_without_b.probability, 0.0, "in the space of B");
-    assert!(warns(&found, "empty-difference"), "{:?}", found.warnings);
+    assert!(warns(&found, "identical-spaces"), "{:?}", found.warnings);
     let variance = found.intersection.total_variance;
     let expected = 1.0 / (1.0 + 100.0);
     let error = 5.0 * (2.0_f64 / 7000.0).sqrt();

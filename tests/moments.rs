@@ -12,10 +12,10 @@ use shapevenn::model::{Alignment, LinearModel};
 use shapevenn::report::MomentSource;
 use shapevenn::sampling::{Gaussian, Importance, ImportanceEstimate};
 
-const POINTS: usize = 200;
-const MODES: usize = 16;
+const POINTS: usize = 120;
+const MODES: usize = 12;
 /// Small enough for the posterior to be visibly not Gaussian.
-const SIGMA: f64 = 0.02;
+const SIGMA: f64 = 0.01;
 
 fn pair() -> (LinearModel, LinearModel) {
     identity_expression_like_pair(POINTS, MODES)
@@ -57,7 +57,7 @@ fn the_moments_are_those_of_the_target_and_not_those_of_the_fit() {
     let (side, fit) = fitted();
     let long = estimate(&side, &fit, 1 << 16, 1);
     let (a, b) = pair();
-    let settings = Settings { sigma: Some(SIGMA), draws: 48_000, ..Settings::of(Sampler::Hmc) };
+    let settings = Settings { sigma: Some(SIGMA), draws: 96_000, ..Settings::of(Sampler::Hmc) };
     let run = compared(&a, &b, settings);
     let draws = &run.results().intersection[0];
     let law = Gaussian::from_precision(
@@ -65,7 +65,7 @@ fn the_moments_are_those_of_the_target_and_not_those_of_the_fit() {
         long.total.covariance.clone().try_inverse().unwrap(),
     )
     .unwrap();
-    // 16 means and 136 products: the largest of 152 standard errors is below 4.5 with probability 0.999.
+    // 12 means and 78 products: the largest of 90 standard errors is below 4.5 with probability 0.999.
     let right = standard_errors_from(draws, &law);
     assert!(right < 4.5, "{right} standard errors from the weighted moments");
     let wrong = standard_errors_from(draws, &fit);
@@ -115,8 +115,8 @@ fn gradients_beat_weighted_moments_with_a_control_variate() {
         without += found * found;
     }
     let ratio = (without / with).sqrt();
-    // √(q/4) = 2 for 16 modes, before either side's own advantages.
-    assert!(ratio > 1.4, "only {ratio} times less error than without gradients");
+    // √(q/4) = 1.7 for 12 modes, before either side's own advantages.
+    assert!(ratio > 1.25, "only {ratio} times less error than without gradients");
 }
 
 /// Weighted minus unweighted moments of antithetic draws, on top of the fit's own.
@@ -200,13 +200,13 @@ fn sparse_pair(points: usize, modes: usize) -> (LinearModel, LinearModel) {
         let mean = mean.iter().zip(&offset).map(|(m, o)| 3.0 * m + shift * o).collect();
         LinearModel::from_scaled_basis(3, DVector::from_vec(mean), basis).unwrap().0
     };
-    (build(0, 0.0), build(modes - modes / 5, 0.1))
+    (build(0, 0.0), build(modes - modes / 5, 0.3))
 }
 
 #[test]
-fn where_no_gaussian_fits_hamiltonian_chains_take_over_and_agree_with_langevin_ones() {
-    let (a, b) = sparse_pair(100, 40);
-    let settings = Settings { sigma: Some(0.003), ..Settings::default() };
+fn where_no_gaussian_fits_hamiltonian_chains_take_over() {
+    let (a, b) = sparse_pair(300, 100);
+    let settings = Settings { sigma: Some(0.01), draws: 1600, ..Settings::default() };
     let found = report(&compared(&a, &b, settings.clone())).intersection;
     let inference = found.inference.unwrap();
     assert_eq!(inference.a.sampler, Sampler::Hmc, "{inference:?}");
