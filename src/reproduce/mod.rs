@@ -393,3 +393,51 @@ fn uncut_distance(first: &AffineSpace, second: &AffineSpace) -> f64 {
 fn seed_of(case: usize, repeat: usize) -> u64 {
     1000 * (case as u64 + 1) + repeat as u64
 }
+
+#[cfg(test)]
+mod tests {
+    use super::printed::{TABLE_1_BUDGET, TABLE_2_BUDGET};
+    use super::*;
+
+    #[test]
+    fn the_papers_budgets_come_out_as_printed() {
+        // 167 draws of each of 15 chains, every 9th step: 3 steps more than the 2,500 printed.
+        for (budget, more) in [(TABLE_1_BUDGET, 3), (TABLE_2_BUDGET, 0)] {
+            let settings = settings_of(budget, Sampler::Paper);
+            let kept = settings.draws / settings.chains;
+            assert_eq!(settings.burn_in + settings.thin * kept, budget.steps + more, "{budget:?}");
+            assert!(2 * settings.draws - DRAWS <= 2 * budget.chains, "{budget:?}: draws");
+            assert_eq!(settings.check(), Ok(()), "{budget:?}");
+        }
+    }
+
+    #[test]
+    fn means_are_plain_and_absent_where_a_row_has_none() {
+        let sample = |distance: f64| Sample {
+            distance,
+            evaluations: 10,
+            seconds: 1.0,
+            r_hat_max: None,
+            ess_bulk_min: 1.0,
+            acceptance: 0.5,
+            mean_distance: 0.0,
+        };
+        let row = |distances: &[f64], paper: Option<f64>| {
+            let samples: Vec<Sample> = distances.iter().copied().map(sample).collect();
+            let gathered = Gathered {
+                default: samples.clone(),
+                closed_form: samples.clone(),
+                published: samples,
+                corrected: Vec::new(),
+            };
+            gathered.row("case", 1.0, paper.map(|mean| Printed { mean, sd: 0.0 }), ()).unwrap()
+        };
+        let whole = Table::new("both", vec![row(&[1.0, 3.0], Some(0.5)), row(&[4.0], Some(1.5))]);
+        assert_eq!(whole.mean.default, 3.0, "of the rows' means 2 and 4, not of 1, 3 and 4");
+        assert_eq!(whole.mean.paper, Some(1.0), "printed in both rows");
+        assert_eq!(whole.mean.paper_corrected, None, "never run");
+        let part = Table::new("one", vec![row(&[1.0], Some(0.5)), row(&[1.0], None)]);
+        assert_eq!(part.mean.paper, None, "printed in one row only");
+        assert_eq!(part.mean.paper_sampler, Some(1.0), "run in both");
+    }
+}
