@@ -53,7 +53,15 @@ fn rows_have_the_fields_that_are_promised() {
     assert_eq!(keys(row), expected, "row");
     let distances = ["dG", "repeats", "sd", "values"];
     assert_eq!(keys(&row["closedForm"]), ["dG", "repeats", "sd", "seconds", "values"], "closed");
-    let costs = ["acceptance", "essBulkMin", "evaluations", "meanDistance", "rHatMax", "seconds"];
+    let costs = [
+        "acceptance",
+        "essBulkMin",
+        "evaluations",
+        "meanDistance",
+        "moments",
+        "rHatMax",
+        "seconds",
+    ];
     let mut expected = [&distances[..], &costs].concat();
     expected.sort_unstable();
     assert_eq!(keys(&row["default"]), expected, "default");

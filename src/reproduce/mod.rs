@@ -30,7 +30,7 @@ use crate::compare::{Joint, Moments};
 use crate::comparison::{Comparison, ComparisonError, Sampler, Settings, Stage};
 use crate::measure::{AffineSpace, Displacement, affine_grassmann_distance};
 use crate::model::LinearModel;
-use crate::report::{MeanSd, ModelReport, Report, Seconds};
+use crate::report::{MeanSd, ModelReport, MomentSource, Report, Seconds};
 use printed::{Budget, DRAWS, Printed};
 
 /// The world outside, as an experiment needs it.
@@ -103,6 +103,8 @@ pub struct Outcome {
     pub acceptance: f64,
     /// Mean distance d(x′, x) of the draws, mean over the repeats.
     pub mean_distance: f64,
+    /// What the moments were made of, on any side and in any repeat.
+    pub moments: Vec<MomentSource>,
 }
 
 impl Outcome {
@@ -119,6 +121,10 @@ impl Outcome {
             ess_bulk_min: samples.iter().map(|s| s.ess_bulk_min).fold(f64::INFINITY, f64::min),
             acceptance: mean(|sample| sample.acceptance),
             mean_distance: mean(|sample| sample.mean_distance),
+            moments: [MomentSource::ClosedForm, MomentSource::Weighted, MomentSource::Draws]
+                .into_iter()
+                .filter(|source| samples.iter().any(|sample| sample.moments.contains(source)))
+                .collect(),
         })
     }
 }
@@ -213,6 +219,7 @@ struct Sample {
     ess_bulk_min: f64,
     acceptance: f64,
     mean_distance: f64,
+    moments: [MomentSource; 2],
 }
 
 /// A comparison, run to its end.
@@ -264,7 +271,14 @@ impl Trial {
             ess_bulk_min: diagnostics.ess_bulk_min,
             acceptance: diagnostics.acceptance,
             mean_distance: self.report.intersection.mean_distance.mean,
+            moments: self.moments(),
         }
+    }
+
+    /// What the moments of each side are made of.
+    fn moments(&self) -> [MomentSource; 2] {
+        let found = self.report.intersection.inference.as_ref();
+        found.map_or([MomentSource::Draws; 2], |both| [both.a.moments, both.b.moments])
     }
 
     /// The law of the intersection by the Gaussian fits alone, in the joint basis.
@@ -421,6 +435,7 @@ mod tests {
             ess_bulk_min: 1.0,
             acceptance: 0.5,
             mean_distance: 0.0,
+            moments: [MomentSource::Draws; 2],
         };
         let row = |distances: &[f64], paper: Option<f64>| {
             let samples: Vec<Sample> = distances.iter().copied().map(sample).collect();

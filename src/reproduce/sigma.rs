@@ -12,7 +12,7 @@ use super::printed::{Printed, TABLE_1, TABLE_1_BUDGET, TABLE_1_SIGMA};
 use super::table1::name_of;
 use super::{Gathered, Observer, Plan, Table, Task, Trial};
 use super::{distance, seed_of};
-use crate::compare::{Moments, without_distance};
+use crate::compare::Moments;
 use crate::comparison::{ComparisonError, Settings};
 use crate::demos::{STAR_ROWS, star_intersection, star_pair};
 use crate::model::LinearModel;
@@ -85,7 +85,7 @@ pub fn sigma(
                 let seed = seed_of(SIGMAS.len() * index + case, repeat);
                 let task = Task { a: &a, b: &b, known: &known, sigma, seed };
                 let walk = plan.walks.then_some(TABLE_1_BUDGET);
-                facts.push(facts_of(&gathered.repeat(task, walk, observer)?, sigma));
+                facts.push(facts_of(&gathered.repeat(task, walk, observer)?));
             }
         }
         let paper = (sigma == TABLE_1_SIGMA).then(mean_of_table_1);
@@ -109,23 +109,13 @@ fn mean_of_table_1() -> Printed {
     Printed { mean, sd }
 }
 
-/// Means of both sides.
-fn facts_of(trial: &Trial, sigma: f64) -> SigmaFacts {
-    let (mut predicted, mut effective) = (0.0, 0.0);
-    for (index, fit) in trial.run.fits().iter().enumerate() {
-        let side = trial.run.pair().side(index);
-        let at_mean = side.mean_vertex_distance(fit.gaussian.mean().as_slice());
-        let modes = without_distance(&side).map_or(f64::NAN, |widest| {
-            let held = fit.gaussian.precision() - widest.precision();
-            (fit.gaussian.covariance() * held).trace()
-        });
-        predicted += 0.5 * (at_mean * at_mean + modes * sigma * sigma).sqrt();
-        effective += 0.5 * modes;
-    }
+fn facts_of(trial: &Trial) -> SigmaFacts {
+    let found = &trial.report.intersection;
+    let fits = found.tolerance.as_ref();
     SigmaFacts {
-        mean_distance: trial.report.intersection.mean_distance.mean,
-        predicted_distance: predicted,
-        effective_modes: effective,
+        mean_distance: found.mean_distance.mean,
+        predicted_distance: fits.map_or(f64::NAN, |fits| fits.predicted),
+        effective_modes: fits.map_or(f64::NAN, |fits| fits.effective_dimensions),
     }
 }
 
@@ -147,15 +137,15 @@ fn heads_at(
     let [a, b] = heads;
     let task = Task { a, b, known: a, sigma, seed: 1 };
     let trial = Trial::new(&task, Settings::default(), observer)?;
-    let (joint, moments) = trial.closed_form();
-    let union = joint.model(&Moments::pooled(&joint.prior(0), &joint.prior(1)), usize::MAX);
-    let closed_form = joint
-        .model(&moments, a.mode_count().min(b.mode_count()))
-        .ok_or(ComparisonError::FlatIntersection)?;
-    let union = union.ok_or(ComparisonError::FlatIntersection)?;
+    let flat = || ComparisonError::FlatIntersection;
+    let (joint, moments) = trial.closed_form().ok_or_else(flat)?;
+    let union = Moments::pooled(&joint.prior(0), &joint.prior(1));
+    let modes = a.mode_count().min(b.mode_count());
+    let (closed_form, union) =
+        joint.model(&moments, modes).zip(joint.model(&union, usize::MAX)).ok_or_else(flat)?;
     Ok(HeadsAtSigma {
         sigma,
-        facts: facts_of(&trial, sigma),
+        facts: facts_of(&trial),
         default: trial.report.intersection.grassmann,
         closed_form: Grassmann {
             to_a: distance(&closed_form, a),

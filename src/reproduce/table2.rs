@@ -116,7 +116,7 @@ fn table(
             };
             let walk = plan.walks.then_some(TABLE_2_BUDGET);
             let ours = gathered.repeat(task, walk, observer)?;
-            facts.push(split.facts(basis, &ours, printed.baselines));
+            facts.extend(split.facts(basis, &ours, printed.baselines));
         }
         let case = format!("{0}, {0}, {shared}", 3 * shared);
         let paper = Some(printed.intersection);
@@ -246,7 +246,7 @@ impl Split {
         Self { shared: rising(common), own: [rising(a), rising(b)] }
     }
 
-    fn facts(&self, basis: &Basis, ours: &Trial, printed: [f64; 3]) -> SplitFacts {
+    fn facts(&self, basis: &Basis, ours: &Trial, printed: [f64; 3]) -> Option<SplitFacts> {
         let known = basis.space(&[], &self.shared);
         // Own vectors first, as the paper's baselines show that it stored them.
         let [a, b] = [0, 1].map(|side| basis.space(&self.own[side], &self.shared));
@@ -256,7 +256,7 @@ impl Split {
             uncut: uncut_distance(first, second),
         };
         let count = self.shared.len();
-        let (joint, moments) = ours.closed_form();
+        let (joint, moments) = ours.closed_form()?;
         let inside = joint.basis().tr_mul(&known.basis);
         let away = DMatrix::identity(inside.nrows(), inside.nrows()) - &inside * inside.transpose();
         // The law along the shared vectors, and along all others.
@@ -265,7 +265,7 @@ impl Split {
             let moments = Moments { mean: moments.mean.clone(), covariance };
             moments.principal_components().1
         });
-        SplitFacts {
+        Some(SplitFacts {
             vectors: 5 * count,
             expected_of_independent_draws: sampling_error(
                 first.as_slice(),
@@ -276,7 +276,7 @@ impl Split {
             a_to_known: baselines(printed[0], &a, &known),
             b_to_known: baselines(printed[1], &b, &known),
             a_to_b: baselines(printed[2], &a, &b),
-        }
+        })
     }
 }
 

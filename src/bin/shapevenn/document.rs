@@ -1,5 +1,6 @@
 //! Reproductions in words: Markdown, aligned so that it reads well on a terminal too.
 
+use shapevenn::report::MomentSource;
 use shapevenn::reproduce::printed::{
     Budget, DRAWS, TABLE_1_A_TO_B, TABLE_1_BUDGET, TABLE_2_BUDGET, TABLE_2_VECTORS,
 };
@@ -63,8 +64,9 @@ that their sampler found and the known one. Each case is run four ways:
 
 Means ± standard deviations over repeats with other random numbers (table 2: other splits). Evaluations and seconds go from
 two loaded models to the intersection model. R-hat is the largest, effective draws (bulk) the fewest of any coefficient,
-side and repeat. What the paper leaves out (the inner radius of the stars, how their tips vary, how many basis vectors are
-split) is inferred from its baselines; those of table 1 come out as printed, but for what the last section names.
+side and repeat; “moments from” says what the model's mean and covariance are made of. What the paper leaves out (the inner
+radius of the stars, how their tips vary, how many basis vectors are split) is inferred from its baselines; those of table 1
+come out as printed, but for what the last section names.
 ";
 
 fn stated(machine: &Machine) -> String {
@@ -262,8 +264,18 @@ fn distances_and_costs<T>(table: &Table<T>, case: &str) -> String {
     .flatten()
     .collect();
     let none = || "–".to_owned();
-    costs.push(vec!["closed form".to_owned(), none(), figure(closed), none(), none(), none()]);
-    let headings = ["a case", "evaluations", "seconds", "acceptance", "R-hat", "effective draws"];
+    let closed =
+        vec!["closed form".to_owned(), none(), figure(closed), none(), none(), none(), none()];
+    costs.push(closed);
+    let headings = [
+        "a case",
+        "evaluations",
+        "seconds",
+        "acceptance",
+        "R-hat",
+        "effective draws",
+        "moments from",
+    ];
     format!("**{}**\n\n{distances}\n{}", table.what, markdown(&headings, &costs))
 }
 
@@ -282,7 +294,23 @@ fn cost<'a>(name: &str, found: impl Iterator<Item = &'a Outcome>) -> Option<Vec<
         format!("{:.3}", mean(|one| one.acceptance)),
         r_hat.map_or("–".to_owned(), |r_hat| format!("{r_hat:.3}")),
         format!("{effective:.0}"),
+        moments_of(&found),
     ])
+}
+
+/// What moments were made of, in any of the runs.
+fn moments_of(found: &[&Outcome]) -> String {
+    let named = [
+        (MomentSource::ClosedForm, "fit"),
+        (MomentSource::Weighted, "weighted draws"),
+        (MomentSource::Draws, "draws"),
+    ];
+    let names: Vec<&str> = named
+        .into_iter()
+        .filter(|(source, _)| found.iter().any(|one| one.moments.contains(source)))
+        .map(|(_, name)| name)
+        .collect();
+    names.join(", ")
 }
 
 fn contradictions_of_table1(found: &Table1) -> Vec<String> {
