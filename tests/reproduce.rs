@@ -71,12 +71,14 @@ fn rows_have_the_fields_that_are_promised() {
 }
 
 #[test]
-fn the_closed_form_of_the_stars_reaches_its_floor_at_both_tolerances() {
+fn the_stars_reach_their_floor_at_both_tolerances() {
     let found = stars();
     // method.md 4.2: 0.0052 at σ = 0.003, the error of σ itself; 1e-4 at a tenth.
     assert!(found.main.mean.closed_form <= 0.006, "{:?}", found.main.mean);
     assert!(found.at_small_sigma.mean.closed_form <= 0.001, "{:?}", found.at_small_sigma.mean);
-    assert!(found.main.mean.default < found.main.mean.paper.unwrap(), "{:?}", found.main.mean);
+    // The default's correction of the fit is within its own error: the posterior is Gaussian.
+    assert!(found.main.mean.default <= 0.006, "{:?}", found.main.mean);
+    assert!(found.at_small_sigma.mean.default <= 0.001, "{:?}", found.at_small_sigma.mean);
     for row in &found.main.rows {
         assert!(row.default.evaluations <= 20_000, "{}: {:?}", row.case, row.default);
     }
@@ -106,12 +108,12 @@ fn the_geometry_of_the_stars_gives_the_printed_figures_but_for_two_misprints() {
 
 #[test]
 fn exact_differences_of_the_stars_lie_where_they_must() {
-    // method.md 4.2: exact d_R(D̂₁₂), from 200,000 draws. One repeat has 4,000: sd ≤ 0.27, five
-    // standard errors are 0.021 at the most.
+    // method.md 4.2: exact d_R(D̂₁₂), from 200,000 draws. One repeat has 2,000: sd ≤ 0.27, five
+    // standard errors are 0.03 at the most.
     let expected = [0.2185, 0.1069, 0.2081, 0.1030, 0.3031, 0.3978];
     for (row, expected) in stars().main.rows.iter().zip(expected) {
         let found = row.more.differences.a_without_b.found;
-        let bound = 5.0 * found.sd / 4000.0_f64.sqrt();
+        let bound = 5.0 * found.sd / 2000.0_f64.sqrt();
         assert!((found.mean - expected).abs() < bound, "{}: {found:?}, not {expected}", row.case);
     }
 }
@@ -121,8 +123,10 @@ fn the_closed_form_of_basis_splits_is_exact_where_sigma_allows_it() {
     let found = table2(&head("identity"), OURS, &Ticking::default()).unwrap();
     for (name, table) in [("synthetic", &found.main), ("head", &found.head)] {
         assert!(table.mean.closed_form <= 0.001, "{name}: {:?}", table.mean);
+        assert!(table.mean.default <= 0.02, "{name}: {:?}", table.mean);
         for row in &table.rows {
             assert!(row.more.eigenvalue_ratio > 1.0, "{name} {}: {:?}", row.case, row.more);
+            assert!(row.default.evaluations <= 20_000, "{name} {}", row.case);
             let to_known = row.more.a_to_known;
             assert!(to_known.uncut < 0.3 * to_known.found, "{name} {}: {to_known:?}", row.case);
         }

@@ -241,6 +241,7 @@ fn settings(arguments: &Compare) -> Settings {
         seed: arguments.seed.unwrap_or(defaults.seed),
         chains: arguments.chains.unwrap_or(defaults.chains),
         draws: arguments.draws.unwrap_or(defaults.draws),
+        difference_draws: arguments.draws.unwrap_or(defaults.difference_draws),
         burn_in: arguments.burn_in.unwrap_or(defaults.burn_in),
         thin: arguments.thin.unwrap_or(defaults.thin),
         modes: arguments.modes,
