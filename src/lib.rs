@@ -30,6 +30,7 @@ pub mod measure;
 pub mod model;
 mod parallel;
 pub mod report;
+pub mod reproduce;
 pub mod roofline;
 pub mod sampling;
 #[cfg(target_arch = "wasm32")]

@@ -278,6 +278,36 @@ fn a_part_of_a_file_is_named_behind_a_hash() {
 }
 
 #[test]
+fn reproduce_prints_the_papers_table_beside_ours() {
+    let output = printed(&["reproduce", "table1", "--repeats", "1", "--json"]);
+    let found: Value = serde_json::from_str(&output).unwrap();
+    let sampled = "{dG,sd,repeats,values,evaluations,seconds,rHatMax}";
+    let promised = [
+        "machine.{processor,threads,os}".to_owned(),
+        "mean.{paper,default,closedForm,paperSampler,paperCorrected}".to_owned(),
+        "rows.5.{case,paper}".to_owned(),
+        "rows.5.closedForm.dG".to_owned(),
+        format!("rows.5.default.{sampled}"),
+        format!("rows.5.paperSampler.{sampled}"),
+        format!("rows.5.paperCorrected.{sampled}"),
+    ];
+    for path in promised.iter().flat_map(|pattern| paths(pattern)) {
+        let value = found.pointer(&format!("/{}", path.replace('.', "/")));
+        assert!(value.is_some_and(|value| !value.is_null()), "no {path}");
+    }
+    let number = |path: &str| found.pointer(path).and_then(Value::as_f64).unwrap();
+    assert!((number("/mean/paper") - 0.0194).abs() < 5e-5, "the printed mean");
+    // 15 chains of 2,500 steps on both sides, and no better for it than a tenth of them.
+    assert!(number("/rows/0/paperSampler/evaluations") >= 75_000.0, "the paper's budget");
+    assert!(number("/mean/default") < number("/mean/paperCorrected"), "{}", found["mean"]);
+    assert!(number("/rows/0/paperCorrected/rHatMax") > 1.1, "not converged");
+    for check in found["radial"].as_array().unwrap() {
+        assert!((check["corrected"].as_f64().unwrap() - 1.0).abs() < 0.05, "{check}");
+        assert!(check["asPublished"].as_f64().unwrap() < 0.85, "{check}");
+    }
+}
+
+#[test]
 fn bad_inputs_exit_with_2_a_sentence_and_a_hint() {
     let folder = folder("bad");
     let nowhere = folder.join("nowhere.h5").to_string_lossy().into_owned();
@@ -285,7 +315,7 @@ fn bad_inputs_exit_with_2_a_sentence_and_a_hint() {
     let catalog = fixture("bfm-catalog.h5");
     let (shape, color) = (format!("{catalog}#shape"), format!("{catalog}#color"));
     let broken = fixture("cut-at-half.h5");
-    let cases: [(&[&str], &str, &str); 10] = [
+    let cases: [(&[&str], &str, &str); 12] = [
         (&["info", &nowhere], "cannot be read", "demo:NAME"),
         (&["info", "demo:moon"], "There is no demo model “moon”.", "Choose one of stars-1-a, "),
         (&["info", &broken], "cut-at-half.h5", ""),
@@ -316,6 +346,8 @@ fn bad_inputs_exit_with_2_a_sentence_and_a_hint() {
             "End it in .h5, .npz or .ply.",
         ),
         (&["compare", "demo:planes-a"], "<B>", "--help"),
+        (&["reproduce", "table3"], "invalid value 'table3'", "table1, table2, sigma"),
+        (&["reproduce", "table1", "--repeats", "0"], "0 is not in 1..=100", "--help"),
     ];
     for (arguments, message, hint) in cases {
         let output = shapevenn(arguments);

@@ -33,7 +33,7 @@ use crate::compare::{
 };
 use crate::model::LinearModel;
 use crate::report::{ModelReport, Report, Seconds};
-use crate::sampling::{Draws, Envelope, Rejection};
+use crate::sampling::{Draws, Envelope, Gaussian, Rejection};
 use inference::Inference;
 
 /// Proposals of the rejection sampler for each draw wanted, before it gives up.
@@ -224,6 +224,12 @@ impl Comparison {
     /// The settings, with the σ that is used once it is known.
     pub fn settings(&self) -> &Settings {
         &self.settings
+    }
+
+    /// The Gaussian fits of both sides, A first, once they are decided.
+    pub fn fits(&self) -> Option<[&Gaussian; 2]> {
+        let fit = |side: usize| Some(&self.inferences.get(side)?.fit()?.gaussian);
+        Some([fit(0)?, fit(1)?])
     }
 
     /// The intersection model, once the run is done. Its modes are formed for this: it takes as much

@@ -6,7 +6,9 @@
 mod planes;
 mod stars;
 
-pub use stars::{ROWS as STAR_ROWS, StarRow, intersection as star_intersection, star_pair};
+pub use stars::{
+    ROWS as STAR_ROWS, StarRow, exclusive_stars, intersection as star_intersection, star_pair,
+};
 
 use crate::model::LinearModel;
 

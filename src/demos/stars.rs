@@ -48,8 +48,24 @@ pub fn intersection(row: StarRow) -> LinearModel {
     swept(&[(0, -row.a, row.a)])
 }
 
-/// PCA of stars whose tips are swept one after the other: (tip, from, to), in degrees, both inclusive.
+/// The stars that A, and those that B was made from beyond the known intersection, one a column.
+pub fn exclusive_stars(row: StarRow) -> [DMatrix<f64>; 2] {
+    let a = stars(&[(0, row.a + 1, row.b), (2, -row.a, row.b)]);
+    let b = stars(&[(0, -row.c, -row.a - 1), (3, -row.c, row.a)]);
+    [a, b]
+}
+
+/// PCA of swept stars.
 fn swept(sweeps: &[(usize, i32, i32)]) -> LinearModel {
+    let outline = (0..POINTS).map(|v| [v, (v + 1) % POINTS]).collect();
+    principal_components(2, &stars(sweeps))
+        .and_then(|model| model.with_cells(Cells::Segments(outline)))
+        .unwrap_or_else(|fault| unreachable!("a swept star is a model: {fault}"))
+}
+
+/// Stars whose tips are swept one after the other, (tip, from, to) in degrees, both inclusive; one a
+/// column.
+fn stars(sweeps: &[(usize, i32, i32)]) -> DMatrix<f64> {
     let mut shapes = Vec::new();
     for &(tip, from, to) in sweeps {
         for degrees in from..=to {
@@ -59,11 +75,7 @@ fn swept(sweeps: &[(usize, i32, i32)]) -> LinearModel {
         }
     }
     let length = 4 * TIPS;
-    let matrix = DMatrix::from_column_slice(length, shapes.len() / length, &shapes);
-    let outline = (0..POINTS).map(|v| [v, (v + 1) % POINTS]).collect();
-    principal_components(2, &matrix)
-        .and_then(|model| model.with_cells(Cells::Segments(outline)))
-        .unwrap_or_else(|fault| unreachable!("a swept star is a model: {fault}"))
+    DMatrix::from_vec(length, shapes.len() / length, shapes)
 }
 
 /// The outline of one star: tip, inner point, tip, …, the first tip on top.

@@ -26,6 +26,8 @@ pub enum Stream {
     Importance = 5,
     /// Scores of prior draws, whose quantile is the threshold of a difference.
     Quantile = 6,
+    /// Synthetic models and how they are split, in reproductions of the paper.
+    Experiment = 7,
 }
 
 /// The generator of `seed` for one purpose. `side` is 0 for A and 1 for B; `index` counts chains or

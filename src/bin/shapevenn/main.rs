@@ -1,7 +1,10 @@
-//! The command line: `shapevenn info | compare | convert`.
+//! The command line: `shapevenn info | compare | convert | reproduce`.
 //!
 //! Exit status 0: done. 2: a bad input, with the error on standard error. 1: anything else.
 #![allow(clippy::print_stdout, reason = "a command prints its result")]
+
+mod document;
+mod reproduce;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -44,6 +47,8 @@ enum Command {
         /// Where to write
         output: PathBuf,
     },
+    /// Run the paper's experiments again, beside its printed figures
+    Reproduce(reproduce::Arguments),
 }
 
 #[derive(Debug, Args)]
@@ -142,6 +147,7 @@ fn main() -> ExitCode {
         Command::Info { files, json } => info(&files, json),
         Command::Compare(arguments) => compare(&arguments),
         Command::Convert { input, output } => convert(&input, &output),
+        Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -184,10 +190,10 @@ fn part_of(source: &str) -> Option<(&str, &str)> {
 /// The heads that the command carries.
 fn packaged(name: &str) -> Option<&'static [u8]> {
     Some(match name {
-        "heads-male" => include_bytes!("../../demos/heads/heads-male.npz"),
-        "heads-female" => include_bytes!("../../demos/heads/heads-female.npz"),
-        "heads-identity" => include_bytes!("../../demos/heads/heads-identity.npz"),
-        "heads-expression" => include_bytes!("../../demos/heads/heads-expression.npz"),
+        "heads-male" => include_bytes!("../../../demos/heads/heads-male.npz"),
+        "heads-female" => include_bytes!("../../../demos/heads/heads-female.npz"),
+        "heads-identity" => include_bytes!("../../../demos/heads/heads-identity.npz"),
+        "heads-expression" => include_bytes!("../../../demos/heads/heads-expression.npz"),
         _ => return None,
     })
 }
@@ -235,6 +241,7 @@ fn settings(arguments: &Compare) -> Settings {
         seed: arguments.seed.unwrap_or(defaults.seed),
         chains: arguments.chains.unwrap_or(defaults.chains),
         draws: arguments.draws.unwrap_or(defaults.draws),
+        difference_draws: arguments.draws.unwrap_or(defaults.difference_draws),
         burn_in: arguments.burn_in.unwrap_or(defaults.burn_in),
         thin: arguments.thin.unwrap_or(defaults.thin),
         modes: arguments.modes,

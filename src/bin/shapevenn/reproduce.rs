@@ -1,0 +1,132 @@
+//! `shapevenn reproduce`: the paper's experiments, run again.
+
+use std::path::Path;
+use std::thread::available_parallelism;
+use std::time::Instant;
+
+use clap::{Args, ValueEnum};
+use indicatif::ProgressBar;
+use serde::Serialize;
+use shapevenn::comparison::ComparisonError;
+use shapevenn::files::Error;
+use shapevenn::model::LinearModel;
+use shapevenn::reproduce::{self, Ablation, Machine, Observer, Plan, Table1, Table2};
+
+use crate::{Failure, document, open_one, to_json};
+
+/// The models whose modes table 2 splits, and that the ablation compares.
+const SPLIT: &str = "demo:heads-identity";
+const COMPARED: [&str; 2] = ["demo:heads-male", "demo:heads-female"];
+
+#[derive(Debug, Args)]
+pub(crate) struct Arguments {
+    /// Which one; all of them as one document when left out
+    #[arg(value_enum)]
+    experiment: Option<Experiment>,
+    /// Repeats of every case [default: 5 for table1, 3 for the others]
+    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=100))]
+    repeats: Option<u32>,
+    /// Print one JSON document
+    #[arg(long, requires = "experiment")]
+    json: bool,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Experiment {
+    /// Six pairs of stars
+    Table1,
+    /// Five ways to split a basis
+    Table2,
+    /// The ablation of σ
+    Sigma,
+}
+
+/// An experiment's result with the machine that it was run on.
+#[derive(Debug, Serialize)]
+struct Measured<'a, T> {
+    #[serde(flatten)]
+    result: &'a T,
+    machine: &'a Machine,
+}
+
+pub(crate) fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
+    let machine = machine();
+    let screen = Screen { begun: Instant::now(), line: ProgressBar::new_spinner() };
+    let Some(experiment) = arguments.experiment else {
+        let (table1, table2, sigma) =
+            (table1(arguments, &screen)?, table2(arguments, &screen)?, sigma(arguments, &screen)?);
+        screen.line.finish_and_clear();
+        print!("{}", document::whole(&table1, &table2, &sigma, &machine));
+        return Ok(());
+    };
+    let (json, words) = match experiment {
+        Experiment::Table1 => {
+            let found = table1(arguments, &screen)?;
+            (json(&found, &machine)?, document::of_table1(&found, &machine))
+        }
+        Experiment::Table2 => {
+            let found = table2(arguments, &screen)?;
+            (json(&found, &machine)?, document::of_table2(&found, &machine))
+        }
+        Experiment::Sigma => {
+            let found = sigma(arguments, &screen)?;
+            (json(&found, &machine)?, document::of_sigma(&found, &machine))
+        }
+    };
+    screen.line.finish_and_clear();
+    println!("{}", if arguments.json { json } else { words });
+    Ok(())
+}
+
+fn json<T: Serialize>(result: &T, machine: &Machine) -> Result<String, Failure> {
+    to_json(&Measured { result, machine })
+}
+
+fn plan(arguments: &Arguments, repeats: usize) -> Plan {
+    Plan { repeats: arguments.repeats.map_or(repeats, |given| given as usize), walks: true }
+}
+
+fn table1(arguments: &Arguments, screen: &Screen) -> Result<Table1, Failure> {
+    run(reproduce::table1(plan(arguments, 5), screen))
+}
+
+fn table2(arguments: &Arguments, screen: &Screen) -> Result<Table2, Failure> {
+    let head = open_one(SPLIT)?.model;
+    run(reproduce::table2(&head, plan(arguments, 3), screen))
+}
+
+fn sigma(arguments: &Arguments, screen: &Screen) -> Result<Ablation, Failure> {
+    let [a, b]: [LinearModel; 2] = [open_one(COMPARED[0])?.model, open_one(COMPARED[1])?.model];
+    run(reproduce::sigma([&a, &b], plan(arguments, 3), screen))
+}
+
+fn run<T>(result: Result<T, ComparisonError>) -> Result<T, Failure> {
+    result.map_err(|error| Error::from(error).into())
+}
+
+/// The clock, and one line on standard error where that is a terminal.
+struct Screen {
+    begun: Instant,
+    line: ProgressBar,
+}
+
+impl Observer for Screen {
+    fn seconds(&self) -> f64 {
+        self.begun.elapsed().as_secs_f64()
+    }
+
+    fn begins(&self, what: &str) {
+        self.line.set_message(what.to_owned());
+        self.line.tick();
+    }
+}
+
+fn machine() -> Machine {
+    let told = std::fs::read_to_string(Path::new("/proc/cpuinfo")).unwrap_or_default();
+    let name = told.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
+    Machine {
+        processor: name.map_or("unknown processor", |(_, name)| name.trim()).to_owned(),
+        threads: available_parallelism().map_or(1, usize::from),
+        os: format!("{} {}", std::env::consts::OS, std::env::consts::ARCH),
+    }
+}
