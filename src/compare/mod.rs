@@ -4,15 +4,17 @@ mod difference;
 mod fit;
 mod joint;
 mod kernel;
+mod operator;
 mod pair;
+mod residuals;
 mod targets;
 mod tolerance;
 mod vertex_norm;
 
 pub use difference::Difference;
 pub use fit::{
-    Fit, FitMethod, expected_distance, fit_reweighted, fit_rms, fit_variational_step,
-    without_distance,
+    Fit, FitMethod, effective_dimensions, expected_distance, fit_laplace, fit_reweighted, fit_rms,
+    fit_variational_step, fit_variational_step_every, without_distance,
 };
 pub use joint::{Joint, Moments};
 pub use kernel::DistanceKernel;

@@ -17,8 +17,11 @@ use core::fmt;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::operator::{Operator, Plausibilities, Rows, with_rows};
 use super::{DistanceKernel, Joint};
-use crate::model::{Alignment, Kind, LinearModel, Similarity, align_to, cross, product};
+use crate::lanes::dot;
+use crate::model::{Alignment, Kind, LinearModel, Similarity, align_to};
+use crate::parallel;
 
 /// Why two models cannot be compared.
 #[derive(Debug, Clone, PartialEq)]
@@ -105,14 +108,17 @@ impl fmt::Display for PairError {
 impl core::error::Error for PairError {}
 
 /// Shapes of one model seen from the other: x = m₁ + U₁ a against M₂.
+///
+/// R is kept in single precision, 4·d·n·q bytes, and beside it in double precision where that costs at
+/// most two megabytes. Everything reads the same R, so that its rounding is one of the model.
 #[derive(Debug, Clone)]
 pub struct Side {
     dimension: usize,
     modes: usize,
     /// r₀ (d·n).
     offset: Vec<f64>,
-    /// R, row-major (d·n × q).
-    residual: Vec<f64>,
+    /// R in double precision, row-major (d·n × q), where it is small.
+    double: Option<Vec<f64>>,
     /// AᵀA (q × q) and Aᵀa₀ (q), for ‖a′‖² = ‖a₀‖² + 2 aᵀAᵀa₀ + aᵀAᵀA a.
     projection_gram: DMatrix<f64>,
     projection_shift: DVector<f64>,
@@ -126,37 +132,34 @@ pub struct Side {
     kernel: DistanceKernel,
 }
 
+/// Rows whose residuals are one piece of work.
+const STRIP: usize = 1536;
+
 impl Side {
     /// The operator for shapes of `from` seen from `to`.
     pub fn new(from: &LinearModel, to: &LinearModel) -> Self {
         let difference = from.mean() - to.mean();
         let mean_coordinates = to.basis().tr_mul(&difference);
         let offset = &difference - to.basis() * &mean_coordinates;
-        let scaled = from.scaled_basis();
-        let coordinates = cross(to.basis(), &scaled);
-        let residual = &scaled - product(to.basis(), &coordinates);
-        let divide = |mut matrix: DMatrix<f64>| {
-            for (mut row, deviation) in matrix.row_iter_mut().zip(to.standard_deviations().iter()) {
-                row /= *deviation;
-            }
-            matrix
-        };
-        let projection = divide(coordinates);
+        let operator = Operator::new(from, to, offset.as_slice());
+        let mut projection = operator.coordinates;
+        for (mut row, deviation) in projection.row_iter_mut().zip(to.standard_deviations().iter()) {
+            row /= *deviation;
+        }
         let projected_mean = mean_coordinates.component_div(to.standard_deviations());
-        let residual_rows: Vec<f64> = residual.transpose().as_slice().to_vec();
         Self {
             dimension: from.dimension(),
             modes: from.mode_count(),
             projection_gram: projection.tr_mul(&projection),
             projection_shift: projection.tr_mul(&projected_mean),
             projection_constant: projected_mean.norm_squared(),
-            gram: cross(&residual, &residual),
-            gram_shift: residual.tr_mul(&offset),
+            gram: operator.gram,
+            gram_shift: operator.gram_shift,
             gram_constant: offset.norm_squared(),
-            largest_residual: residual.amax().max(offset.amax()),
-            kernel: DistanceKernel::new(from.dimension(), from.mode_count(), &residual_rows),
+            largest_residual: operator.largest.max(offset.amax()),
+            kernel: DistanceKernel::of_rows(from.dimension(), from.mode_count(), operator.single),
             offset: offset.as_slice().to_vec(),
-            residual: residual_rows,
+            double: operator.double,
         }
     }
 
@@ -180,9 +183,18 @@ impl Side {
         &self.offset
     }
 
-    /// R, row-major (d·n × q).
-    pub fn residual(&self) -> &[f64] {
-        &self.residual
+    /// R, row-major (d·n × q): a copy in double precision, of numbers that may have been rounded to
+    /// single.
+    pub fn residual(&self) -> Vec<f64> {
+        with_rows!(self, rows => rows.iter().map(|&value| f64::from(value)).collect())
+    }
+
+    /// R, row-major (d·n × q), as it is kept.
+    pub(super) fn rows(&self) -> Rows<'_> {
+        match &self.double {
+            Some(rows) => Rows::Double(rows),
+            None => Rows::Single(self.kernel.rows()),
+        }
     }
 
     /// AᵀA, with I the precision of the projection likelihood times the prior.
@@ -217,11 +229,16 @@ impl Side {
 
     /// The residual r₀ + R c at a centre c (d·n), in double precision.
     pub fn residual_at(&self, centre: &[f64]) -> Vec<f64> {
-        self.offset
-            .iter()
-            .zip(self.residual.chunks_exact(self.modes))
-            .map(|(start, row)| start + row.iter().zip(centre).map(|(r, c)| r * c).sum::<f64>())
-            .collect()
+        let strips = parallel::map(self.offset.len().div_ceil(STRIP), |strip| {
+            let coordinates = strip * STRIP..((strip + 1) * STRIP).min(self.offset.len());
+            let offset = &self.offset[coordinates.clone()];
+            with_rows!(self, rows => {
+                let rows = &rows[coordinates.start * self.modes..coordinates.end * self.modes];
+                let rows = rows.chunks_exact(self.modes);
+                offset.iter().zip(rows).map(|(start, row)| start + dot(row, centre)).collect::<Vec<_>>()
+            })
+        });
+        strips.concat()
     }
 
     /// d(x′, x) in double precision, one shape: the reference for the kernel.
@@ -241,18 +258,19 @@ impl Side {
         let mut gradient = vec![0.0; self.modes];
         let mut sum = 0.0;
         let points = residual.chunks_exact(self.dimension);
-        let rows = self.residual.chunks_exact(self.dimension * self.modes);
-        for (point, vertex) in points.zip(rows) {
-            let norm = point.iter().map(|value| value * value).sum::<f64>().sqrt();
-            sum += norm;
-            if norm > 0.0 {
-                for (value, row) in point.iter().zip(vertex.chunks_exact(self.modes)) {
-                    for (target, weight) in gradient.iter_mut().zip(row) {
-                        *target += value / norm * weight;
+        with_rows!(self, rows => {
+            for (point, vertex) in points.zip(rows.chunks_exact(self.dimension * self.modes)) {
+                let norm = point.iter().map(|value| value * value).sum::<f64>().sqrt();
+                sum += norm;
+                if norm > 0.0 {
+                    for (value, row) in point.iter().zip(vertex.chunks_exact(self.modes)) {
+                        for (target, &weight) in gradient.iter_mut().zip(row) {
+                            *target += value / norm * f64::from(weight);
+                        }
                     }
                 }
             }
-        }
+        });
         let scale = 1.0 / self.point_count() as f64;
         (sum * scale, gradient.into_iter().map(|value| value * scale).collect())
     }
@@ -279,6 +297,18 @@ impl Side {
             square += value * (value + 2.0 * self.projection_shift[column] + product);
         }
         square
+    }
+
+    /// [`Self::plausibility`] of many shapes (B × q, row-major): the squares (B), and half their gradients
+    /// (B × q) if wanted.
+    pub(super) fn plausibilities(&self, points: &[f64], slopes: bool) -> (Vec<f64>, Vec<f64>) {
+        Plausibilities {
+            gram: self.projection_gram.as_slice(),
+            shift: self.projection_shift.as_slice(),
+            constant: self.projection_constant,
+            slopes,
+        }
+        .of(points)
     }
 
     /// Whether M₂ holds every shape of this side to rounding: the difference is empty.
