@@ -115,26 +115,35 @@ struct Picked<'a, T> {
     piece: core::ops::Range<usize>,
 }
 
-impl<T: Real> Picked<'_, T> {
-    /// Calls `work` with strata and their rows, tile by tile.
+impl<'a, T: Real> Picked<'a, T> {
+    /// Ranges of strata whose rows stay in cache.
+    fn tiles(&self) -> Vec<core::ops::Range<usize>> {
+        let Self { piece, .. } = self;
+        piece.clone().step_by(TILE).map(|first| first..(first + TILE).min(piece.end)).collect()
+    }
+
+    /// Rows of a tile, gathered where they are not neighbours.
+    ///
+    /// Loops over tiles call this and hold no closure: one that is not inlined would leave the vectors.
     #[inline(always)]
-    fn tiles<const D: usize>(&self, mut work: impl FnMut(core::ops::Range<usize>, &[T])) {
+    fn rows_of<'b, const D: usize>(
+        &self,
+        tile: &core::ops::Range<usize>,
+        gathered: &'b mut Vec<T>,
+    ) -> &'b [T]
+    where
+        'a: 'b,
+    {
         let size = D * self.modes;
-        let mut gathered = Vec::new();
-        for first in self.piece.clone().step_by(TILE) {
-            let tile = first..(first + TILE).min(self.piece.end);
-            if self.vertices.stride == 1 {
-                let rows = &self.rows[tile.start * size..tile.end * size];
-                work(tile, rows);
-            } else {
-                gathered.clear();
-                for index in tile.clone() {
-                    let vertex = self.vertices.at(index);
-                    gathered.extend_from_slice(&self.rows[vertex * size..(vertex + 1) * size]);
-                }
-                work(tile, &gathered);
-            }
+        if self.vertices.stride == 1 {
+            return &self.rows[tile.start * size..tile.end * size];
         }
+        gathered.clear();
+        for index in tile.clone() {
+            let vertex = self.vertices.at(index);
+            gathered.extend_from_slice(&self.rows[vertex * size..(vertex + 1) * size]);
+        }
+        gathered
     }
 }
 
@@ -156,7 +165,9 @@ impl<T: Real, const D: usize> WithSimd for Laws<'_, T, D> {
         let stride = padded(modes);
         let mut found = Vec::with_capacity(self.rows.piece.len());
         let mut product = Aligned::<T>::new(TILE * D * stride);
-        self.rows.tiles::<D>(|strata, rows| {
+        let mut gathered = Vec::new();
+        for strata in self.rows.tiles() {
+            let rows = self.rows.rows_of::<D>(&strata, &mut gathered);
             transformed(simd, rows, modes, self.transform, &mut product);
             for (index, stratum) in strata.enumerate() {
                 let vertex = self.rows.vertices.at(stratum);
@@ -175,7 +186,7 @@ impl<T: Real, const D: usize> WithSimd for Laws<'_, T, D> {
                 }
                 found.push((mean, covariance));
             }
-        });
+        }
         found
     }
 }
@@ -256,7 +267,9 @@ impl<T: Real, const D: usize, W: Fn(usize) -> [[f64; D]; D]> WithSimd for Gram<'
         let stride = padded(modes);
         let mut sum = vec![0.0; modes * stride];
         let mut weighted = Aligned::<T>::new(TILE * D * stride);
-        self.rows.tiles::<D>(|strata, rows| {
+        let mut gathered = Vec::new();
+        for strata in self.rows.tiles() {
+            let rows = self.rows.rows_of::<D>(&strata, &mut gathered);
             for (index, stratum) in strata.enumerate() {
                 let matrix = (self.weight)(stratum).map(|row| row.map(T::of));
                 let vertex = &rows[index * D * modes..(index + 1) * D * modes];
@@ -274,7 +287,7 @@ impl<T: Real, const D: usize, W: Fn(usize) -> [[f64; D]; D]> WithSimd for Gram<'
             let a = Tile { values: rows, stride: modes, columns: modes };
             let b = Tile { values: &weighted, stride, columns: modes };
             add_cross::<T, S>(simd, a, b, rows.len() / modes, &mut sum, true);
-        });
+        }
         sum
     }
 }
@@ -289,8 +302,10 @@ pub(super) fn weighted_sum<const D: usize>(
     let pieces = vertices.pieces();
     let parts = with_rows!(side, rows => parallel::map(pieces.len(), |piece| {
         let mut sum = vec![0.0; modes];
-        let rows = Picked { rows, modes, vertices, piece: pieces[piece].clone() };
-        rows.tiles::<D>(|strata, rows| {
+        let picked = Picked { rows, modes, vertices, piece: pieces[piece].clone() };
+        let mut gathered = Vec::new();
+        for strata in picked.tiles() {
+            let rows = picked.rows_of::<D>(&strata, &mut gathered);
             for (index, stratum) in strata.enumerate() {
                 for (axis, weight) in weight(stratum).into_iter().enumerate() {
                     let row = &rows[(index * D + axis) * modes..][..modes];
@@ -299,7 +314,7 @@ pub(super) fn weighted_sum<const D: usize>(
                     }
                 }
             }
-        });
+        }
         sum
     }));
     let mut sum = vec![0.0; modes];
