@@ -6,8 +6,15 @@
 //! models of many sizes, with the least-squares line through it. `-- --quick` leaves the sizes out.
 #![allow(clippy::print_stdout, clippy::unwrap_used, reason = "a benchmark prints, or stops")]
 
+use std::hint::black_box;
 use std::time::Instant;
 
+use nalgebra::{DMatrix, DVector};
+use shapevenn::compare::{
+    Side, expected_distance, fit_laplace, fit_reweighted, fit_rms, fit_variational_step,
+    fit_variational_step_every,
+};
+use shapevenn::model::LinearModel;
 use shapevenn::roofline::{Workload, peak};
 
 /// Seconds that one measurement takes. The best of its windows counts, since others use the machine.
@@ -37,9 +44,11 @@ fn main() {
             show(&work, points, modes, batch, all);
         }
     }
-    if !std::env::args().any(|argument| argument == "--quick") {
-        sizes();
+    if std::env::args().any(|argument| argument == "--quick") {
+        return;
     }
+    preparation();
+    sizes();
 }
 
 /// Seconds of one piece of work and operations a second.
@@ -79,6 +88,77 @@ fn show(work: &Workload, points: usize, modes: usize, batch: usize, peak: f64) {
     }
 }
 
+/// µs of an evaluation over models of many sizes, and the line through them.
 fn sizes() {
-    println!();
+    const POINTS: [usize; 6] = [1_000, 2_000, 5_000, 10_000, 20_000, 50_000];
+    const MODES: [usize; 5] = [10, 25, 50, 100, 200];
+    println!("\nµs of one evaluation, 64 at a time, all threads");
+    println!("{:>7} {}", "n \\ q", MODES.map(|modes| format!("{modes:>9}")).concat());
+    let mut found = Vec::new();
+    for points in POINTS {
+        let row = MODES.map(|modes| {
+            let work = Workload::new(points, modes, 64);
+            let micros = best(|| work.distances()).0 / 64.0 * 1e6;
+            found.push(((points * modes) as f64, micros));
+            format!("{micros:>9.2}")
+        });
+        println!("{points:>7} {}", row.concat());
+    }
+    // Relative residuals: a line through the origin and one with a term a point, by least squares of
+    // (y − b x)/y.
+    let (top, bottom) = found.iter().fold((0.0, 0.0), |(top, bottom), (x, y)| {
+        let ratio = x / y;
+        (top + ratio, bottom + ratio * ratio)
+    });
+    let slope = top / bottom;
+    let off = found.iter().map(|(x, y)| (y / (slope * x) - 1.0).abs()).fold(0.0, f64::max);
+    println!(
+        "µs ≈ {:.3} · n·q/10⁶ (relative least squares); farthest from it {:.0} %",
+        slope * 1e6,
+        100.0 * off
+    );
+}
+
+/// Seconds to prepare a comparison: operators and iterations of a fit.
+fn preparation() {
+    println!("\n{:>7} {:>5}   preparation, best of 5                 ms", "n", "q");
+    for (points, modes) in [(5_764, 50), (5_023, 300)] {
+        let (a, b) = waves(points, modes);
+        let millis = |name: &str, work: &dyn Fn()| {
+            let times = (0..5).map(|_| {
+                let begun = Instant::now();
+                work();
+                begun.elapsed().as_secs_f64() * 1e3
+            });
+            let best = times.fold(f64::INFINITY, f64::min);
+            println!("{points:>7} {modes:>5}   {name:32} {best:>9.1}");
+        };
+        let side = Side::new(&a, &b);
+        let sigma = 0.3;
+        let fit = fit_rms(&side, sigma).unwrap();
+        millis("one residual operator", &|| drop(black_box(Side::new(&a, &b))));
+        millis("rms fit", &|| drop(black_box(fit_rms(&side, sigma))));
+        millis("variational step", &|| drop(black_box(fit_variational_step(&side, sigma, &fit))));
+        millis("the same, every 4th vertex", &|| {
+            drop(black_box(fit_variational_step_every(&side, sigma, &fit, 4)));
+        });
+        millis("reweighted round", &|| drop(black_box(fit_reweighted(&side, sigma, &fit, 1))));
+        millis("expected distance", &|| {
+            black_box(expected_distance(&side, &fit));
+        });
+        millis("Laplace fit", &|| drop(black_box(fit_laplace(&side, sigma, &fit))));
+    }
+}
+
+/// Two models of smooth waves: what the numbers are does not matter here.
+fn waves(points: usize, modes: usize) -> (LinearModel, LinearModel) {
+    let model = |seed: f64| {
+        let mean = DVector::from_fn(3 * points, |row, _| 50.0 * libm::sin(0.37 * row as f64));
+        let basis = DMatrix::from_fn(3 * points, modes, |row, mode| {
+            let phase = (row as f64 + 3.0 * seed) * (1.0 + mode as f64) * 0.071 + seed;
+            3.0 * libm::sin(phase) / (1.0 + mode as f64).sqrt()
+        });
+        LinearModel::from_scaled_basis(3, mean, basis).unwrap().0
+    };
+    (model(1.0), model(2.7))
 }

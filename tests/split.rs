@@ -137,7 +137,10 @@ fn draws_recover_the_shared_modes_as_well_as_their_number_allows_and_gradients_b
     assert!(ratio < 1.5, "{ratio} times the error of independent draws");
     assert!(ratio > 0.5, "{ratio}: fewer errors than independent draws can have");
     assert!(plain < PRINTED, "{plain}, the paper {PRINTED}");
-    assert!(weighted < plain / 4.0, "{weighted} from weighted draws and gradients, {plain} from draws");
+    assert!(
+        weighted < plain / 4.0,
+        "{weighted} from weighted draws and gradients, {plain} from draws"
+    );
     assert!(weighted > 1e-9, "sampled, not known");
 }
 

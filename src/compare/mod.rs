@@ -5,21 +5,21 @@ mod fit;
 mod joint;
 mod kernel;
 mod meeting;
+mod operator;
 mod pair;
-mod stubs;
+mod residuals;
 mod targets;
 mod tolerance;
 mod vertex_norm;
 
 pub use difference::Difference;
 pub use fit::{
-    Fit, FitMethod, expected_distance, fit_reweighted, fit_rms, fit_variational_step,
-    without_distance,
+    Fit, FitMethod, effective_dimensions, expected_distance, fit_laplace, fit_quickly,
+    fit_reweighted, fit_rms, fit_variational_step, fit_variational_step_every, without_distance,
 };
 pub use joint::{Joint, JointModel, Moments};
 pub use kernel::DistanceKernel;
 pub use meeting::{Meeting, nearest_meeting, plausible_radius};
 pub use pair::{Pair, PairError, Side};
-pub use stubs::*;
 pub use targets::Intersection;
 pub use tolerance::{Tolerance, recommended_tolerance};

@@ -17,8 +17,11 @@ use core::fmt;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::operator::{Operator, Plausibilities, Rows, with_rows};
 use super::{DistanceKernel, Joint};
-use crate::model::{Alignment, Kind, LinearModel, Similarity, align_to, cross, product};
+use crate::lanes::dot;
+use crate::model::{Alignment, Kind, LinearModel, Similarity, align_to};
+use crate::parallel;
 
 /// Why two models cannot be compared.
 #[derive(Debug, Clone, PartialEq)]
@@ -105,18 +108,23 @@ impl fmt::Display for PairError {
 impl core::error::Error for PairError {}
 
 /// Shapes of one model seen from the other: x = m₁ + U₁ a against M₂.
+///
+/// R is kept in single precision, 4·d·n·q bytes, and beside it in double precision where that costs at
+/// most two megabytes. Everything reads the same R, so that its rounding is one of the model.
 #[derive(Debug, Clone)]
 pub struct Side {
     dimension: usize,
     modes: usize,
     /// r₀ (d·n).
     offset: Vec<f64>,
-    /// R, row-major (d·n × q).
-    residual: Vec<f64>,
+    /// R in double precision, row-major (d·n × q), where it is small.
+    double: Option<Vec<f64>>,
     /// AᵀA (q × q) and Aᵀa₀ (q), for ‖a′‖² = ‖a₀‖² + 2 aᵀAᵀa₀ + aᵀAᵀA a.
     projection_gram: DMatrix<f64>,
     projection_shift: DVector<f64>,
     projection_constant: f64,
+    /// Share of ‖a′‖² + ‖a‖² in twice the negative log density: 1 for the paper's product.
+    plausibility_share: f64,
     /// RᵀR, Rᵀr₀ and ‖r₀‖², for Σ_v ‖r_v‖² in O(q²).
     gram: DMatrix<f64>,
     gram_shift: DVector<f64>,
@@ -126,38 +134,54 @@ pub struct Side {
     kernel: DistanceKernel,
 }
 
+/// Rows whose residuals are one piece of work.
+const STRIP: usize = 1536;
+
 impl Side {
     /// The operator for shapes of `from` seen from `to`.
     pub fn new(from: &LinearModel, to: &LinearModel) -> Self {
         let difference = from.mean() - to.mean();
         let mean_coordinates = to.basis().tr_mul(&difference);
         let offset = &difference - to.basis() * &mean_coordinates;
-        let scaled = from.scaled_basis();
-        let coordinates = cross(to.basis(), &scaled);
-        let residual = &scaled - product(to.basis(), &coordinates);
-        let divide = |mut matrix: DMatrix<f64>| {
-            for (mut row, deviation) in matrix.row_iter_mut().zip(to.standard_deviations().iter()) {
-                row /= *deviation;
-            }
-            matrix
-        };
-        let projection = divide(coordinates);
+        let operator = Operator::new(from, to, offset.as_slice());
+        let mut projection = operator.coordinates;
+        for (mut row, deviation) in projection.row_iter_mut().zip(to.standard_deviations().iter()) {
+            row /= *deviation;
+        }
         let projected_mean = mean_coordinates.component_div(to.standard_deviations());
-        let residual_rows: Vec<f64> = residual.transpose().as_slice().to_vec();
         Self {
             dimension: from.dimension(),
             modes: from.mode_count(),
             projection_gram: projection.tr_mul(&projection),
             projection_shift: projection.tr_mul(&projected_mean),
             projection_constant: projected_mean.norm_squared(),
-            gram: cross(&residual, &residual),
-            gram_shift: residual.tr_mul(&offset),
+            plausibility_share: 1.0,
+            gram: operator.gram,
+            gram_shift: operator.gram_shift,
             gram_constant: offset.norm_squared(),
-            largest_residual: residual.amax().max(offset.amax()),
-            kernel: DistanceKernel::new(from.dimension(), from.mode_count(), &residual_rows),
+            largest_residual: operator.largest.max(offset.amax()),
+            kernel: DistanceKernel::of_rows(from.dimension(), from.mode_count(), operator.single),
             offset: offset.as_slice().to_vec(),
-            residual: residual_rows,
+            double: operator.double,
         }
+    }
+
+    /// The same with s(‖a′‖² + ‖a‖²) in the posterior: s = 1 is the paper's product L_P·p, s = ½ the geometric
+    /// mean of the two plausibilities, with which a model compared with itself keeps its variance.
+    #[must_use]
+    pub fn with_plausibility(self, share: f64) -> Self {
+        Self { plausibility_share: share, ..self }
+    }
+
+    /// s(I + AᵀA), the precision of plausibility alone (q × q).
+    pub fn plausibility_precision(&self) -> DMatrix<f64> {
+        (DMatrix::identity(self.modes, self.modes) + &self.projection_gram)
+            * self.plausibility_share
+    }
+
+    /// s Aᵀa₀, half the gradient of plausibility at 0 (q).
+    pub fn plausibility_shift(&self) -> DVector<f64> {
+        &self.projection_shift * self.plausibility_share
     }
 
     /// Coordinates per point.
@@ -180,9 +204,18 @@ impl Side {
         &self.offset
     }
 
-    /// R, row-major (d·n × q).
-    pub fn residual(&self) -> &[f64] {
-        &self.residual
+    /// R, row-major (d·n × q): a copy in double precision, of numbers that may have been rounded to
+    /// single.
+    pub fn residual(&self) -> Vec<f64> {
+        with_rows!(self, rows => rows.iter().map(|&value| f64::from(value)).collect())
+    }
+
+    /// R, row-major (d·n × q), as it is kept.
+    pub(super) fn rows(&self) -> Rows<'_> {
+        match &self.double {
+            Some(rows) => Rows::Double(rows),
+            None => Rows::Single(self.kernel.rows()),
+        }
     }
 
     /// AᵀA, with I the precision of the projection likelihood times the prior.
@@ -217,11 +250,16 @@ impl Side {
 
     /// The residual r₀ + R c at a centre c (d·n), in double precision.
     pub fn residual_at(&self, centre: &[f64]) -> Vec<f64> {
-        self.offset
-            .iter()
-            .zip(self.residual.chunks_exact(self.modes))
-            .map(|(start, row)| start + row.iter().zip(centre).map(|(r, c)| r * c).sum::<f64>())
-            .collect()
+        let strips = parallel::map(self.offset.len().div_ceil(STRIP), |strip| {
+            let coordinates = strip * STRIP..((strip + 1) * STRIP).min(self.offset.len());
+            let offset = &self.offset[coordinates.clone()];
+            with_rows!(self, rows => {
+                let rows = &rows[coordinates.start * self.modes..coordinates.end * self.modes];
+                let rows = rows.chunks_exact(self.modes);
+                offset.iter().zip(rows).map(|(start, row)| start + dot(row, centre)).collect::<Vec<_>>()
+            })
+        });
+        strips.concat()
     }
 
     /// d(x′, x) in double precision, one shape: the reference for the kernel.
@@ -241,44 +279,48 @@ impl Side {
         let mut gradient = vec![0.0; self.modes];
         let mut sum = 0.0;
         let points = residual.chunks_exact(self.dimension);
-        let rows = self.residual.chunks_exact(self.dimension * self.modes);
-        for (point, vertex) in points.zip(rows) {
-            let norm = point.iter().map(|value| value * value).sum::<f64>().sqrt();
-            sum += norm;
-            if norm > 0.0 {
-                for (value, row) in point.iter().zip(vertex.chunks_exact(self.modes)) {
-                    for (target, weight) in gradient.iter_mut().zip(row) {
-                        *target += value / norm * weight;
+        with_rows!(self, rows => {
+            for (point, vertex) in points.zip(rows.chunks_exact(self.dimension * self.modes)) {
+                let norm = point.iter().map(|value| value * value).sum::<f64>().sqrt();
+                sum += norm;
+                if norm > 0.0 {
+                    for (value, row) in point.iter().zip(vertex.chunks_exact(self.modes)) {
+                        for (target, &weight) in gradient.iter_mut().zip(row) {
+                            *target += value / norm * f64::from(weight);
+                        }
                     }
                 }
             }
-        }
+        });
         let scale = 1.0 / self.point_count() as f64;
         (sum * scale, gradient.into_iter().map(|value| value * scale).collect())
     }
 
-    /// ‖a′‖² + ‖a‖² and half its gradient, Aᵀ(a₀ + A a) + a (q).
+    /// s(‖a′‖² + ‖a‖²) and half its gradient, s(Aᵀ(a₀ + A a) + a) (q).
     pub fn plausibility(&self, coefficients: &[f64]) -> (f64, Vec<f64>) {
-        let point = DVector::from_column_slice(coefficients);
-        let half = &self.projection_gram * &point + &self.projection_shift + &point;
-        let square = point.dot(&half) + self.projection_shift.dot(&point);
-        (square + self.projection_constant, half.as_slice().to_vec())
+        let (squares, slopes) = self.plausibilities(coefficients, true);
+        (squares[0], slopes)
     }
 
-    /// ‖a′‖² + ‖a‖²: twice the negative logarithm of L_P(a)·p(a), up to a constant.
+    /// s(‖a′‖² + ‖a‖²): twice the negative logarithm of L_P(a)·p(a), up to a constant, where s = 1.
     pub fn plausibility_square(&self, coefficients: &[f64]) -> f64 {
-        let mut square = self.projection_constant;
-        for (column, value) in coefficients.iter().enumerate() {
-            let product: f64 = self
-                .projection_gram
-                .column(column)
-                .iter()
-                .zip(coefficients)
-                .map(|(g, a)| g * a)
-                .sum();
-            square += value * (value + 2.0 * self.projection_shift[column] + product);
+        self.plausibilities(coefficients, false).0[0]
+    }
+
+    /// [`Self::plausibility`] of many shapes (B × q, row-major): the squares (B), and half their gradients
+    /// (B × q) if wanted.
+    pub(super) fn plausibilities(&self, points: &[f64], slopes: bool) -> (Vec<f64>, Vec<f64>) {
+        let (mut squares, mut gradients) = Plausibilities {
+            gram: self.projection_gram.as_slice(),
+            shift: self.projection_shift.as_slice(),
+            constant: self.projection_constant,
+            slopes,
         }
-        square
+        .of(points);
+        for value in squares.iter_mut().chain(&mut gradients) {
+            *value *= self.plausibility_share;
+        }
+        (squares, gradients)
     }
 
     /// Whether M₂ holds every shape of this side to rounding: the difference is empty.
@@ -293,6 +335,8 @@ pub struct Pair {
     a: LinearModel,
     b: LinearModel,
     moved: Similarity,
+    /// Variance of the modes that were cut off, of both models together.
+    cut_variance: f64,
 }
 
 impl Pair {
@@ -317,8 +361,25 @@ impl Pair {
             return Err(PairError::PointCount { a: a.point_count(), b: b.point_count() });
         }
         let (b, moved) = align_to(a, b, alignment);
+        let most = a.mode_count().max(b.mode_count());
         let cut = |model: &LinearModel| model.truncated(modes.unwrap_or(usize::MAX));
-        Ok(Self { a: cut(a), b: cut(&b), moved })
+        let whole = a.total_variance() + b.total_variance();
+        let (a, b) = (cut(a), cut(&b));
+        let cut_variance = if modes.is_some_and(|modes| modes < most) {
+            whole - a.total_variance() - b.total_variance()
+        } else {
+            0.0
+        };
+        Ok(Self { a, b, moved, cut_variance })
+    }
+
+    /// How far a shape of either model lies from it once its last modes are cut off, where some were: the mean
+    /// distance of their sum, a Gaussian at every point.
+    pub fn noise_of_cut_modes(&self) -> Option<f64> {
+        let square = self.cut_variance / (2.0 * self.a.point_count() as f64);
+        // E‖·‖ over root mean square, of isotropic vectors in the plane and in space.
+        let ratio = if self.a.dimension() == 2 { 0.886 } else { 0.921 };
+        (square > 0.0).then(|| ratio * square.sqrt())
     }
 
     /// Model A.

@@ -3,7 +3,6 @@
 use nalgebra::DVector;
 
 use super::Side;
-use crate::parallel;
 use crate::sampling::{Evaluation, Target};
 
 /// d(x′, x) of many shapes, with the residual at a centre taken in double precision.
@@ -52,6 +51,12 @@ impl<'a> Intersection<'a> {
     pub fn new(side: &'a Side, sigma: f64, centre: &DVector<f64>) -> Self {
         Self { distances: Distances::new(side, centre.as_slice().to_vec()), sigma }
     }
+
+    fn evaluation(&self, distance: f64, plausibility: f64) -> Evaluation {
+        let scaled = distance / self.sigma;
+        let log_density = -0.5 * (scaled * scaled + plausibility);
+        Evaluation { log_density, statistic: distance }
+    }
 }
 
 impl Target for Intersection<'_> {
@@ -60,44 +65,26 @@ impl Target for Intersection<'_> {
     }
 
     fn evaluate(&self, points: &[f64]) -> Vec<Evaluation> {
-        self.distances
-            .of(points)
-            .into_iter()
-            .zip(points.chunks_exact(self.dimension()))
-            .map(|(distance, point)| {
-                let scaled = distance / self.sigma;
-                let plausibility = self.distances.side.plausibility_square(point);
-                Evaluation {
-                    log_density: -0.5 * (scaled * scaled + plausibility),
-                    statistic: distance,
-                }
-            })
-            .collect()
+        let (plausibilities, _) = self.distances.side.plausibilities(points, false);
+        let distances = self.distances.of(points);
+        distances.into_iter().zip(plausibilities).map(|(d, p)| self.evaluation(d, p)).collect()
     }
 
     /// ∇ log p = −(d/σ²)·∇d − Aᵀ(a₀ + A a) − a, with ∇d = (1/n) Σ R_vᵀ r_v/‖r_v‖.
     fn differentiate(&self, points: &[f64]) -> (Vec<Evaluation>, Vec<f64>) {
-        let modes = self.dimension();
+        let (plausibilities, mut gradients) = self.distances.side.plausibilities(points, true);
         let (distances, slopes) = self.distances.with_gradients(points);
         let precision = 1.0 / (self.sigma * self.sigma);
-        let side = self.distances.side;
-        let rows = parallel::map(distances.len(), |index| {
-            let point = &points[index * modes..(index + 1) * modes];
-            let slope = &slopes[index * modes..(index + 1) * modes];
-            let (plausibility, half_gradient) = side.plausibility(point);
-            let scaled = distances[index] / self.sigma;
-            let evaluation = Evaluation {
-                log_density: -0.5 * (scaled * scaled + plausibility),
-                statistic: distances[index],
-            };
-            let gradient: Vec<f64> = slope
-                .iter()
-                .zip(half_gradient)
-                .map(|(slope, plain)| -distances[index] * precision * slope - plain)
-                .collect();
-            (evaluation, gradient)
-        });
-        let (evaluations, gradients): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
-        (evaluations, gradients.concat())
+        let rows = slopes.chunks_exact(self.dimension());
+        for ((gradient, slope), distance) in
+            gradients.chunks_exact_mut(self.dimension()).zip(rows).zip(&distances)
+        {
+            for (plain, slope) in gradient.iter_mut().zip(slope) {
+                *plain = -distance * precision * slope - *plain;
+            }
+        }
+        let evaluations =
+            distances.into_iter().zip(plausibilities).map(|(d, p)| self.evaluation(d, p)).collect();
+        (evaluations, gradients)
     }
 }

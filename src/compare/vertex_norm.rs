@@ -34,6 +34,25 @@ pub(super) struct NormMoments<const D: usize> {
     pub(super) curvature: [[f64; D]; D],
 }
 
+impl<const D: usize> NormMoments<D> {
+    /// Of a vector that does not vary; zero where it is zero, which has no direction.
+    pub(super) fn of(vector: [f64; D]) -> Self {
+        let norm = vector.iter().map(|value| value * value).sum::<f64>().sqrt();
+        if norm == 0.0 {
+            return Self { norm, direction: vector, curvature: [[0.0; D]; D] };
+        }
+        let direction = vector.map(|value| value / norm);
+        let mut curvature = [[0.0; D]; D];
+        for row in 0..D {
+            for column in 0..D {
+                let own = if row == column { 1.0 } else { 0.0 };
+                curvature[row][column] = (own - direction[row] * direction[column]) / norm;
+            }
+        }
+        Self { norm, direction, curvature }
+    }
+}
+
 impl NormQuadrature {
     /// The 24-node rule.
     pub(super) fn new() -> Self {

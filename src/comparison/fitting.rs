@@ -6,13 +6,16 @@
 
 use super::settings::{FitChoice, Settings};
 use crate::compare::{
-    Fit, FitMethod, Intersection, Side, fit_laplace, fit_reweighted, fit_rms, fit_variational_step,
+    Fit, FitMethod, Intersection, Side, fit_laplace, fit_reweighted, fit_rms,
+    fit_variational_step_every,
 };
 use crate::sampling::{Gaussian, Stream, Target, fill_normal, stream};
 
 const MOST_ITERATIONS: usize = 12;
 /// Whitened length of a step at which the variational fit is at rest.
 const AT_REST: f64 = 0.02;
+/// Vertices that are enough for all iterations but the last.
+const MANY_VERTICES: usize = 8192;
 const PILOT_DRAWS: usize = 256;
 /// Effective share of the pilot's weights above which no other fit is tried.
 const GOOD_ENOUGH: f64 = 0.8;
@@ -31,6 +34,8 @@ pub(super) struct Fitting {
     rms: Gaussian,
     current: Gaussian,
     iterations: usize,
+    /// At rest over some of the vertices.
+    nearly: bool,
     settled: bool,
     evaluations: u64,
 }
@@ -52,6 +57,7 @@ impl Fitting {
             current: rms.clone(),
             rms,
             iterations: 0,
+            nearly: false,
             settled: false,
             evaluations: 0,
         })
@@ -71,14 +77,7 @@ impl Fitting {
             FitChoice::Auto | FitChoice::Variational => {}
         }
         if !self.settled {
-            match fit_variational_step(operator, self.sigma, &self.current) {
-                Some((next, step)) => {
-                    self.current = next;
-                    self.iterations += 1;
-                    self.settled = step < AT_REST || self.iterations >= MOST_ITERATIONS;
-                }
-                None => self.settled = true,
-            }
+            self.iterate(operator);
             return None;
         }
         let variational = Fit { method: FitMethod::Variational, gaussian: self.current.clone() };
@@ -98,6 +97,21 @@ impl Fitting {
             }
         }
         Some(best.1)
+    }
+
+    /// One variational iteration: over some of the vertices until it is at rest, then once over all.
+    fn iterate(&mut self, operator: &Side) {
+        let stride = if self.nearly { 1 } else { operator.point_count().div_ceil(MANY_VERTICES) };
+        match fit_variational_step_every(operator, self.sigma, &self.current, stride) {
+            Some((next, step)) => {
+                self.current = next;
+                self.iterations += 1;
+                let at_rest = step < AT_REST || self.iterations >= MOST_ITERATIONS;
+                self.settled = at_rest && stride == 1 || self.nearly;
+                self.nearly = at_rest;
+            }
+            None => self.settled = true,
+        }
     }
 
     fn rms_fit(&self) -> Fit {

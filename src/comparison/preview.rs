@@ -10,7 +10,7 @@ use super::Comparison;
 use super::inference::Estimate;
 use super::regions::{RegionShapes, ShapeSource, single};
 use super::results::{grassmann, pooled};
-use crate::compare::{Moments, Side, effective_dimensions, quick_fit};
+use crate::compare::{Moments, Side, effective_dimensions, fit_quickly};
 use crate::report::{Grassmann, MomentSource};
 use crate::sampling::{Gaussian, Stream, fill_normal, stream};
 
@@ -127,7 +127,7 @@ impl Comparison {
     /// Quick fits of both sides at `sigma`.
     fn fits_at(&mut self, sigma: f64) -> Option<[Gaussian; 2]> {
         self.prepare_sides();
-        let fit = |side: &Side| quick_fit(side, sigma);
+        let fit = |side: &Side| fit_quickly(side, sigma);
         Some([fit(&self.sides[0])?, fit(&self.sides[1])?])
     }
 

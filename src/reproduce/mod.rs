@@ -264,7 +264,7 @@ impl Trial {
     fn sample(&self, known: &LinearModel) -> Sample {
         let diagnostics = &self.report.intersection.diagnostics;
         Sample {
-            distance: self.run.intersection().map_or(f64::NAN, |found| distance(found, known)),
+            distance: self.run.intersection().map_or(f64::NAN, |found| distance(&found, known)),
             evaluations: self.evaluations,
             seconds: self.seconds,
             r_hat_max: diagnostics.r_hat_max,
