@@ -1,5 +1,6 @@
 //! Two models in one frame: the residual operator, the targets, the Gaussian fits.
 
+mod departure;
 mod difference;
 mod fit;
 mod joint;
@@ -12,7 +13,7 @@ mod targets;
 mod tolerance;
 mod vertex_norm;
 
-pub use difference::Difference;
+pub use difference::{Criterion, Difference, DifferenceDefinition, Level};
 pub use fit::{
     Fit, FitMethod, effective_dimensions, expected_distance, fit_laplace, fit_quickly,
     fit_reweighted, fit_rms, fit_variational_step, fit_variational_step_every, without_distance,
