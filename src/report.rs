@@ -380,6 +380,46 @@ pub struct DifferenceReport {
     pub diagnostics: Diagnostics,
     /// Of the per-vertex standard deviation over the draws.
     pub vertex_sd: Spread,
+    /// What counts as a difference.
+    #[serde(default)]
+    pub definition: crate::compare::DifferenceDefinition,
+    /// σ of the soft difference, the threshold of the score of the others.
+    #[serde(default)]
+    pub threshold: Option<f64>,
+    /// What the proposals were drawn from.
+    #[serde(default)]
+    pub envelope: EnvelopeName,
+    /// Share that the law of the draws has in common with the model itself, 1 − TV: near 1, the difference
+    /// looks like the model.
+    #[serde(default)]
+    pub overlap_with_prior: f64,
+    /// Its Monte-Carlo standard error.
+    #[serde(default)]
+    pub overlap_standard_error: f64,
+    /// What the other model lacks, mode by mode, without any draws.
+    #[serde(default)]
+    pub exclusive: Option<ExclusiveReport>,
+}
+
+/// What the proposals of a difference are drawn from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum EnvelopeName {
+    /// The model's own shapes.
+    #[default]
+    Prior,
+    /// The model's own shapes, tilted towards large residuals.
+    Tilted,
+}
+
+/// Directions in which a model varies most and the other cannot follow.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct ExclusiveReport {
+    /// Residual (root mean square over the points) of one standard deviation along each, largest first.
+    pub residual_sd: Vec<f64>,
+    /// Share of the model's variance that the other cannot make.
+    pub unexplained: f64,
 }
 
 /// How the two models' spaces lie to one another.

@@ -10,7 +10,7 @@ use js_sys::{Float32Array, Object, Reflect, Uint8Array, Uint32Array};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
-use crate::comparison::{Comparison, Region, Settings, ShapeSource, Stage};
+use crate::comparison::{Comparison, Picture, Region, RegionShapes, Settings, ShapeSource, Stage};
 use crate::files::{self, Described, Download, Error};
 use crate::model::{Cells, LinearModel};
 use crate::report::{ModelReport, Seconds};
@@ -41,6 +41,23 @@ struct OpenedPart<'a> {
     model: u32,
     part: &'a str,
     report: &'a ModelReport,
+}
+
+fn shown(region: JsValue, shapes: &RegionShapes) -> JsValue {
+    let array = |values: &[f32]| JsValue::from(Float32Array::from(values));
+    let source = match shapes.source {
+        ShapeSource::Model => "model",
+        ShapeSource::Fit => "fit",
+        ShapeSource::Draws => "draws",
+    };
+    object(&[
+        ("region", region),
+        ("mean", array(&shapes.mean)),
+        ("vertexSd", array(&shapes.vertex_sd)),
+        ("samples", array(&shapes.samples)),
+        ("count", plain(&shapes.count)),
+        ("source", JsValue::from_str(source)),
+    ])
 }
 
 #[derive(Serialize)]
@@ -241,29 +258,58 @@ impl Engine {
         Ok(())
     }
 
-    /// Shapes of a region: `{ region, mean, vertexSd, samples, count, source }`.
+    /// Shapes of a region: `{ region, mean, vertexSd, samples, count, source }`. For the differences,
+    /// `exaggeration` is γ in x + γ r(a) and `picture` either "draws" or "exclusiveModes".
     ///
     /// # Errors
     /// `{ code, message, hint }` while there is nothing of it.
-    pub fn region(&self, region: JsValue, count: usize, seed: &str) -> Result<JsValue, JsValue> {
+    pub fn region(
+        &mut self,
+        region: JsValue,
+        count: usize,
+        seed: &str,
+        exaggeration: Option<f64>,
+        picture: Option<String>,
+    ) -> Result<JsValue, JsValue> {
         let which: Region = parsed(region.clone(), "region")?;
         let seed = seed.parse().unwrap_or(0);
-        let shapes =
-            self.current()?.region(which, count, seed).ok_or_else(|| thrown(Error::NothingYet))?;
-        let array = |values: &[f32]| JsValue::from(Float32Array::from(values));
-        let source = match shapes.source {
-            ShapeSource::Model => "model",
-            ShapeSource::Fit => "fit",
-            ShapeSource::Draws => "draws",
+        let nothing = || thrown(Error::NothingYet);
+        let comparison = self.comparison.as_mut().ok_or_else(nothing)?;
+        let picture = Picture {
+            exaggeration: exaggeration.unwrap_or(0.0),
+            exclusive_modes: picture.as_deref() == Some("exclusiveModes"),
         };
-        Ok(object(&[
-            ("region", region),
-            ("mean", array(&shapes.mean)),
-            ("vertexSd", array(&shapes.vertex_sd)),
-            ("samples", array(&shapes.samples)),
-            ("count", plain(&shapes.count)),
-            ("source", JsValue::from_str(source)),
-        ]))
+        let shapes = match which {
+            Region::AWithoutB => comparison.difference(0, count, seed, picture),
+            Region::BWithoutA => comparison.difference(1, count, seed, picture),
+            _ => comparison.region(which, count, seed),
+        };
+        Ok(shown(region, &shapes.ok_or_else(nothing)?))
+    }
+
+    /// The intersection at another σ, by the Gaussian fit alone: `{ prediction, shapes }`.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }` when no comparison is open, or the fit breaks down.
+    pub fn preview(&mut self, sigma: f64, count: usize, seed: &str) -> Result<JsValue, JsValue> {
+        let nothing = || thrown(Error::NothingYet);
+        let comparison = self.comparison.as_mut().ok_or_else(nothing)?;
+        let seed = seed.parse().unwrap_or(0);
+        let (prediction, shapes) = comparison.preview(sigma, count, seed).ok_or_else(|| {
+            let message = format!("The numbers overflow at σ = {sigma}.");
+            fault("not-finite", message, "Try a larger σ, or fewer modes.")
+        })?;
+        let region = plain(&Region::Intersection);
+        Ok(object(&[("prediction", plain(&prediction)), ("shapes", shown(region, &shapes))]))
+    }
+
+    /// What the fit says of the intersection at each σ: an array of predictions with distances.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }` when no comparison is open.
+    pub fn sweep(&mut self, sigmas: &[f64]) -> Result<JsValue, JsValue> {
+        let comparison = self.comparison.as_mut().ok_or_else(|| thrown(Error::NothingYet))?;
+        Ok(plain(&comparison.sweep(sigmas)))
     }
 
     /// A file to be saved: `{ name, mime, bytes }`.

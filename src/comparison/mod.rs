@@ -21,7 +21,7 @@ mod warnings;
 
 pub use error::ComparisonError;
 pub use preview::{Prediction, SweepPoint};
-pub use regions::{Region, RegionShapes, ShapeSource};
+pub use regions::{Picture, Region, RegionShapes, ShapeSource};
 pub use results::{Results, StoredArray};
 pub use settings::{FitChoice, Plausibility, Pooling, Sampler, Settings, SettingsError};
 

@@ -74,7 +74,59 @@ pub(super) fn single<'a>(values: impl IntoIterator<Item = &'a f64>) -> Vec<f32> 
     values.into_iter().map(|value| *value as f32).collect()
 }
 
+/// How the shapes of a difference are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Picture {
+    /// γ in x + γ r(a): how much of what the other model cannot make is added once more.
+    pub exaggeration: f64,
+    /// Shapes along the exclusive modes instead of draws.
+    pub exclusive_modes: bool,
+}
+
+/// Standard deviations from the mean at which an exclusive mode is shown.
+const EXCLUSIVE_REACH: f64 = 3.0;
+
 impl Comparison {
+    /// Shapes of A\B (`side` 0) or B\A (1) as `picture` asks; `None` while there is nothing of it.
+    pub fn difference(
+        &mut self,
+        side: usize,
+        count: usize,
+        seed: u64,
+        picture: Picture,
+    ) -> Option<RegionShapes> {
+        self.prepare_sides();
+        let model = self.pair.models()[side];
+        let shape = |coefficients: &[f64]| {
+            self.sides[side].exaggerated(model, coefficients, picture.exaggeration)
+        };
+        if picture.exclusive_modes {
+            let modes = self.exclusive(side);
+            let count = count.min(modes.values.len());
+            let samples = (0..count).flat_map(|index| {
+                single(shape((modes.directions.column(index) * EXCLUSIVE_REACH).as_slice()).iter())
+            });
+            return Some(RegionShapes {
+                mean: single(shape(&vec![0.0; model.mode_count()]).iter()),
+                vertex_sd: single(&self.sides[side].expected_vertex_residuals()),
+                samples: samples.collect(),
+                count,
+                source: ShapeSource::Model,
+            });
+        }
+        let plain = self.difference_shapes(side, count, seed)?;
+        if picture.exaggeration == 0.0 {
+            return Some(plain);
+        }
+        let draws = self.rejections[side].draws();
+        let mut random = stream(seed, Stream::Display, 3 + side, 0);
+        let samples: Vec<f32> = (0..count)
+            .flat_map(|_| single(shape(pick(draws, uniform(&mut random))).iter()))
+            .collect();
+        let mean = Moments::of(draws.iter_slices(), draws.dimension).mean;
+        Some(RegionShapes { samples, mean: single(shape(mean.as_slice()).iter()), ..plain })
+    }
+
     /// Shapes of `region` from what there is, `count` of them picked by `seed`; `None` while there is
     /// nothing of it yet.
     pub fn region(&self, region: Region, count: usize, seed: u64) -> Option<RegionShapes> {

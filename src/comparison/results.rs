@@ -7,16 +7,17 @@ use super::inference::Estimate;
 use super::{Comparison, ComparisonError, Finished, Pooling, Stage, summary};
 use crate::compare::{Joint, JointModel, Moments};
 use crate::measure::{
-    AffineSpace, Displacement, affine_grassmann_distance, bhattacharyya_distance,
-    mean_vertex_distance, principal_angles, vertex_standard_deviations,
+    AffineSpace, Displacement, ExclusiveModes, affine_grassmann_distance, bhattacharyya_distance,
+    exclusive_modes, mean_vertex_distance, principal_angles, unexplained_share,
+    vertex_standard_deviations,
 };
 use crate::model::LinearModel;
 use crate::report::{
-    BothSides, DifferenceReport, Differences, Disagreement, Grassmann, InferenceReport,
-    IntersectionReport, MeanSd, Models, Overlap, Report, SCHEMA, Seconds, Sides, Spread,
-    ToleranceReport,
+    BothSides, DifferenceReport, Differences, Disagreement, EnvelopeName, ExclusiveReport,
+    Grassmann, InferenceReport, IntersectionReport, MeanSd, Models, Overlap, Report, SCHEMA,
+    Seconds, Sides, Spread, ToleranceReport,
 };
-use crate::sampling::Draws;
+use crate::sampling::{Draws, Envelope};
 
 /// All draws of a run, as coefficients: index 0 belongs to model A, 1 to model B.
 #[derive(Debug, Clone, PartialEq)]
@@ -245,8 +246,8 @@ impl Comparison {
                 tolerance: self.tolerance_report(),
             },
             differences: Differences {
-                a_without_b: self.difference(0),
-                b_without_a: self.difference(1),
+                a_without_b: self.difference_report(0),
+                b_without_a: self.difference_report(1),
             },
             overlap: self.overlap(joint),
             warnings: Vec::new(),
@@ -317,7 +318,7 @@ impl Comparison {
         })
     }
 
-    fn difference(&self, side: usize) -> DifferenceReport {
+    fn difference_report(&self, side: usize) -> DifferenceReport {
         let (probability, standard_error) = self.rejections[side].probability();
         let draws = self.rejections[side].draws();
         let model = self.pair.models()[side];
@@ -327,13 +328,35 @@ impl Comparison {
         } else {
             Spread::of(&vertex_standard_deviations(model, &factor))
         };
+        let (overlap_with_prior, overlap_standard_error) = self.rejections[side].overlap();
+        let envelope = match self.criteria[side].envelope() {
+            Envelope::Prior(_) => EnvelopeName::Prior,
+            Envelope::Tilted(_) => EnvelopeName::Tilted,
+        };
         DifferenceReport {
             probability,
             standard_error,
             mean_distance: MeanSd::of(&draws.statistics[0]),
             diagnostics: summary::of_independent(draws),
             vertex_sd,
+            definition: self.settings.difference,
+            threshold: Some(self.criteria[side].level()),
+            envelope,
+            overlap_with_prior,
+            overlap_standard_error,
+            exclusive: Some(ExclusiveReport {
+                residual_sd: self.exclusive(side).values.as_slice().to_vec(),
+                unexplained: unexplained_share(
+                    self.sides[side].gram(),
+                    model.standard_deviations(),
+                ),
+            }),
         }
+    }
+
+    /// Directions in which model `side` varies most and the other cannot follow.
+    pub(super) fn exclusive(&self, side: usize) -> ExclusiveModes {
+        exclusive_modes(self.sides[side].gram(), self.pair.a().point_count())
     }
 
     fn overlap(&self, joint: &Joint) -> Overlap {

@@ -13,7 +13,11 @@ use std::time::Instant;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
-use shapevenn::comparison::{Comparison, Sampler, Settings, Stage};
+use shapevenn::compare::DifferenceDefinition;
+use shapevenn::comparison::{
+    Comparison, ComparisonError, FitChoice, Plausibility, Pooling, Sampler, Settings,
+    SettingsError, Stage,
+};
 use shapevenn::files::{self, Described, Download, Error};
 use shapevenn::formats;
 use shapevenn::model::{Alignment, LinearModel};
@@ -46,6 +50,25 @@ enum Command {
         input: String,
         /// Where to write
         output: PathBuf,
+    },
+    /// How the intersection depends on σ: the paper's ablation, by the Gaussian fit alone
+    Sweep {
+        /// First model: a file, `FILE#part` or `demo:NAME`
+        a: String,
+        /// Second model
+        b: String,
+        /// Tolerances to look at; from a hundredth of the recommended one to a hundredfold when left out
+        #[arg(long, value_delimiter = ',')]
+        sigma: Vec<f64>,
+        /// Use only the first modes of each model
+        #[arg(long)]
+        modes: Option<usize>,
+        /// What may be moved to bring B to A
+        #[arg(long, value_enum, default_value = "none")]
+        align: AlignName,
+        /// Print one JSON array
+        #[arg(long)]
+        json: bool,
     },
     /// Run the paper's experiments again, beside its printed figures
     Reproduce(reproduce::Arguments),
@@ -84,6 +107,33 @@ struct Compare {
     /// What may be moved to bring B to A
     #[arg(long, value_enum, default_value = "none")]
     align: AlignName,
+    /// Gaussian fit to build on: auto, variational, reweighted, laplace or rms
+    #[arg(long, value_parser = setting::<FitChoice>)]
+    fit: Option<FitChoice>,
+    /// Weighted draws with gradients, on each side, for the moments of the intersection
+    #[arg(long)]
+    weighted: Option<usize>,
+    /// Sides that make the intersection model: both, a or b
+    #[arg(long, value_parser = setting::<Pooling>)]
+    pooling: Option<Pooling>,
+    /// How plausibility under A and B are put together: product (the paper's) or idempotent
+    #[arg(long, value_parser = setting::<Plausibility>)]
+    plausibility: Option<Plausibility>,
+    /// How far a true member of a population may lie from its own model, in the unit of A
+    #[arg(long)]
+    noise: Option<f64>,
+    /// What counts as a difference: soft (the paper's), distance, relative or outside
+    #[arg(long, value_parser = setting::<DifferenceDefinition>)]
+    difference: Option<DifferenceDefinition>,
+    /// Share of the model's own shapes that a hard difference leaves out
+    #[arg(long)]
+    difference_quantile: Option<f64>,
+    /// Threshold of a hard difference instead, in the unit of its score
+    #[arg(long)]
+    difference_threshold: Option<f64>,
+    /// Draws wanted of each difference
+    #[arg(long)]
+    difference_draws: Option<usize>,
     /// Write report, draws, the intersection model and the mean shapes to this folder
     #[arg(long)]
     out: Option<PathBuf>,
@@ -123,6 +173,12 @@ fn named<T: Clone + Send + Sync + 'static, const N: usize>(
     })
 }
 
+/// A setting by the name that it has in a report.
+fn setting<T: serde::de::DeserializeOwned>(name: &str) -> Result<T, String> {
+    serde_json::from_value(serde_json::Value::String(name.to_owned()))
+        .map_err(|error| error.to_string())
+}
+
 /// What ends the command early.
 #[derive(Debug)]
 enum Failure {
@@ -146,6 +202,10 @@ fn main() -> ExitCode {
     let done = match Cli::parse().command {
         Command::Info { files, json } => info(&files, json),
         Command::Compare(arguments) => compare(&arguments),
+        Command::Sweep { a, b, sigma, modes, align, json } => {
+            let settings = Settings { modes, align: align.into(), ..Settings::default() };
+            sweep([&a, &b], sigma, settings, json)
+        }
         Command::Convert { input, output } => convert(&input, &output),
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
     };
@@ -241,7 +301,18 @@ fn settings(arguments: &Compare) -> Settings {
         seed: arguments.seed.unwrap_or(defaults.seed),
         chains: arguments.chains.unwrap_or(defaults.chains),
         draws: arguments.draws.unwrap_or(defaults.draws),
-        difference_draws: arguments.draws.unwrap_or(defaults.difference_draws),
+        difference_draws: arguments
+            .difference_draws
+            .or(arguments.draws)
+            .unwrap_or(defaults.difference_draws),
+        fit: arguments.fit.unwrap_or_default(),
+        weighted: arguments.weighted.unwrap_or(defaults.weighted),
+        pooling: arguments.pooling.unwrap_or_default(),
+        plausibility: arguments.plausibility.unwrap_or_default(),
+        noise: arguments.noise,
+        difference: arguments.difference.unwrap_or_default(),
+        difference_quantile: arguments.difference_quantile.unwrap_or(defaults.difference_quantile),
+        difference_threshold: arguments.difference_threshold,
         burn_in: arguments.burn_in.unwrap_or(defaults.burn_in),
         thin: arguments.thin.unwrap_or(defaults.thin),
         modes: arguments.modes,
@@ -283,6 +354,49 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
         println!("{}", files::json(&report));
     } else {
         print_in_words(&report);
+    }
+    Ok(())
+}
+
+fn sweep(
+    sources: [&str; 2],
+    sigmas: Vec<f64>,
+    settings: Settings,
+    json: bool,
+) -> Result<(), Failure> {
+    const POINTS: i32 = 17;
+    if let Some(&found) = sigmas.iter().find(|sigma| !(sigma.is_finite() && **sigma > 0.0)) {
+        return Err(Error::from(ComparisonError::from(SettingsError::Sigma { found })).into());
+    }
+    let [a, b] = [open_one(sources[0])?, open_one(sources[1])?];
+    let mut run =
+        Comparison::new(&a.model, &b.model, [a.report, b.report], settings).map_err(Error::from)?;
+    while run.stage() == Stage::Prepare {
+        run.advance(1).map_err(Error::from)?;
+    }
+    let recommended = run.settings().sigma.unwrap_or(f64::NAN);
+    let around = (0..POINTS).map(|k| recommended * libm::pow(10.0, f64::from(k) / 4.0 - 2.0));
+    let sigmas = if sigmas.is_empty() { around.collect() } else { sigmas };
+    let points = run.sweep(&sigmas);
+    if json {
+        println!("{}", to_json(&points)?);
+        return Ok(());
+    }
+    println!("recommended σ = {recommended:.4}");
+    println!("       σ   distance    nearest  dimensions  vertex sd  d_G to A    to B  to union");
+    for point in points {
+        let found = point.prediction;
+        println!(
+            "{:8.4} {:10.4} {:10.4} {:11.2} {:10.4} {:9.4} {:7.4} {:9.4}",
+            found.sigma,
+            found.distance,
+            found.nearest,
+            found.effective_dimensions,
+            point.vertex_sd,
+            point.grassmann.to_a,
+            point.grassmann.to_b,
+            point.grassmann.to_union
+        );
     }
     Ok(())
 }
