@@ -6,12 +6,13 @@ mod joint;
 mod kernel;
 mod meeting;
 mod pair;
+mod residual;
 mod stubs;
 mod targets;
 mod tolerance;
 mod vertex_norm;
 
-pub use difference::Difference;
+pub use difference::{Criterion, Difference, DifferenceDefinition, Level};
 pub use fit::{
     Fit, FitMethod, expected_distance, fit_reweighted, fit_rms, fit_variational_step,
     without_distance,

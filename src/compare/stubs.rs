@@ -1,7 +1,6 @@
 //! Temporary: what helpers are writing.
 use super::{Pair, Side, fit_rms, fit_variational_step};
 use crate::sampling::Gaussian;
-use serde::{Deserialize, Serialize};
 /// tmp
 pub fn fit_laplace(_: &Side, _: f64, _: &Gaussian) -> Option<Gaussian> {
     None
@@ -28,18 +27,4 @@ impl Pair {
     pub fn noise_of_cut_modes(&self) -> Option<f64> {
         None
     }
-}
-/// tmp
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum DifferenceDefinition {
-    /// tmp
-    #[default]
-    Soft,
-    /// tmp
-    Distance,
-    /// tmp
-    Relative,
-    /// tmp
-    Outside,
 }

@@ -28,12 +28,12 @@ pub use settings::{FitChoice, Plausibility, Pooling, Sampler, Settings, Settings
 use serde::Serialize;
 
 use crate::compare::{
-    Difference, Joint, JointModel, Meeting, Pair, Side, Tolerance, nearest_meeting,
-    plausible_radius, recommended_tolerance,
+    Criterion, Difference, DifferenceDefinition, Joint, JointModel, Level, Meeting, Pair, Side,
+    Tolerance, nearest_meeting, plausible_radius, recommended_tolerance,
 };
 use crate::model::LinearModel;
 use crate::report::{ModelReport, Report, Seconds};
-use crate::sampling::{Draws, Envelope, Rejection};
+use crate::sampling::{Draws, Rejection};
 use inference::Inference;
 
 /// Proposals of the rejection sampler for each draw wanted, before it gives up.
@@ -93,6 +93,7 @@ pub struct Comparison {
     tolerance: Option<Tolerance>,
     meeting: Option<Meeting>,
     inferences: Vec<Inference>,
+    criteria: Vec<Criterion>,
     rejections: Vec<Rejection>,
     live: Option<(usize, f64, f64)>,
     cancelled: bool,
@@ -136,6 +137,7 @@ impl Comparison {
             tolerance: None,
             meeting: None,
             inferences: Vec::new(),
+            criteria: Vec::new(),
             rejections: Vec::new(),
             live: None,
             cancelled: false,
@@ -319,15 +321,30 @@ impl Comparison {
     }
 
     fn start_differences(&mut self) {
+        let settings = &self.settings;
+        let level = match (settings.difference, settings.difference_threshold) {
+            (DifferenceDefinition::Soft, _) => Level::Value(self.sigma()),
+            (_, Some(threshold)) => Level::Value(threshold),
+            (_, None) => Level::Quantile(settings.difference_quantile),
+        };
         for side in 0..2 {
             let wanted = self.settings.difference_draws;
+            let criterion = Criterion::new(
+                self.settings.difference,
+                level,
+                &self.sides[side],
+                self.pair.models()[side],
+                self.settings.seed,
+                side,
+            );
             self.rejections.push(Rejection::new(
-                Envelope::Prior(self.sides[side].mode_count()),
+                criterion.envelope().clone(),
                 wanted,
                 MOST_PROPOSALS_PER_DRAW * wanted as u64,
                 self.settings.seed,
                 side,
             ));
+            self.criteria.push(criterion);
         }
     }
 
@@ -350,20 +367,27 @@ impl Comparison {
     }
 
     fn draw_differences(&mut self) {
-        let sigma = self.sigma();
+        /// Blocks of 256 proposals that run at once.
+        const BLOCKS: usize = 8;
         let unfinished =
-            (0..2).find(|&side| !self.rejections[side].is_done() && !self.is_contained(side));
+            (0..2).find(|&side| !self.rejections[side].is_done() && !self.is_empty(side));
         match unfinished {
             Some(side) => {
-                self.rejections[side].advance(&Difference::new(&self.sides[side], sigma), 1);
+                let target = Difference::new(&self.sides[side], &self.criteria[side]);
+                self.rejections[side].advance(&target, BLOCKS);
             }
             None => self.stage = Stage::Measure,
         }
     }
 
-    /// Whether the other model makes every shape of this side, to rounding: the difference is empty.
+    /// Whether the other model makes every shape of this side, to rounding.
     fn is_contained(&self, side: usize) -> bool {
         self.sides[side].is_contained(self.pair.scale())
+    }
+
+    /// Whether the difference of this side is empty therefore.
+    fn is_empty(&self, side: usize) -> bool {
+        self.settings.difference.is_empty(&self.sides[side], self.pair.scale())
     }
 
     fn progress(&mut self) -> Progress {
@@ -394,7 +418,8 @@ impl Comparison {
     fn evaluations(&self) -> u64 {
         let inferences: u64 = self.inferences.iter().map(Inference::evaluations).sum();
         let rejections: u64 = self.rejections.iter().map(|run| run.draws().evaluations).sum();
-        inferences + rejections
+        let pilots: u64 = self.criteria.iter().map(Criterion::evaluations).sum();
+        inferences + rejections + pilots
     }
 
     /// Live diagnostics over the first coefficients, renewed when the draws have grown by a tenth.

@@ -252,11 +252,11 @@ impl Comparison {
             [(0, "A", "B", &differences.a_without_b), (1, "B", "A", &differences.b_without_a)];
         let nearly_all = |side: usize| {
             let difference = both[side].3;
-            !self.is_contained(side)
+            !self.is_empty(side)
                 && difference.diagnostics.draws > 0
                 && difference.probability > NEARLY_ALL
         };
-        if self.is_contained(0) && self.is_contained(1) {
+        if self.is_empty(0) && self.is_empty(1) {
             let half = match self.settings.plausibility {
                 Plausibility::Product => {
                     " Their intersection has less variance than either, half where the two are the same, because the paper's posterior counts plausibility twice."
@@ -279,7 +279,7 @@ impl Comparison {
             return;
         }
         for (side, this, other, difference) in both {
-            if self.is_contained(side) {
+            if self.is_empty(side) {
                 warnings.push(warning(
                     "empty-difference",
                     format!(

@@ -9,7 +9,7 @@
 //! how many.
 //!
 //! **Limits.** Needs E t/E g proposals for each draw; it gives up after a given number and keeps what
-//! it has. Two numbers are kept of every proposal.
+//! it has. The overlap with N(0, I) is taken from the first million proposals.
 
 use rand::Rng;
 
@@ -18,6 +18,8 @@ use crate::parallel;
 
 /// Proposals of one random stream.
 const BLOCK: usize = 256;
+/// Proposals that the overlap is taken from: 16 MiB of them.
+const REMEMBERED: usize = 1 << 20;
 
 /// The share g of the prior that is in p, with the statistic to record for each draw.
 pub trait RejectionTarget: Sync {
@@ -78,7 +80,9 @@ pub struct Rejection {
     wanted: usize,
     most_proposals: u64,
     block: usize,
-    /// (w, E t/t) of every proposal.
+    /// Σw and Σw².
+    sums: (f64, f64),
+    /// (w, E t/t) of the first proposals.
     proposals: Vec<(f64, f64)>,
     draws: Draws,
 }
@@ -107,6 +111,7 @@ impl Rejection {
             wanted,
             most_proposals,
             block: 0,
+            sums: (0.0, 0.0),
             proposals: Vec::new(),
             draws,
         }
@@ -137,7 +142,11 @@ impl Rejection {
         {
             // g ≤ t up to the rounding of either.
             let accepted = if share < *bound { share / bound } else { 1.0 };
-            self.proposals.push((accepted, self.envelope.mean() / bound));
+            self.sums.0 += accepted;
+            self.sums.1 += accepted * accepted;
+            if self.proposals.len() < REMEMBERED {
+                self.proposals.push((accepted, self.envelope.mean() / bound));
+            }
             let kept = *uniform < accepted;
             self.draws.count(kept);
             if kept && self.draws.len() < self.wanted {
@@ -170,7 +179,7 @@ impl Rejection {
 
     /// E g with its standard error; zeros before there are proposals.
     pub fn probability(&self) -> (f64, f64) {
-        let (mean, error) = mean_and_error(self.proposals.iter().map(|(accepted, _)| *accepted));
+        let (mean, error) = mean_and_error(self.draws.proposed as f64, self.sums);
         (mean * self.envelope.mean(), error * self.envelope.mean())
     }
 
@@ -180,16 +189,21 @@ impl Rejection {
     /// With Z = E g it is ∫ min(1, g/Z) N(0, I) = E_t min(E t/t, w/E_t w), estimated from all proposals.
     /// The error takes in that E_t w is estimated too (delta method).
     pub fn overlap(&self) -> (f64, f64) {
-        let (mean, _) = mean_and_error(self.proposals.iter().map(|(accepted, _)| *accepted));
-        if mean == 0.0 {
+        let count = self.proposals.len() as f64;
+        let mean = self.proposals.iter().map(|(accepted, _)| accepted).sum::<f64>() / count;
+        if self.proposals.len() < 2 || mean == 0.0 {
             return (0.0, 0.0);
         }
+        // Densities of p and of N(0, I) over that of the proposals.
+        let ratios = self.proposals.iter().map(|(accepted, prior)| (accepted / mean, *prior));
+        let smaller = ratios.clone().filter(|(tilted, prior)| tilted < prior);
         // −∂ overlap/∂ log E_t w.
-        let tilted = self.proposals.iter().map(|(accepted, prior)| (accepted / mean, prior));
-        let slope: f64 =
-            tilted.clone().filter(|(here, prior)| here < prior).map(|(here, _)| here).sum();
-        let slope = slope / self.proposals.len() as f64;
-        mean_and_error(tilted.map(|(here, prior)| here.min(*prior) - slope * (here - 1.0)))
+        let slope = smaller.map(|(tilted, _)| tilted).sum::<f64>() / count;
+        let sums = ratios.fold((0.0, 0.0), |(sum, squares), (tilted, prior)| {
+            let value = tilted.min(prior) - slope * (tilted - 1.0);
+            (sum + value, squares + value * value)
+        });
+        mean_and_error(count, sums)
     }
 
     /// What was accepted, as one chain of independent draws.
@@ -198,14 +212,12 @@ impl Rejection {
     }
 }
 
-/// Mean of independent values with its standard error; zeros for fewer than two.
-fn mean_and_error(values: impl ExactSizeIterator<Item = f64>) -> (f64, f64) {
-    let count = values.len() as f64;
+/// Mean of independent values with its standard error, from their number, sum and sum of squares; zeros
+/// for fewer than two.
+fn mean_and_error(count: f64, (sum, squares): (f64, f64)) -> (f64, f64) {
     if count < 2.0 {
         return (0.0, 0.0);
     }
-    let (sum, squares) =
-        values.fold((0.0, 0.0), |(sum, squares), value| (sum + value, squares + value * value));
     let mean = sum / count;
     let variance = (squares / count - mean * mean).max(0.0) * count / (count - 1.0);
     (mean, (variance / count).sqrt())
