@@ -8,7 +8,8 @@ use common::{
 };
 use nalgebra::{DMatrix, DVector};
 use shapevenn::compare::{
-    Intersection, Side, expected_distance, fit_rms, fit_variational_step, without_distance,
+    Intersection, Side, effective_dimensions, expected_distance, fit_laplace, fit_rms,
+    fit_variational_step, fit_variational_step_every, without_distance,
 };
 use shapevenn::comparison::Settings;
 use shapevenn::model::LinearModel;
@@ -121,13 +122,15 @@ fn the_closed_forms_covariance_is_that_of_a_long_weighted_reference() {
 
 #[test]
 fn the_expected_distance_follows_from_the_modes_that_the_tolerance_governs() {
-    for side in sides() {
+    for side in &sides() {
         for sigma in SIGMAS {
-            let fit = variational(&side, sigma);
+            let fit = variational(side, sigma);
             let size = fit.dimension();
             let likelihood =
                 fit.precision() - DMatrix::identity(size, size) - side.projection_gram();
             let governed = (fit.covariance() * likelihood).trace();
+            let stated = effective_dimensions(side, &fit);
+            assert!((stated - governed).abs() < 1e-9 * size as f64, "{stated}, not {governed}");
             let at_mean = side.mean_vertex_distance(fit.mean().as_slice());
             let expected = (at_mean * at_mean + governed * sigma * sigma).sqrt();
             let draws = draws_of(&fit, 4000, 2);
@@ -135,7 +138,7 @@ fn the_expected_distance_follows_from_the_modes_that_the_tolerance_governs() {
                 draws.iter().map(|draw| side.mean_vertex_distance(draw)).collect();
             let mean = distances.iter().sum::<f64>() / 4000.0;
             assert!((mean / expected - 1.0).abs() < 0.02, "σ = {sigma}: {mean}, not {expected}");
-            let quadrature = expected_distance(&side, &fit);
+            let quadrature = expected_distance(side, &fit);
             let square: f64 = distances.iter().map(|d| (d - mean) * (d - mean)).sum();
             let error = (square / 3999.0 / 4000.0).sqrt();
             // 24 nodes are good to 1e-6 for isotropic vectors in space, 1e-4 in the plane.
@@ -232,4 +235,114 @@ fn curvature_apart(side: &Side, fit: &Gaussian, found: &DMatrix<f64>) -> f64 {
         (found[entry] - mean).abs() / (5.0 * error + 1e-4 * found.amax())
     });
     apart.fold(0.0, f64::max)
+}
+
+/// −∇ log p in double precision.
+fn slope(side: &Side, sigma: f64, point: &DVector<f64>) -> DVector<f64> {
+    let (distance, gradient) = side.distance_and_gradient(point.as_slice());
+    let (_, plain) = side.plausibility(point.as_slice());
+    DVector::from_vec(gradient) * (distance / (sigma * sigma)) + DVector::from_vec(plain)
+}
+
+/// How far a fit is from mode and curvature: the whitened gradient at its mean, and the largest entry
+/// of Λ minus differences of the gradient, over the largest of Λ.
+fn off_laplace(side: &Side, sigma: f64, fit: &Gaussian) -> (f64, f64) {
+    let whitened = fit.transform().tr_mul(&slope(side, sigma, fit.mean())).amax();
+    let mut worst = 0.0_f64;
+    for mode in 0..fit.dimension() {
+        // A step of a thousandth of the fit's own width, along the coordinate.
+        let h = 1e-3 * fit.covariance()[(mode, mode)].sqrt();
+        let at = |sign: f64| {
+            let mut moved = fit.mean().clone();
+            moved[mode] += sign * h;
+            slope(side, sigma, &moved)
+        };
+        let column = (at(1.0) - at(-1.0)) / (2.0 * h);
+        worst = worst.max((column - fit.precision().column(mode)).amax());
+    }
+    (whitened, worst / fit.precision().amax())
+}
+
+#[test]
+fn the_laplace_fit_is_the_mode_and_the_curvature_there() {
+    for side in sides() {
+        for sigma in SIGMAS {
+            let start = fit_rms(&side, sigma).unwrap();
+            let fit = fit_laplace(&side, sigma, &start).unwrap();
+            let (gradient, curvature) = off_laplace(&side, sigma, &fit);
+            assert!(gradient < 1e-6, "σ = {sigma}: gradient {gradient} at the mode");
+            assert!(curvature < 1e-4, "σ = {sigma}: curvature off by {curvature}");
+            let (gradient, curvature) = off_laplace(&side, sigma, &start);
+            assert!(gradient > 1e-3 || curvature > 1e-3, "σ = {sigma}: the rms fit passes");
+            // From elsewhere the same: there is one mode.
+            let wide = without_distance(&side).unwrap();
+            let other = fit_laplace(&side, sigma, &wide).unwrap();
+            assert!(fit.whiten(other.mean().as_slice()).amax() < 1e-5, "σ = {sigma}: one mode");
+        }
+    }
+}
+
+#[test]
+fn there_is_no_laplace_fit_where_the_models_meet_exactly() {
+    // Two planes through one origin: at the mode every residual is zero.
+    let base = random_orthonormal(30, 4, 5);
+    let mean = DVector::zeros(30);
+    let a = model(3, mean.clone(), &base.columns(0, 3).into_owned(), &[3.0, 2.0, 1.0]);
+    let b = model(3, mean, &base.columns(1, 3).into_owned(), &[3.0, 2.0, 1.0]);
+    let side = Side::new(&a, &b);
+    let start = fit_rms(&side, 0.1).unwrap();
+    assert!(fit_laplace(&side, 0.1, &start).is_none(), "at the mode itself");
+    let wide = Gaussian::from_precision(DVector::from_element(3, 0.7), start.precision().clone());
+    assert!(fit_laplace(&side, 0.1, &wide.unwrap()).is_none(), "and on the way there");
+}
+
+#[test]
+fn a_large_operator_in_single_precision_fits_the_same() {
+    // 3 · 2,000 · 50 numbers: more than are kept in double precision.
+    let (a, b) = face_like_pair(2000, 50);
+    let (side, sigma) = (Side::new(&a, &b), 0.1);
+    let rounded = side.residual().iter().all(|value| {
+        #[allow(
+            clippy::cast_possible_truncation,
+            reason = "whether it was rounded is the question"
+        )]
+        let single = *value as f32;
+        f64::from(single).to_bits() == value.to_bits()
+    });
+    assert!(rounded, "this test is about single precision");
+    let start = fit_rms(&side, sigma).unwrap();
+    let fit = fit_laplace(&side, sigma, &start).unwrap();
+    let (gradient, curvature) = off_laplace(&side, sigma, &fit);
+    assert!(gradient < 1e-6, "gradient {gradient} at the mode");
+    assert!(curvature < 1e-4, "curvature off by {curvature}");
+    let fit = variational(&side, sigma);
+    let distances: Vec<f64> =
+        draws_of(&fit, 2000, 3).iter().map(|draw| side.mean_vertex_distance(draw)).collect();
+    let mean = distances.iter().sum::<f64>() / 2000.0;
+    let square: f64 = distances.iter().map(|d| (d - mean) * (d - mean)).sum();
+    let error = (square / 1999.0 / 2000.0).sqrt();
+    let found = expected_distance(&side, &fit);
+    assert!((found - mean).abs() < 5.0 * error + 1e-4 * mean, "E d: {found}, not {mean} ± {error}");
+}
+
+#[test]
+fn a_fit_over_some_vertices_ends_near_that_over_all() {
+    let (a, b) = face_like_pair(2000, 12);
+    for side in [Side::new(&a, &b), Side::new(&b, &a)] {
+        let sigma = 0.1;
+        let mut some = fit_rms(&side, sigma).unwrap();
+        for _ in 0..6 {
+            some = fit_variational_step_every(&side, sigma, &some, 4).unwrap().0;
+        }
+        let all = variational(&side, sigma);
+        let apart = all.whiten(some.mean().as_slice()).amax();
+        // A quarter of the vertices are not all: what matters is that one full step remains.
+        assert!(apart < 0.5, "means {apart} standard deviations apart");
+        let (next, step) = fit_variational_step(&side, sigma, &some).unwrap();
+        assert!(step < 0.5, "the last step moves by {step}");
+        let left = all.whiten(next.mean().as_slice()).amax();
+        assert!(left < 0.02, "after the full step {left} apart");
+        let same = fit_variational_step_every(&side, sigma, &all, 1).unwrap().0;
+        assert_eq!(same, fit_variational_step(&side, sigma, &all).unwrap().0, "every one is all");
+    }
 }

@@ -131,10 +131,14 @@ fn gather(
     stride: usize,
     target: &mut [f64],
 ) {
-    for (mode, column) in matrix.column_iter().enumerate() {
-        let factor = scale.map_or(1.0, |scale| scale[mode]);
-        for (index, row) in rows.clone().enumerate() {
-            target[index * stride + mode] = column[row] * factor;
+    // Eight rows at a time: a line of cache of every column is read whole.
+    for first in (0..rows.len()).step_by(8) {
+        let some = rows.start + first..(rows.start + first + 8).min(rows.end);
+        for (mode, column) in matrix.as_slice().chunks_exact(matrix.nrows()).enumerate() {
+            let factor = scale.map_or(1.0, |scale| scale[mode]);
+            for (index, value) in column[some.clone()].iter().enumerate() {
+                target[(first + index) * stride + mode] = value * factor;
+            }
         }
     }
 }
@@ -205,6 +209,8 @@ impl WithSimd for Residual<'_> {
         };
         let (mut left, mut right) = (Aligned::new(TILE * others), Aligned::new(TILE * stride));
         let mut product = Aligned::new(TILE * stride);
+        // Mode by mode, so that the loop below is one of vectors.
+        let mut largest = vec![0.0; modes];
         for first in strip.clone().step_by(TILE) {
             let rows = first..(first + TILE).min(strip.end);
             let count = rows.len();
@@ -216,9 +222,9 @@ impl WithSimd for Residual<'_> {
             for (index, row) in right.chunks_exact(stride).take(count).enumerate() {
                 let row = &row[..modes];
                 let weight = offset[first + index];
-                for (sum, value) in part.gram_shift.iter_mut().zip(row) {
+                for ((sum, most), value) in part.gram_shift.iter_mut().zip(&mut largest).zip(row) {
                     *sum += value * weight;
-                    part.largest = part.largest.max(value.abs());
+                    *most = if value.abs() > *most { value.abs() } else { *most };
                 }
                 part.single.extend(row.iter().map(|&value| f32::of(value)));
                 if double {
@@ -228,6 +234,7 @@ impl WithSimd for Residual<'_> {
             let tile = Tile { values: &right, stride, columns: modes };
             add_cross::<f64, S>(simd, tile, tile, count, &mut part.gram, true);
         }
+        part.largest = largest.into_iter().fold(0.0, f64::max);
         part
     }
 }

@@ -19,7 +19,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::operator::{Operator, Plausibilities, Rows, with_rows};
 use super::{DistanceKernel, Joint};
-use crate::lanes::dot;
+use crate::lanes::{Real, dot};
 use crate::model::{Alignment, Kind, LinearModel, Similarity, align_to};
 use crate::parallel;
 
@@ -207,7 +207,7 @@ impl Side {
     /// R, row-major (d·n × q): a copy in double precision, of numbers that may have been rounded to
     /// single.
     pub fn residual(&self) -> Vec<f64> {
-        with_rows!(self, rows => rows.iter().map(|&value| f64::from(value)).collect())
+        with_rows!(self, rows => rows.iter().map(|value| value.double()).collect())
     }
 
     /// R, row-major (d·n × q), as it is kept.
@@ -286,7 +286,7 @@ impl Side {
                 if norm > 0.0 {
                     for (value, row) in point.iter().zip(vertex.chunks_exact(self.modes)) {
                         for (target, &weight) in gradient.iter_mut().zip(row) {
-                            *target += value / norm * f64::from(weight);
+                            *target += value / norm * weight.double();
                         }
                     }
                 }
