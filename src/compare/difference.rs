@@ -139,7 +139,7 @@ impl Criterion {
             }
             DifferenceDefinition::Relative => return None,
             DifferenceDefinition::Outside => {
-                let at_mean = side.plausibility_square(&vec![0.0; side.mode_count()]);
+                let at_mean = side.projection_square(&vec![0.0; side.mode_count()]);
                 (at_mean, side.projection_shift().clone(), side.projection_gram().clone())
             }
         };
@@ -187,9 +187,7 @@ impl<'a> Difference<'a> {
                     distance / square.sqrt()
                 }
                 DifferenceDefinition::Outside => {
-                    let own: f64 = point.iter().map(|a| a * a).sum();
-                    let both = self.distances.side.plausibility_square(point);
-                    (both - own).max(0.0).sqrt()
+                    self.distances.side.projection_square(point).sqrt()
                 }
             };
             (score, distance)
@@ -255,7 +253,8 @@ mod tests {
     #[test]
     fn scores_are_those_of_the_shapes() {
         let pair = Pair::new(&model(1, 4), &model(2, 3), Alignment::None, None).unwrap();
-        let side = pair.side(0);
+        // How plausibility enters the intersection is no matter of the difference.
+        let side = pair.side(0).with_plausibility(0.5);
         let mut random = stream(3, Stream::Display, 9, 0);
         let mut points = vec![0.0; 4 * 50];
         fill_normal(&mut random, &mut points);

@@ -296,6 +296,17 @@ impl Side {
         (sum * scale, gradient.into_iter().map(|value| value * scale).collect())
     }
 
+    /// ‖a′‖² = ‖a₀ + A a‖², the squared Mahalanobis distance of the projection from the other mean.
+    pub fn projection_square(&self, coefficients: &[f64]) -> f64 {
+        let mut square = self.projection_constant;
+        for (column, value) in coefficients.iter().enumerate() {
+            let terms = self.projection_gram.column(column);
+            let product: f64 = terms.iter().zip(coefficients).map(|(g, a)| g * a).sum();
+            square += value * (2.0 * self.projection_shift[column] + product);
+        }
+        square.max(0.0)
+    }
+
     /// s(‖a′‖² + ‖a‖²) and half its gradient, s(Aᵀ(a₀ + A a) + a) (q).
     pub fn plausibility(&self, coefficients: &[f64]) -> (f64, Vec<f64>) {
         let (squares, slopes) = self.plausibilities(coefficients, true);
