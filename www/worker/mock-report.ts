@@ -23,6 +23,8 @@ export function mockReport(
   const side = diagnostics(1.0021, 0.831);
   const count = models.a.standardDeviations.length;
   const sigma = settings.sigma ?? RECOMMENDED;
+  const chosen = settings.sampler === "auto" ? undefined : settings.sampler;
+  const share = { both: 0.2, a: 0.18, b: 0.22 };
   const deviations = models.a.standardDeviations.map((sd) => sd * 0.45);
   const wave = (i: number, k: number) => 0.5 + 0.5 * Math.sin(7.1 * i + 3.3 * k);
   const modes = (k: number): ModeDiagnostics => {
@@ -49,7 +51,7 @@ export function mockReport(
     intersection: {
       modes: 31,
       standardDeviations: deviations,
-      totalVariance: models.a.totalVariance * 0.2,
+      totalVariance: models.a.totalVariance * share[settings.pooling ?? "both"],
       meanDistance: { mean: 0.5873, sd: 0.0712 },
       grassmann: { toA: 2.8132, toB: 2.9011, toUnion: 2.7756 },
       grassmannAffine: { toA: 2.9132, toB: 2.9411, toUnion: 2.8756 },
@@ -58,13 +60,13 @@ export function mockReport(
       vertexSd: { min: 0.41, mean: 0.93, max: 2.6 },
       inference: {
         a: {
-          sampler: "independence",
+          sampler: chosen ?? "independence",
           reason: "the fit is good: Pareto k 0.21, acceptance 0.83",
           fit: "variational",
           moments: "closed-form",
         },
         b: {
-          sampler: "hmc",
+          sampler: chosen ?? "hmc",
           reason: "Pareto k 0.74 of the fit is above 0.7",
           fit: "laplace",
           moments: "weighted",
@@ -82,8 +84,8 @@ export function mockReport(
         covariance: 0.62,
         betweenShare: 0.023,
         totalVariance: {
-          a: models.a.totalVariance * 0.18,
-          b: models.a.totalVariance * 0.22,
+          a: models.a.totalVariance * share.a,
+          b: models.a.totalVariance * share.b,
         },
         standardDeviations: {
           a: deviations.map((sd) => 0.95 * sd),

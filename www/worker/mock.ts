@@ -160,7 +160,7 @@ function shapesOf(
   const own = region === "b" || region === "bWithoutA" ? b : a;
   const shared = region === "intersection";
   const mean = shared
-    ? own.mean.map((value, i) => (value + (b.mean[i] ?? 0)) / 2)
+    ? own.mean.map((value, i) => value + (1 - spread) * ((b.mean[i] ?? 0) - value))
     : own.mean.slice();
   const factor = shared ? spread : 1;
   const samples = new Float32Array(count * mean.length);

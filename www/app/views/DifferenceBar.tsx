@@ -1,3 +1,4 @@
+import { batch } from "@preact/signals";
 import { number, percent } from "../format";
 import { MOST_EXAGGERATION } from "../link";
 import { DIFFERENCES } from "../settings";
@@ -12,16 +13,19 @@ function shownNow(): DifferencePicture {
 }
 
 function choose(name: DifferencePicture): void {
-  if (name === "exclusiveModes") {
-    picture.value = name;
-    // One shape for each mode: the mean alone shows none of them.
-    if (view.value === "mean") view.value = "samples";
-    return;
-  }
-  picture.value = "draws";
-  if (name !== settings.value.difference) {
-    change({ difference: name, differenceThreshold: null });
-  }
+  // All at once: one step of Back undoes it.
+  batch(() => {
+    if (name === "exclusiveModes") {
+      picture.value = name;
+      // One shape for each mode: the mean alone shows none of them.
+      if (view.value === "mean") view.value = "samples";
+      return;
+    }
+    picture.value = "draws";
+    if (name !== settings.value.difference) {
+      change({ difference: name, differenceThreshold: null });
+    }
+  });
 }
 
 /** What counts as a difference, and how strongly it is drawn. */

@@ -1,3 +1,4 @@
+import type { Prediction } from "../../worker/protocol";
 import { takeSigma, trySigma } from "../comparison";
 import { length, number, percent } from "../format";
 import { parsePositive } from "../settings";
@@ -7,6 +8,7 @@ import {
   preview,
   recommended,
   result,
+  run,
   settings,
   slots,
   tried,
@@ -90,10 +92,10 @@ function valueText(sigma: number): string {
 function Expected() {
   const report = result.value?.report;
   if (!report) return null;
-  const ahead = preview.value;
   const size = report.models.a.size;
-  if (ahead !== null || tried.value !== null || outOfDate.value) {
+  if (tried.value !== null || outOfDate.value) {
     const sigma = tried.value ?? settings.value.sigma ?? recommended.value;
+    const ahead = foreseen(sigma);
     return (
       <p class="sigma-line" data-preview={ahead === null ? "none" : ahead.sigma}>
         predicted distance{" "}
@@ -126,6 +128,14 @@ function Expected() {
       />
     </p>
   );
+}
+
+/** The prediction that belongs to this σ; while the slider moves, the latest one there is. */
+function foreseen(sigma: number | null): Prediction | null {
+  const latest = preview.value;
+  if (latest === null || sigma === null) return null;
+  if (tried.value !== null && run.value === null) return latest;
+  return Math.abs(latest.sigma / sigma - 1) < 1e-6 ? latest : null;
 }
 
 function dimensionsText(dimensions: number): string {

@@ -24,14 +24,15 @@ export function shownIn(region: Region): string {
     return ahead === null ? meaning : `preview, σ ${length(ahead.sigma, unit.value)}`;
   }
   if (region !== "aWithoutB" && region !== "bWithoutA") return meaning;
-  return differencePicture() || meaning;
+  const drawn = differencePicture();
+  return drawn.startsWith("γ") ? `exaggerated, ${drawn}` : drawn || meaning;
 }
 
 /** What is drawn of a difference beside its draws as they are; empty where that is all. */
 export function differencePicture(): string {
   const modes = picture.value === "exclusiveModes" && view.value === "samples";
   return [
-    ...(modes ? ["exclusive modes, +3\u202fSD"] : []),
-    ...(exaggeration.value > 0 ? [`exaggerated, γ\u202f${exaggeration.value.toFixed(1)}`] : []),
-  ].join("; ");
+    ...(modes ? ["exclusive modes"] : []),
+    ...(exaggeration.value > 0 ? [`γ\u202f${exaggeration.value.toFixed(1)}`] : []),
+  ].join(", ");
 }
