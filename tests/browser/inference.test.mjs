@@ -129,6 +129,7 @@ test("the fold on σ draws a curve and has its table, through the recommended σ
     await part.locator("[data-done=true]").waitFor({ timeout: 60_000 });
     assert.equal(await part.locator("svg.plot .series").count(), 3);
     await part.locator("summary", { hasText: "Show numbers" }).click();
+    await part.getByRole("table").waitFor();
     const rows = await part
       .getByRole("row")
       .evaluateAll((found) =>
@@ -199,6 +200,7 @@ test("every mode has its diagnostics, and the worst is named", async () => {
     );
     await part.locator("summary", { hasText: "Show every mode" }).click();
     const table = part.getByRole("region", { name: "Diagnostics of every mode" });
+    await table.waitFor();
     assert.equal(await table.getByRole("row").count(), 1 + all.length);
   });
 });
@@ -217,6 +219,7 @@ test("the modes of A∩B have error bars, and those that are not settled are mar
     assert.equal(await part.locator(".unsettled").count(), doubtful > 0 ? 1 : 0);
     await part.locator("summary", { hasText: "Show numbers" }).click();
     const table = part.getByRole("region", { name: "Modes of the intersection model" });
+    await table.waitFor();
     assert.equal(await table.getByRole("row").count(), 1 + standardDeviations.length);
     await assertShows(page, report);
   });
@@ -342,13 +345,16 @@ for (const [width, height] of [
     test(`at ${width} × ${height}, ${colorScheme}, everything unfolded: accessible, no sideways scrolling`, async () => {
       await withPage({ viewport: { width, height }, colorScheme }, async ({ url, page }) => {
         await openPage(page, url, `${STARS}&diff=distance`);
-        // A fold within a fold can be opened once the outer one is.
+        // The fold on σ has one within it once its curve is there.
+        const closed = page.locator("main details:not([open]) > summary").filter({ visible: true });
         for (let round = 0; round < 2; round += 1) {
-          for (const closed of await page.locator("main details:not([open]) > summary").all()) {
-            if (await closed.isVisible()) await closed.click();
-          }
+          while ((await closed.count()) > 0) await closed.first().click();
           await page.locator("[data-done=true]").waitFor({ timeout: 60_000 });
         }
+        for (const name of ["Diagnostics of every mode", "Modes of the intersection model"]) {
+          await page.getByRole("region", { name }).waitFor();
+        }
+        await page.locator(".sweep-table").waitFor();
         const beyond = await page.evaluate(
           () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
         );

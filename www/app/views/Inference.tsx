@@ -4,6 +4,7 @@ import { linear, logarithmic, type Scale } from "../plots";
 import { ESS, inferred, R_HAT, worstModes } from "../words";
 import { Mark } from "./Mark";
 import { Metric, Phrase } from "./Phrase";
+import { ShowNumbers } from "./ShowNumbers";
 
 const SIDES = ["a", "b"] as const;
 
@@ -53,10 +54,7 @@ export function ModeFigures({ report }: { report: Report }) {
       <p class="small">
         <Phrase parts={worst} />
       </p>
-      <details>
-        <summary>Show every mode’s numbers</summary>
-        <ModeTable both={both} />
-      </details>
+      <ShowNumbers label="Show every mode’s numbers">{() => <ModeTable both={both} />}</ShowNumbers>
     </figure>
   );
 }

@@ -3,6 +3,7 @@ import { degrees, length, number, percent } from "../format";
 import { unsettled, unsettledModes } from "../words";
 import { Metric } from "./Phrase";
 import { Scree } from "./Scree";
+import { ShowNumbers } from "./ShowNumbers";
 
 /** The modes of the intersection model: how large each is, and how well it is known. */
 export function Modes({ report }: { report: Report }) {
@@ -38,10 +39,7 @@ export function Modes({ report }: { report: Report }) {
           of itself (standard error). <GrassmannError report={report} />
         </p>
       )}
-      <details>
-        <summary>Show numbers</summary>
-        <ModesTable report={report} doubtful={doubtful} />
-      </details>
+      <ShowNumbers>{() => <ModesTable report={report} doubtful={doubtful} />}</ShowNumbers>
     </details>
   );
 }

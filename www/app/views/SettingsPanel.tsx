@@ -125,6 +125,7 @@ function More() {
       />
       <CountField
         label="Weighted"
+        accessibleLabel="Weighted draws"
         name="weighted"
         standard={DEFAULTS.weighted}
         range={RANGES.weighted}

@@ -24,11 +24,12 @@ const STEP = 0.02;
 export function SigmaField() {
   const now = settings.value;
   const shown = recommended.value;
+  const typed = tried.value ?? now.sigma;
   return (
     <>
       <TypedField
         label="Tolerance σ"
-        value={now.sigma === null ? "" : String(now.sigma)}
+        value={typed === null ? "" : String(typed)}
         standard=""
         placeholder={shown === null ? "auto" : number(shown)}
         suffix={unit.value}
@@ -54,7 +55,15 @@ function SigmaSlider() {
     const power = Number(element.value);
     return power === 0 ? middle : Number((middle * 10 ** power).toPrecision(3));
   };
-  const isTheirs = (value: number) => value === recommended.value;
+  const take = (element: HTMLInputElement) => {
+    const value = at(element);
+    takeSigma(value === recommended.value ? null : value);
+  };
+  // A slider that is put back where it was says nothing of a change.
+  const letGo = ({ currentTarget: element }: { currentTarget: HTMLInputElement }) =>
+    setTimeout(() => {
+      if (tried.peek() !== null) take(element);
+    });
   return (
     <div class="sigma-slider" data-tick={recommended.value !== null}>
       <input
@@ -66,10 +75,10 @@ function SigmaSlider() {
         step={STEP}
         value={place}
         onInput={(event) => trySigma(at(event.currentTarget))}
-        onChange={(event) => {
-          const value = at(event.currentTarget);
-          takeSigma(isTheirs(value) ? null : value);
-        }}
+        onChange={(event) => take(event.currentTarget)}
+        onPointerUp={letGo}
+        onPointerCancel={letGo}
+        onBlur={letGo}
       />
       <span class="sigma-ends" aria-hidden="true">
         <span>{number(middle / 10 ** DECADES)}</span>

@@ -7,6 +7,7 @@ import { length, number } from "../format";
 import { linear, logarithmic, sweepSigmas, ticks } from "../plots";
 import { canPreview, held, recommended, result, settings, unit } from "../state";
 import { Mark } from "./Mark";
+import { ShowNumbers } from "./ShowNumbers";
 
 const [WIDTH, HEIGHT] = [320, 190];
 const BOX = { left: 34, right: 8, top: 20, bottom: 34 };
@@ -147,10 +148,7 @@ function SweepPlot({ points, done }: { points: SweepPoint[]; done: boolean }) {
           </li>
         ))}
       </ul>
-      <details>
-        <summary>Show numbers</summary>
-        <SweepTable points={points} />
-      </details>
+      <ShowNumbers>{() => <SweepTable points={points} />}</ShowNumbers>
     </figure>
   );
 }
