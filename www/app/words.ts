@@ -215,12 +215,10 @@ export function belief(report: Report): { converged: boolean; phrase: Phrase } {
           ", effective size of the weights ",
           figure(`${path}.importanceEss`, importanceEss, count(importanceEss)),
         ];
-  const evidence =
-    weights.length === 0
-      ? chains
-      : converged && !byChains
-        ? weights
-        : [...chains, "; ", ...weights];
+  // What it converged by; all there is where it has not.
+  let evidence = chains;
+  if (weights.length > 0 && !converged) evidence = [...chains, "; ", ...weights];
+  if (weights.length > 0 && converged && !byChains) evidence = weights;
   const phrase: Phrase = converged
     ? ["Converged: ", ...evidence, "."]
     : ["Not converged yet: ", ...evidence, ". Ask for more draws before quoting these numbers."];
