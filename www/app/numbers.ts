@@ -20,11 +20,11 @@ const inUnit = (value: number, report: Report) => length(value, report.models.a.
 const radians = (value: number) => (value < 1e-9 ? "0" : number(value, 4));
 const plainly = (value: number) => number(value);
 
-/** The score of each definition has a unit of its own. */
+/** σ of the paper's difference, a length; the score of the others may have another unit. */
 function thresholdText(value: number, report: Report): string {
   const { difference } = report.settings;
-  if (difference === "distance") return inUnit(value, report);
-  return difference === "outside" ? `${number(value)}\u202fSD` : `${number(value)}\u202f×`;
+  if (difference === "relative") return `${number(value)}\u202f×`;
+  return difference === "outside" ? `${number(value)}\u202fSD` : inUnit(value, report);
 }
 
 const both = (label: string, path: string, show: Row["show"]): Row => ({
@@ -95,8 +95,9 @@ export const GROUPS: Group[] = [
     rows: [
       eachWay("Share out of reach", "probability", percent),
       eachWay("its standard error", "standardError", percent),
-      eachWay("Threshold", "threshold", thresholdText),
+      eachWay("σ or threshold", "threshold", thresholdText),
       eachWay("Like the model itself", "overlapWithPrior", percent),
+      eachWay("standard error of that", "overlapStandardError", percent),
       eachWay("Variance out of reach", "exclusive.unexplained", percent),
       eachWay("Distance to the other model", "meanDistance.mean", inUnit),
       eachWay("Vertex SD, mean", "vertexSd.mean", inUnit),

@@ -182,8 +182,10 @@ function difference(probability: number, settings: Partial<Settings>): Differenc
       draws: 2000,
     },
     vertexSd: { min: 0.81, mean: 2.61, max: 6.43 },
-    threshold: soft ? null : (settings.differenceThreshold ?? 1.52),
+    definition: settings.difference ?? "soft",
+    threshold: soft ? (settings.sigma ?? RECOMMENDED) : (settings.differenceThreshold ?? 1.52),
     envelope: "prior",
+    overlapStandardError: 0.006,
     overlapWithPrior: soft ? 0.972 : 1 - quantile,
     exclusive: { residualSd: [0.65, 0.27, 0.22, 0.15], unexplained: 0.043 },
   };

@@ -169,10 +169,13 @@ export interface DifferenceReport {
   meanDistance: MeanSd;
   diagnostics: Diagnostics;
   vertexSd: Spread;
+  definition?: DifferenceName;
+  /** σ of the paper's difference, of the others where their score begins to count. */
   threshold?: number | null;
   envelope?: "prior" | "tilted";
   /** 1 − total variation: 1 where the difference looks like the model itself. */
   overlapWithPrior?: number | null;
+  overlapStandardError?: number | null;
   exclusive?: {
     /** RMS over the points for a standard deviation of each exclusive mode, in the unit of A. */
     residualSd: number[];

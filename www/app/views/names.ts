@@ -1,6 +1,7 @@
 /** What the five regions are called. */
 import type { Region } from "../../worker/protocol";
 import { length } from "../format";
+import type { ViewMode } from "../link";
 import { exaggeration, picture, preview, run, unit, view } from "../state";
 
 export const REGION_NAMES: Record<Region, { sign: string; meaning: string }> = {
@@ -28,11 +29,16 @@ export function shownIn(region: Region): string {
   return drawn.startsWith("γ") ? `exaggerated, ${drawn}` : drawn || meaning;
 }
 
+const EXCLUSIVE: Record<ViewMode, string> = {
+  mean: "mean of the model",
+  samples: "exclusive modes",
+  sd: "expected residual",
+};
+
 /** What is drawn of a difference beside its draws as they are; empty where that is all. */
 export function differencePicture(): string {
-  const modes = picture.value === "exclusiveModes" && view.value === "samples";
   return [
-    ...(modes ? ["exclusive modes"] : []),
+    ...(picture.value === "exclusiveModes" ? [EXCLUSIVE[view.value]] : []),
     ...(exaggeration.value > 0 ? [`γ\u202f${exaggeration.value.toFixed(1)}`] : []),
   ].join(", ");
 }
