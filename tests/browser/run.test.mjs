@@ -28,7 +28,7 @@ const button = (page, name) => page.getByRole("button", { name, exact: true });
 async function untilDrawing(page) {
   await untilState(page, "running");
   await panel(page)
-    .getByText(/^(not )?converged/)
+    .getByText(/^(not converged yet|looks well so far)/)
     .waitFor({ timeout: 60_000 });
 }
 

@@ -110,6 +110,41 @@ test("an error of the engine is answered with its code, a panic is fatal", () =>
   assert.deepEqual(dead.posted.at(-1), { t: "fatal", message: "unreachable" });
 });
 
+test("previews and sweeps are answered, but not while a run goes on", () => {
+  const prediction = { sigma: 1 };
+  const shapes = { mean: new Float32Array(3) };
+  const { coordinator, posted } = begin(5, {
+    preview: () => ({ prediction, shapes }) as ReturnType<Engine["preview"]>,
+    sweep: (sigmas) => [...sigmas].map((sigma) => ({ sigma })) as ReturnType<Engine["sweep"]>,
+  });
+  const preview = { t: "preview", id: 1, sigma: 1, count: 9, seed: "1" } as const;
+  const sweep = { t: "sweep", id: 2, sigmas: Float64Array.of(1, 2) } as const;
+  coordinator.receive(preview);
+  assert.deepEqual(posted.at(-1), { t: "preview", id: 1, prediction, shapes });
+  coordinator.receive(sweep);
+  assert.deepEqual(posted.at(-1), { t: "sweep", id: 2, points: [{ sigma: 1 }, { sigma: 2 }] });
+  coordinator.receive(run);
+  for (const message of [preview, sweep]) {
+    coordinator.receive(message);
+    const error = posted.at(-1);
+    assert.equal(error?.t === "error" && error.id === message.id && error.code, "running");
+  }
+});
+
+test("the region asked for is the one the engine is asked for", () => {
+  const asked: unknown[][] = [];
+  const { coordinator } = begin(1, {
+    region: (...given) => {
+      asked.push(given);
+      return { samples: new Float32Array(0) } as ReturnType<Engine["region"]>;
+    },
+  });
+  const request = { region: "aWithoutB", count: 9, seed: "4" } as const;
+  const shown = { exaggeration: 1.5, picture: "exclusiveModes" } as const;
+  coordinator.receive({ t: "region", id: 1, ...request, ...shown });
+  assert.deepEqual(asked, [["aWithoutB", 9, "4", 1.5, "exclusiveModes"]]);
+});
+
 test("arrays are given away, not copied", () => {
   const given: Transferable[][] = [];
   const samples = new Float32Array(3);
@@ -132,6 +167,8 @@ test("arrays are given away, not copied", () => {
     region: "a",
     count: 1,
     seed: "1",
+    exaggeration: 0,
+    picture: "draws",
   });
   assert.equal(given.at(-1)?.length, 2, "a buffer that is shared is given once");
 });

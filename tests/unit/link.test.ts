@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { defaultLink, readLink, writeLink } from "../../www/app/link";
+import { defaultLink, misread, readLink, SETTING_KEYS, writeLink } from "../../www/app/link";
 
 test("an empty link is the first comparison", () => {
   assert.deepEqual(readLink(""), defaultLink());
@@ -23,9 +23,20 @@ test("what is written is read back, for every field", () => {
       thin: 30,
       modes: 12,
       align: "rigid" as const,
+      fit: "laplace" as const,
+      pooling: "b" as const,
+      plausibility: "idempotent" as const,
+      noise: 0.35,
+      weighted: 20_000,
+      difference: "outside" as const,
+      differenceQuantile: 0.953,
+      differenceThreshold: 3.5,
+      differenceDraws: 64,
     },
     view: "sd" as const,
     region: "aWithoutB" as const,
+    picture: "exclusiveModes" as const,
+    exaggeration: 2.5,
     shapes: "7",
     camera: { yaw: -1.25, pitch: 0.5, zoom: 2, x: 0.25, y: -0.5 },
   };
@@ -60,4 +71,46 @@ test("a sampler without a budget gets its own", () => {
   const { settings } = readLink("v=1&sampler=paper");
   assert.equal(settings.chains, 25);
   assert.equal(settings.burnIn, 2000);
+});
+
+test("every setting that differs from the default is in the link, under a key of a setting", () => {
+  const { settings } = defaultLink();
+  const other = {
+    ...settings,
+    fit: "rms" as const,
+    pooling: "a" as const,
+    plausibility: "idempotent" as const,
+    noise: 1,
+    weighted: 2048,
+    difference: "distance" as const,
+    differenceQuantile: 0.5,
+    differenceThreshold: 1,
+    differenceDraws: 100,
+  };
+  const keys = (link: string) => [...new URLSearchParams(link).keys()];
+  const plain = keys(writeLink(defaultLink()));
+  const added = keys(writeLink({ ...defaultLink(), settings: other })).filter(
+    (key) => !plain.includes(key),
+  );
+  assert.equal(added.length, 9);
+  for (const key of added) assert.ok(SETTING_KEYS.includes(key), key);
+});
+
+test("a link of the first version opens as it did", () => {
+  const old =
+    "v=1&demo=stars-1&align=none&modes=all&sigma=0.2&sampler=independence&seed=7&chains=8&draws=4000&burnin=10&thin=1&view=mean";
+  const { settings } = readLink(old);
+  assert.deepEqual(settings, {
+    ...defaultLink().settings,
+    sampler: "independence",
+    sigma: 0.2,
+    seed: "7",
+  });
+  assert.deepEqual(misread(old), []);
+});
+
+test("what a link asks for and nobody knows falls back, and is told", () => {
+  const newer = "v=2&demo=stars-1&sampler=nuts&diff=fuzzy&sides=c&leaves=120&noise=-1&exaggerate=9";
+  assert.deepEqual(readLink(newer), { ...defaultLink(), demo: "stars-1" });
+  assert.deepEqual(misread(newer), ["sampler=nuts", "sides=c", "diff=fuzzy"]);
 });

@@ -1,19 +1,20 @@
 /** Opens the page: numbers first, then the engine, the models and their shapes. */
 import { batch, effect } from "@preact/signals";
-import { storedResult, watchChoices } from "./comparison";
+import { storedResult, watchChoices, watchPictures } from "./comparison";
 import { FIRST_DEMO, findDemo } from "./demos";
 import { engineClient } from "./engine";
 import { apply, keepLink } from "./history";
-import { type LinkState, readLink, SETTING_KEYS } from "./link";
+import { type LinkState, misread, readLink, SETTING_KEYS } from "./link";
 import { openDemo, openPair } from "./models";
 import { settingsKey } from "./settings";
-import { nouns, pageState, result, run } from "./state";
+import { notify, nouns, pageState, result, run } from "./state";
 import { fetchStored } from "./stored";
 import { watchTheme } from "./theme";
 
 export async function boot(): Promise<void> {
   const link = readLink(location.hash);
   apply(link);
+  tellMisread();
   watchTheme();
   watchDocument();
   engineClient();
@@ -28,6 +29,7 @@ export async function boot(): Promise<void> {
     });
   }
   watchChoices(stored);
+  watchPictures();
   await models;
   keepLink();
 }
@@ -38,6 +40,18 @@ function wants(link: LinkState, storedKey: string): boolean {
   const asked = new URLSearchParams(location.hash.slice(1));
   const silent = !SETTING_KEYS.some((key) => asked.has(key));
   return silent || settingsKey(link.settings) === storedKey;
+}
+
+/** A link of a newer page may ask for what this one does not have. */
+function tellMisread(): void {
+  const found = misread(location.hash);
+  if (found.length === 0) return;
+  notify(
+    "link",
+    "link-setting",
+    `The link asks for ${found.join(" and ")}, which this page does not know.`,
+    "The default is used instead.",
+  );
 }
 
 async function openModels(link: LinkState): Promise<void> {

@@ -1,19 +1,26 @@
 /** Runs, restores and shows comparisons: whatever is chosen is what gets compared. */
 import { batch, effect } from "@preact/signals";
 import { wasAborted } from "../worker/engine-errors";
-import type { Progress, Region, Report } from "../worker/protocol";
+import type { Progress, Region, Report, SweepPoint } from "../worker/protocol";
 import { FIRST_DEMO } from "./demos";
 import { engineClient, onEngineRestart, report as reportError } from "./engine";
+import { latest } from "./latest";
 import { REGIONS } from "./link";
 import { plain } from "./phrase";
 import {
+  canPreview,
   chosenPart,
+  currentBase,
   currentKey,
   dismiss,
   emptyRegions,
+  exaggeration,
   failedKey,
+  held,
   nouns,
   opening,
+  picture,
+  preview,
   type Result,
   result,
   run,
@@ -22,6 +29,7 @@ import {
   shapesSeed,
   slots,
   spoken,
+  tried,
 } from "./state";
 import type { Stored } from "./stored";
 import { isCloud } from "./viewer/contents";
@@ -32,12 +40,12 @@ const SETTLE_MS = 500;
 /** How often the picture is refined while running. */
 const REFINE_MS = 1500;
 
+type Held = NonNullable<typeof held.value>;
+
 let runController: AbortController | null = null;
 let regionController = new AbortController();
 let stored: Stored | null = null;
 let restoring = false;
-/** The engine holds this comparison, so that regions and files can be asked for. */
-let heldKey: string | null = null;
 
 /** Whenever what is chosen differs from what is shown, run it, once the changes settle. */
 export function watchChoices(first: Stored | null): void {
@@ -48,12 +56,12 @@ export function watchChoices(first: Stored | null): void {
     const busy = opening.a.value !== null || opening.b.value !== null;
     clearTimeout(timer);
     if (key === null || busy || key === failedKey.value) return;
-    if (key === result.value?.key && heldKey === key) return;
+    if (key === result.value?.key && held.peek()?.key === key) return;
     if (stored?.key === key) timer = setTimeout(() => void restore(key), 0);
     else timer = setTimeout(() => void start(), SETTLE_MS);
   });
   onEngineRestart(() => {
-    heldKey = null;
+    held.value = null;
     restoring = false;
     run.value = null;
   });
@@ -63,15 +71,17 @@ export function watchChoices(first: Stored | null): void {
 async function restore(key: string): Promise<void> {
   const [a, b] = [chosenPart("a"), chosenPart("b")];
   if (!stored || !a || !b || restoring) return;
+  const base = currentBase.value;
   restoring = true;
   forgetRun();
   dismiss("run");
   try {
     const draws = (await stored.draws()).slice(0);
+    preview.value = null;
     result.value = storedResult(stored);
     const signal = new AbortController().signal;
     await engineClient().restore(signal, a.model, b.model, stored.text, draws);
-    heldKey = key;
+    held.value = { key, base };
     await showRegions(REGIONS);
   } catch (thrown) {
     // A stored comparison that cannot be restored is no use: draw it again.
@@ -91,6 +101,7 @@ export async function start(): Promise<void> {
   const [a, b] = [chosenPart("a"), chosenPart("b")];
   const key = currentKey.value;
   if (!a || !b || key === null) return;
+  const base = currentBase.value;
   forgetRun();
   const controller = new AbortController();
   runController = controller;
@@ -101,8 +112,8 @@ export async function start(): Promise<void> {
     dismiss("page");
   });
   spoken.value = "Comparison started.";
-  heldKey = null;
-  const refine = refiner(key);
+  held.value = null;
+  const refine = refiner({ key, base });
   const begun = performance.now();
   try {
     const done = await engineClient().run(
@@ -117,11 +128,12 @@ export async function start(): Promise<void> {
       },
     );
     if (runController !== controller) return;
-    finish(key, done.report, done.cancelled);
+    finish({ key, base }, done.report, done.cancelled);
     await showRegions(REGIONS);
   } catch (thrown) {
     if (runController !== controller) return;
     failedKey.value = key;
+    preview.value = null;
     reportError("run", thrown);
   } finally {
     if (runController === controller) {
@@ -144,13 +156,14 @@ function forgetRun(): void {
   run.value = null;
 }
 
-function finish(key: string, text: string, cancelled: boolean): void {
+function finish(done: Held, text: string, cancelled: boolean): void {
   const report = JSON.parse(text) as Report;
   batch(() => {
-    result.value = { report, text, key, nouns: nouns.value, stored: false, cancelled };
+    preview.value = null;
+    held.value = done;
+    result.value = { report, text, key: done.key, nouns: nouns.value, stored: false, cancelled };
     run.value = null;
   });
-  heldKey = key;
   const verdict = plain(belief(report).phrase);
   spoken.value = cancelled
     ? `Cancelled; the draws so far are kept. ${verdict}`
@@ -158,7 +171,7 @@ function finish(key: string, text: string, cancelled: boolean): void {
 }
 
 /** Asks for shapes as soon as there are any, then again now and then, one question at a time. */
-function refiner(key: string): (progress: Progress, now: number) => void {
+function refiner(running: Held): (progress: Progress, now: number) => void {
   let asked = Number.NEGATIVE_INFINITY;
   let asking = false;
   return (progress, now) => {
@@ -166,7 +179,7 @@ function refiner(key: string): (progress: Progress, now: number) => void {
     const wanted: Region[] = asked < 0 ? ["intersection", "a", "b"] : ["intersection"];
     asking = true;
     asked = now;
-    heldKey = key;
+    held.value = running;
     showRegions(wanted).finally(() => {
       asking = false;
     });
@@ -190,7 +203,14 @@ async function showRegions(regions: Region[]): Promise<void> {
   await Promise.all(
     regions.map(async (name) => {
       try {
-        const found = await engineClient().region(signal, name, shapeCount(), seed);
+        const found = await engineClient().region(
+          signal,
+          name,
+          shapeCount(),
+          seed,
+          exaggeration.value,
+          picture.value,
+        );
         batch(() => {
           shapes.value = { ...shapes.value, [name]: found };
           const { [name]: _, ...others } = emptyRegions.value;
@@ -216,5 +236,64 @@ export async function resample(): Promise<void> {
 }
 
 export async function reshow(): Promise<void> {
-  if (heldKey !== null) await showRegions(REGIONS);
+  if (held.value !== null) await showRegions(REGIONS);
+}
+
+const DIFFERENCES: Region[] = ["aWithoutB", "bWithoutA"];
+
+/** Exaggeration and exclusive modes are other pictures of the same draws. */
+export function watchPictures(): void {
+  const show = latest<undefined>(() => showRegions(DIFFERENCES));
+  let shown = `${picture.value} ${exaggeration.value}`;
+  effect(() => {
+    const wanted = `${picture.value} ${exaggeration.value}`;
+    if (wanted === shown) return;
+    shown = wanted;
+    if (held.peek() !== null) show(undefined);
+  });
+}
+
+/** Whether the σ under the slider is still wanted: not once it was put back. */
+let wantsPreview = false;
+
+const askPreview = latest(async (sigma: number) => {
+  const before = held.value;
+  if (!canPreview.value) return;
+  try {
+    const { signal } = regionController;
+    const found = await engineClient().preview(signal, sigma, shapeCount(), shapesSeed.value);
+    // A run that began meanwhile has better to show.
+    if (!wantsPreview || !canPreview.value || held.value !== before) return;
+    batch(() => {
+      preview.value = found.prediction;
+      shapes.value = { ...shapes.value, intersection: found.shapes };
+    });
+  } catch (thrown) {
+    // Where the fit breaks down there is nothing to foresee; the run says what is wrong.
+    if (!wasAborted(thrown)) preview.value = null;
+  }
+});
+
+/** Shows A∩B as it would be at another σ, and what to expect there. */
+export function trySigma(sigma: number): void {
+  tried.value = sigma;
+  wantsPreview = true;
+  askPreview(sigma);
+}
+
+/** Takes the σ that was tried, and runs it as any other change; or gives it up. */
+export function takeSigma(sigma: number | null): void {
+  tried.value = null;
+  if (sigma !== settings.value.sigma) {
+    settings.value = { ...settings.value, sigma };
+    return;
+  }
+  wantsPreview = false;
+  preview.value = null;
+  if (canPreview.value) void showRegions(["intersection"]);
+}
+
+/** The intersection's numbers at one σ, by the fit alone; null where the fit breaks down. */
+export async function sweepPoint(signal: AbortSignal, sigma: number): Promise<SweepPoint | null> {
+  return (await engineClient().sweep(signal, [sigma]))[0] ?? null;
 }

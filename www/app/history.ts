@@ -3,7 +3,17 @@ import { batch, computed, effect, untracked } from "@preact/signals";
 import { findDemo } from "./demos";
 import { type LinkState, readLink, writeLink } from "./link";
 import { openDemo, openPair } from "./models";
-import { camera, demo, region, settings, shapesSeed, slots, view } from "./state";
+import {
+  camera,
+  demo,
+  exaggeration,
+  picture,
+  region,
+  settings,
+  shapesSeed,
+  slots,
+  view,
+} from "./state";
 
 const WRITE_AFTER_MS = 1000;
 
@@ -22,6 +32,8 @@ export function currentLink(): string {
     settings: settings.value,
     view: view.value,
     region: region.value,
+    picture: picture.value,
+    exaggeration: exaggeration.value,
     shapes: shapesSeed.value,
     camera: camera.value,
   });
@@ -29,7 +41,7 @@ export function currentLink(): string {
 
 /** Steps that Back undoes; the camera and the like only follow along. */
 const step = computed(() =>
-  JSON.stringify([demo.value?.id, urls(), settings.value, view.value, region.value]),
+  JSON.stringify([demo.value?.id, urls(), settings.value, view.value, region.value, picture.value]),
 );
 
 let applied = "";
@@ -70,6 +82,8 @@ export function apply(link: LinkState): void {
     settings.value = link.settings;
     view.value = link.view;
     region.value = link.region;
+    picture.value = link.picture;
+    exaggeration.value = link.exaggeration;
     shapesSeed.value = link.shapes;
     camera.value = link.camera;
   });

@@ -4,16 +4,26 @@
  * Every link of an older page must keep opening: unknown keys are ignored, unreadable values fall
  * back to the default, and what is not given is the default.
  */
-import type { Alignment, Region, SamplerName, Settings } from "../worker/protocol";
+import type { Picture, Region, Settings } from "../worker/protocol";
 import { FIRST_DEMO, findDemo } from "./demos";
 import {
   ALIGNMENTS,
   budgetOf,
   DEFAULTS,
+  DIFFERENCES,
+  FITS,
+  leastDraws,
+  MOST_DRAWS,
+  type Options,
+  PLAUSIBILITIES,
   parseCount,
+  parsePercent,
+  parsePositive,
   parseSeed,
-  parseSigma,
+  percentText,
+  RANGES,
   SAMPLERS,
+  SIDES_USED,
 } from "./settings";
 import { type Camera, HOME } from "./viewer/camera";
 
@@ -24,7 +34,14 @@ export const VIEW_MODES: ViewMode[] = ["mean", "samples", "sd"];
 export const REGIONS: Region[] = ["a", "aWithoutB", "intersection", "bWithoutA", "b"];
 
 /** What of a link is settings of the run. */
-export const SETTING_KEYS = "align modes sigma sampler seed chains draws burnin thin".split(" ");
+export const SETTING_KEYS = (
+  "align modes sigma sampler seed chains draws burnin thin " +
+  "fit sides plaus noise weighted diff leaves beyond diffdraws"
+).split(" ");
+
+/** As the slider has it. */
+export const MOST_EXAGGERATION = 5;
+const PICTURES: Picture[] = ["draws", "exclusiveModes"];
 
 /** Everything that makes the picture. */
 export interface LinkState {
@@ -35,6 +52,9 @@ export interface LinkState {
   view: ViewMode;
   /** The region shown alone, if one is. */
   region: Region | null;
+  picture: Picture;
+  /** How much further a shape of a difference is pushed away from the other model. */
+  exaggeration: number;
   /** Seed of the shapes shown in “Samples”. */
   shapes: string;
   camera: Camera;
@@ -47,6 +67,8 @@ export function defaultLink(): LinkState {
     settings: DEFAULTS,
     view: "mean",
     region: null,
+    picture: "draws",
+    exaggeration: 0,
     shapes: "1",
     camera: HOME,
   };
@@ -67,13 +89,34 @@ export function writeLink(state: LinkState): string {
     ["draws", settings.draws],
     ["burnin", settings.burnIn],
     ["thin", settings.thin],
+    ...rareSettings(settings),
     ["view", state.view],
   );
   if (state.region) pairs.push(["region", state.region]);
+  if (state.picture !== "draws") pairs.push(["picture", state.picture]);
+  if (state.exaggeration !== 0) pairs.push(["exaggerate", state.exaggeration]);
   if (state.shapes !== "1") pairs.push(["shapes", state.shapes]);
   const turned = cameraText(camera);
   if (turned !== cameraText(HOME)) pairs.push(["camera", turned]);
   return pairs.map(([key, value]) => `${key}=${escapeValue(String(value))}`).join("&");
+}
+
+/** Settings that links leave out while they are the default, to stay short. */
+function rareSettings(settings: Settings): [string, string | number][] {
+  const pairs: [string, keyof Settings, (string | number | null)?][] = [
+    ["fit", "fit"],
+    ["sides", "pooling"],
+    ["plaus", "plausibility"],
+    ["noise", "noise"],
+    ["weighted", "weighted"],
+    ["diff", "difference"],
+    ["leaves", "differenceQuantile", percentText(settings.differenceQuantile)],
+    ["beyond", "differenceThreshold"],
+    ["diffdraws", "differenceDraws"],
+  ];
+  return pairs
+    .filter(([, name]) => settings[name] !== DEFAULTS[name])
+    .map(([key, name, text]) => [key, text ?? settings[name] ?? ""]);
 }
 
 export function readLink(fragment: string): LinkState {
@@ -87,31 +130,66 @@ export function readLink(fragment: string): LinkState {
     settings: readSettings(given),
     view: oneOf(given.get("view"), VIEW_MODES) ?? fallback.view,
     region: oneOf(given.get("region"), REGIONS) ?? null,
+    picture: oneOf(given.get("picture"), PICTURES) ?? fallback.picture,
+    exaggeration: readExaggeration(given.get("exaggerate")),
     shapes: valid(parseSeed(given.get("shapes") ?? "1"), fallback.shapes),
     camera: readCamera(given.get("camera")),
   };
 }
 
 function readSettings(given: URLSearchParams): Settings {
-  const samplers = Object.keys(SAMPLERS) as SamplerName[];
-  const alignments = Object.keys(ALIGNMENTS) as Alignment[];
-  const sampler = oneOf(given.get("sampler"), samplers) ?? DEFAULTS.sampler;
+  const named = <T extends string>(key: string, options: Options<T>, fallback: T) =>
+    oneOf(given.get(key), Object.keys(options) as T[]) ?? fallback;
+  const sampler = named("sampler", SAMPLERS, DEFAULTS.sampler);
   const budget = budgetOf(sampler);
-  const count = (key: string, least: number, most: number, fallback: number) =>
+  const count = (key: string, [least, most]: readonly [number, number], fallback: number) =>
     valid(parseCount(given.get(key) ?? "", least, most), fallback);
-  const modes = count("modes", 1, 100_000, 0);
-  const chains = count("chains", 2, 1024, budget.chains);
+  const positive = (key: string) => valid(parsePositive(given.get(key) ?? ""), null);
+  const modes = count("modes", RANGES.modes, 0);
+  const chains = count("chains", RANGES.chains, budget.chains);
+  const least = leastDraws(chains);
   return {
-    sigma: valid(parseSigma(given.get("sigma") ?? "auto"), null),
+    sigma: positive("sigma"),
+    noise: positive("noise"),
     seed: valid(parseSeed(given.get("seed") ?? ""), DEFAULTS.seed),
     sampler,
+    fit: named("fit", FITS, DEFAULTS.fit),
+    pooling: named("sides", SIDES_USED, DEFAULTS.pooling),
+    plausibility: named("plaus", PLAUSIBILITIES, DEFAULTS.plausibility),
     chains,
-    draws: count("draws", 8 * chains, 10_000_000, Math.max(budget.draws, 8 * chains)),
-    burnIn: count("burnin", 0, 10_000_000, budget.burnIn),
-    thin: count("thin", 1, 100_000, budget.thin),
+    draws: count("draws", [least, MOST_DRAWS], Math.max(budget.draws, least)),
+    burnIn: count("burnin", RANGES.burnIn, budget.burnIn),
+    thin: count("thin", RANGES.thin, budget.thin),
+    weighted: count("weighted", RANGES.weighted, DEFAULTS.weighted),
+    difference: oneOf(given.get("diff"), DIFFERENCES) ?? DEFAULTS.difference,
+    differenceQuantile: valid(parsePercent(given.get("leaves") ?? ""), DEFAULTS.differenceQuantile),
+    differenceThreshold: positive("beyond"),
+    differenceDraws: count("diffdraws", RANGES.differenceDraws, DEFAULTS.differenceDraws),
     modes: modes === 0 ? null : modes,
-    align: oneOf(given.get("align"), alignments) ?? DEFAULTS.align,
+    align: named("align", ALIGNMENTS, DEFAULTS.align),
   };
+}
+
+/** Settings that an address asks for in words this page does not know, as `key=value`. */
+export function misread(fragment: string): string[] {
+  const given = new URLSearchParams(fragment.replace(/^#/, ""));
+  const words: Record<string, string[]> = {
+    sampler: Object.keys(SAMPLERS),
+    fit: Object.keys(FITS),
+    sides: Object.keys(SIDES_USED),
+    plaus: Object.keys(PLAUSIBILITIES),
+    diff: DIFFERENCES,
+    align: Object.keys(ALIGNMENTS),
+  };
+  return Object.entries(words).flatMap(([key, known]) => {
+    const value = given.get(key);
+    return value === null || known.includes(value) ? [] : `${key}=${value}`;
+  });
+}
+
+function readExaggeration(text: string | null): number {
+  const value = Number(text ?? 0);
+  return value >= 0 && value <= MOST_EXAGGERATION ? value : 0;
 }
 
 function readCamera(text: string | null): Camera {

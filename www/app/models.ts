@@ -78,11 +78,11 @@ export async function choosePart(side: Side, index: number): Promise<void> {
   slots[side].value = { ...slot, chosen: index, geometry };
 }
 
-/** `sigma` where the one in use, a length of the former models, says nothing of these. */
+/** `sigma` where the lengths in use, those of the former models, say nothing of these. */
 function show(opened: Record<Side, Slot | null>, sigma?: number | null): void {
   batch(() => {
     if (sigma !== undefined && (opened.a || opened.b)) {
-      settings.value = { ...settings.value, sigma };
+      settings.value = { ...settings.value, sigma, noise: null, differenceThreshold: null };
     }
     for (const side of SIDES) {
       const slot = opened[side];

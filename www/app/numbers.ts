@@ -20,6 +20,13 @@ const inUnit = (value: number, report: Report) => length(value, report.models.a.
 const radians = (value: number) => (value < 1e-9 ? "0" : number(value, 4));
 const plainly = (value: number) => number(value);
 
+/** σ of the paper's difference, a length; the score of the others may have another unit. */
+function thresholdText(value: number, report: Report): string {
+  const { difference } = report.settings;
+  if (difference === "relative") return `${number(value)}\u202f×`;
+  return difference === "outside" ? `${number(value)}\u202fSD` : inUnit(value, report);
+}
+
 const both = (label: string, path: string, show: Row["show"]): Row => ({
   label,
   metrics: [`models.a.${path}`, `models.b.${path}`],
@@ -64,6 +71,11 @@ export const GROUPS: Group[] = [
       { label: "its spread", metrics: ["intersection.meanDistance.sd"], show: inUnit },
       { label: "Vertex SD, mean", metrics: ["intersection.vertexSd.mean"], show: inUnit },
       { label: "Vertex SD, largest", metrics: ["intersection.vertexSd.max"], show: inUnit },
+      {
+        label: "Least distance of plausible shapes",
+        metrics: ["intersection.tolerance.meeting"],
+        show: inUnit,
+      },
       { label: "Mean shape of A to that of B", metrics: ["overlap.meanToMean"], show: inUnit },
       { label: "Bhattacharyya distance", metrics: ["overlap.bhattacharyya"], show: plainly },
     ],
@@ -83,6 +95,10 @@ export const GROUPS: Group[] = [
     rows: [
       eachWay("Share out of reach", "probability", percent),
       eachWay("its standard error", "standardError", percent),
+      eachWay("σ or threshold", "threshold", thresholdText),
+      eachWay("Like the model itself", "overlapWithPrior", percent),
+      eachWay("standard error of that", "overlapStandardError", percent),
+      eachWay("Variance out of reach", "exclusive.unexplained", percent),
       eachWay("Distance to the other model", "meanDistance.mean", inUnit),
       eachWay("Vertex SD, mean", "vertexSd.mean", inUnit),
     ],
@@ -110,6 +126,10 @@ export const DIAGNOSTICS: Group = {
     perSide("ESS tail, least", "essTailMin", (value) => count(value)),
     perSide("Acceptance", "acceptance", percent),
     perSide("Pareto k", "paretoK", (value) => number(value, 2)),
+    perSide("Weights’ effective size", "importanceEss", (value) => count(value)),
+    perSide("MCSE of the mean", "mcseMean", (value) => number(value, 2)),
+    perSide("MCSE of the SD", "mcseSd", (value) => number(value, 2)),
+    perSide("Autocorrelation", "autocorrelation", (value) => number(value, 2)),
     perSide("Draws", "draws", (value) => count(value)),
     perSide("Evaluations", "evaluations", (value) => count(value)),
   ],

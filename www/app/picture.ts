@@ -7,7 +7,7 @@ import { region, result, unit, view } from "./state";
 import { isDark } from "./theme";
 import { VENN_BOX, vennOf } from "./venn";
 import { layoutOf, range, viewer } from "./viewer/stage-controller";
-import { REGION_NAMES } from "./views/names";
+import { differencePicture, REGION_NAMES } from "./views/names";
 import { headline, settingsSentence } from "./words";
 
 const SCALE = 2;
@@ -95,7 +95,9 @@ function foot(pen: CanvasRenderingContext2D, width: number, top: number): void {
   };
   if (held) {
     line(plain(headline(held.report, held.nouns)), 52, `500 13px ${FONT}`);
-    line(`${settingsSentence(held.report)} · Shapevenn`, 72, `11px ${FONT}`);
+    const drawn = differencePicture();
+    const note = drawn === "" ? "" : ` · differences: ${drawn}`;
+    line(`${settingsSentence(held.report)}${note} · Shapevenn`, 72, `11px ${FONT}`);
   }
   if (!shown) return;
   const [left, length] = [70, Math.min(260, width - 330)];

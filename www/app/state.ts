@@ -4,6 +4,7 @@ import type { EngineInfo } from "../worker/client";
 import type {
   Geometry,
   OpenedPart,
+  Prediction,
   Progress,
   Region,
   RegionShapes,
@@ -53,7 +54,7 @@ export interface RunState {
 
 export interface Notice {
   id: number;
-  place: Side | "run" | "page";
+  place: Side | "run" | "page" | "link";
   code: string;
   message: string;
   hint: string;
@@ -80,8 +81,15 @@ export const spoken = signal("");
 export const view = signal<ViewMode>(first.view);
 export const region = signal<Region | null>(null);
 export const shapesSeed = signal(first.shapes);
+/** What is shown of the differences, and how far they are exaggerated. */
+export const picture = signal(first.picture);
+export const exaggeration = signal(first.exaggeration);
 export const camera = signal<Camera>(HOME);
 export const shapes = signal<Partial<Record<Region, RegionShapes>>>({});
+/** What the engine predicts at the σ that is being tried, until a run replaces it. */
+export const preview = signal<Prediction | null>(null);
+/** The σ under the slider while it moves. */
+export const tried = signal<number | null>(null);
 /** Why a region has no shapes. */
 export const emptyRegions = signal<Partial<Record<Region, string>>>({});
 /** Colour range of the standard deviations while it is locked. */
@@ -111,13 +119,25 @@ export function comparisonKey(a: string, b: string, chosen: Settings): string {
   return `${a}\n${b}\n${settingsKey(chosen)}`;
 }
 
-/** What the chosen models and settings would draw; null until both models are there. */
-export const currentKey = computed(() => {
+function keyWith(chosen: Settings): string | null {
   const [a, b] = [slots.a.value, slots.b.value];
   if (!a || !b) return null;
   const key = (slot: Slot) => `${sourceKey(slot.source)}#${slot.chosen}`;
-  return comparisonKey(key(a), key(b), settings.value);
-});
+  return comparisonKey(key(a), key(b), chosen);
+}
+
+/** What the chosen models and settings would draw; null until both models are there. */
+export const currentKey = computed(() => keyWith(settings.value));
+/** The same at whatever σ. */
+export const currentBase = computed(() => keyWith({ ...settings.value, sigma: null }));
+
+/** The comparison that the engine holds, of which regions, previews and files can be asked. */
+export const held = signal<{ key: string; base: string | null } | null>(null);
+
+/** Whether the engine holds the models and settings that are chosen, at whatever σ, and is free. */
+export const canPreview = computed(
+  () => run.value === null && held.value !== null && held.value.base === currentBase.value,
+);
 
 export const outOfDate = computed(
   () => result.value !== null && currentKey.value !== null && result.value.key !== currentKey.value,
@@ -132,14 +152,27 @@ export function chosenPart(side: Side): OpenedPart | undefined {
   return slot?.parts[slot.chosen];
 }
 
+/** σ that the engine recommends for the models on show, where it has said so. */
+export const recommended = computed(() => {
+  const report = result.value?.report;
+  if (!report) return null;
+  const { sigma, sigmaRecommended } = report.settings;
+  return report.intersection.tolerance?.recommended ?? (sigmaRecommended ? sigma : null);
+});
+
 /** As `document.documentElement.dataset.state`. */
 export const pageState = computed(() => {
   if (run.value) return "running";
   if (opening.a.value !== null || opening.b.value !== null) return "loading";
-  if (notices.value.length > 0) return "error";
+  if (notices.value.some(({ place }) => place !== "link")) return "error";
   if (!slots.a.value || !slots.b.value) return "idle";
   return result.value && !outOfDate.value && shapes.value.intersection ? "done" : "ready";
 });
+
+/** Changes some of the settings; the run that this asks for begins by itself. */
+export function change(part: Partial<Settings>): void {
+  settings.value = { ...settings.value, ...part };
+}
 
 let noticeId = 0;
 

@@ -1,12 +1,21 @@
 /** What a report says, in plain words. Pure: no DOM, no engine. */
-import type { Progress, Report, SamplerName } from "../worker/protocol";
+import type {
+  BothSides,
+  DifferenceName,
+  FitMethod,
+  Inference,
+  ModeDiagnostics,
+  Progress,
+  Report,
+  SamplerName,
+} from "../worker/protocol";
 import type { Nouns } from "./demos";
 import { count, degrees, length, number, percent, plusMinus } from "./format";
 import { figure, type Phrase } from "./phrase";
 
 /** The thresholds of src/report.rs. */
-const R_HAT = 1.01;
-const ESS = 400;
+export const R_HAT = 1.01;
+export const ESS = 400;
 
 /** From here on “nearly everything” is a fair word. */
 const NEARLY_ALL = 0.99;
@@ -53,6 +62,10 @@ export function differences(report: Report, nouns: Nouns): Phrase {
   const ofA = figure("differences.aWithoutB.probability", a, percent(a));
   const ofB = figure("differences.bWithoutA.probability", b, percent(b));
   const each: Phrase = [ofA, ` of ${nouns.shapesOfA} and `, ofB, ` of ${nouns.shapesOfB}`];
+  const definition = report.settings.difference ?? "soft";
+  if (definition !== "soft") {
+    return ["The differences hold ", ...each, `: those ${HARD[definition]}.`];
+  }
   if (nearlyAllDiffers(report)) {
     return [
       ...each,
@@ -66,9 +79,89 @@ export function differences(report: Report, nouns: Nouns): Phrase {
   return [...each, " are out of the other model’s reach at this σ."];
 }
 
+const HARD: Record<Exclude<DifferenceName, "soft">, string> = {
+  distance: "that lie farthest from the other model",
+  relative: "whose own deviation from the mean the other model follows least",
+  outside: "whose nearest shape in the other model is least plausible there",
+};
+
+export type DifferencePicture = DifferenceName | "exclusiveModes";
+
+/** What each definition of a difference means. */
+export const DEFINITIONS: Record<DifferencePicture, { label: string; help: string }> = {
+  soft: {
+    label: "paper’s",
+    help: "A shape of A counts the more, the more σ it lies from its nearest shape in B: with probability 1 − exp(−½(d/σ)²).",
+  },
+  distance: {
+    label: "beyond a distance",
+    help: "A shape of A counts if it lies at least a certain distance from its nearest shape in B.",
+  },
+  relative: {
+    label: "relative",
+    help: "A shape of A counts if B misses a large part of what sets it apart from A’s mean: its distance to B over its own deviation.",
+  },
+  outside: {
+    label: "outside Q₂",
+    help: "A shape of A counts if its nearest shape in B is one that B hardly ever makes, so many standard deviations from B’s mean.",
+  },
+  exclusiveModes: {
+    label: "exclusive modes",
+    help: "Not drawn at random: the directions of A that B misses most, one after the other, each at +3 standard deviations.",
+  },
+};
+
+/** From here on a difference looks like the model itself. */
+const SAME_AS_MODEL = 0.95;
+
+/** Said where the paper's difference shows nothing that the model itself does not. */
+export function nearlyTheModel(report: Report): Phrase | null {
+  if ((report.settings.difference ?? "soft") !== "soft") return null;
+  const { aWithoutB, bWithoutA } = report.differences;
+  const [a, b] = [aWithoutB.overlapWithPrior ?? 0, bWithoutA.overlapWithPrior ?? 0];
+  const ofA = figure("differences.aWithoutB.overlapWithPrior", a, percent(a));
+  const ofB = figure("differences.bWithoutA.overlapWithPrior", b, percent(b));
+  const same = (overlap: number) => overlap > SAME_AS_MODEL;
+  if (!same(a) && !same(b)) return null;
+  const which: Phrase =
+    same(a) && same(b)
+      ? ["each model: ", ofA, " like A, ", ofB, " like B."]
+      : same(a)
+        ? ["A: ", ofA, " like it."]
+        : ["B: ", ofB, " like it."];
+  return ["At this σ the paper’s difference is nearly all of ", ...which];
+}
+
+/** What the other model misses, mode by mode; null where the report does not say. */
+export function exclusive(report: Report, side: "a" | "b"): Phrase | null {
+  const key = side === "a" ? "aWithoutB" : "bWithoutA";
+  const found = report.differences[key].exclusive;
+  if (!found) return null;
+  const path = `differences.${key}.exclusive`;
+  const [own, other] = side === "a" ? ["A", "B"] : ["B", "A"];
+  const strongest = found.residualSd.slice(0, 3);
+  const sentence: Phrase = [
+    `${other} misses `,
+    figure(`${path}.unexplained`, found.unexplained, percent(found.unexplained)),
+    ` of the variance of ${own}`,
+  ];
+  if (strongest.length === 0) return [...sentence, "."];
+  return [
+    ...sentence,
+    ...strongest.flatMap(
+      (sd, i): Phrase => [
+        i === 0 ? "; its strongest exclusive modes by " : ", ",
+        figure(`${path}.residualSd.${i}`, sd, number(sd)),
+      ],
+    ),
+    `\u202f${report.models.a.unit} per standard deviation.`,
+  ];
+}
+
 function nearlyAllDiffers(report: Report): boolean {
   const { aWithoutB, bWithoutA } = report.differences;
-  return Math.min(aWithoutB.probability, bWithoutA.probability) >= NEARLY_ALL;
+  const soft = (report.settings.difference ?? "soft") === "soft";
+  return soft && Math.min(aWithoutB.probability, bWithoutA.probability) >= NEARLY_ALL;
 }
 
 /** The warnings that the sentences above do not say already. */
@@ -99,16 +192,33 @@ export function spaces(report: Report): Phrase {
   ];
 }
 
+/** “Converged” is the engine's word: no other figure makes the page say it. */
 export function belief(report: Report): { converged: boolean; phrase: Phrase } {
-  const { converged, rHatMax, essBulkMin } = report.intersection.diagnostics;
-  const evidence: Phrase = [
+  const { converged, rHatMax, essBulkMin, paretoK, importanceEss } =
+    report.intersection.diagnostics;
+  const path = "intersection.diagnostics";
+  const chains: Phrase = [
     ...(rHatMax === null
       ? []
-      : ["R-hat ", figure("intersection.diagnostics.rHatMax", rHatMax, rHatMax.toFixed(4)), ", "]),
+      : ["R-hat ", figure(`${path}.rHatMax`, rHatMax, rHatMax.toFixed(4)), ", "]),
     "at least ",
-    figure("intersection.diagnostics.essBulkMin", essBulkMin, count(essBulkMin)),
+    figure(`${path}.essBulkMin`, essBulkMin, count(essBulkMin)),
     " effective draws for every mode",
   ];
+  const byChains = (rHatMax ?? 1) < R_HAT && essBulkMin >= ESS;
+  const weights: Phrase =
+    paretoK === null || importanceEss == null
+      ? []
+      : [
+          "Pareto k ",
+          figure(`${path}.paretoK`, paretoK, number(paretoK, 2)),
+          ", effective size of the weights ",
+          figure(`${path}.importanceEss`, importanceEss, count(importanceEss)),
+        ];
+  // What it converged by; all there is where it has not.
+  let evidence = chains;
+  if (weights.length > 0 && !converged) evidence = [...chains, "; ", ...weights];
+  if (weights.length > 0 && converged && !byChains) evidence = weights;
   const phrase: Phrase = converged
     ? ["Converged: ", ...evidence, "."]
     : ["Not converged yet: ", ...evidence, ". Ask for more draws before quoting these numbers."];
@@ -116,14 +226,165 @@ export function belief(report: Report): { converged: boolean; phrase: Phrase } {
 }
 
 /**
- * While running: whether what is there so far could be believed. The engine looks at the first
- * modes only then; the report judges all of them.
+ * While running: whether what is there so far looks well. The engine looks at the first modes only
+ * then; whether the draws have converged is for the report to say.
  */
 export function liveBelief(progress: Progress): string {
   const { rHatMax, essBulkMin } = progress;
   if (rHatMax === null && essBulkMin === null) return "waiting for the first draws";
   const settled = (rHatMax ?? 1) < R_HAT && (essBulkMin ?? 0) >= ESS;
-  return settled ? "converged so far" : "not converged yet";
+  return settled ? LOOKS_WELL : "not converged yet";
+}
+
+export const LOOKS_WELL = "looks well so far, judged at the end";
+
+const MOMENTS: Record<Inference["moments"], string> = {
+  "closed-form":
+    "mean and variance come from the fit in closed form; the correction by weighted draws is within its own error",
+  weighted:
+    "mean and variance are those of the Gaussian fit, corrected by weighted draws and gradients",
+  draws: "mean and variance are those of the draws",
+};
+
+const FIT_WORDS: Record<FitMethod, string> = {
+  variational: "variational",
+  reweighted: "reweighted",
+  laplace: "Laplace",
+  rms: "RMS",
+};
+
+/** Which sampler ran on a side, why, and what the moments come from. */
+export function inferred(report: Report, side: "a" | "b"): string | null {
+  const found = report.intersection.inference?.[side];
+  if (!found) return null;
+  const reason = found.reason.trim().replace(/[.\s]+$/, "");
+  return (
+    `${capital(SAMPLER_WORDS[found.sampler] ?? found.sampler)}` +
+    `${reason === "" ? "" : `: ${reason}`}. ` +
+    `Built on the ${FIT_WORDS[found.fit] ?? found.fit} fit; ${MOMENTS[found.moments] ?? found.moments}.`
+  );
+}
+
+interface Worst {
+  mode: number;
+  side: "a" | "b";
+  value: number;
+}
+
+/** The worst of one figure over all modes of both sides; modes counted from 1. */
+export function worstMode(
+  both: BothSides<ModeDiagnostics>,
+  which: "rHat" | "essBulk" | "essTail",
+): Worst | null {
+  let worst: Worst | null = null;
+  for (const side of ["a", "b"] as const) {
+    for (const [i, value] of both[side][which].entries()) {
+      const worse =
+        which === "rHat"
+          ? (found: Worst) => value > found.value
+          : (found: Worst) => value < found.value;
+      if (Number.isFinite(value) && (worst === null || worse(worst))) {
+        worst = { mode: i + 1, side, value };
+      }
+    }
+  }
+  return worst;
+}
+
+export function worstModes(report: Report): Phrase | null {
+  const both = report.intersection.coefficients;
+  if (!both) return null;
+  const named = (
+    which: "rHat" | "essBulk" | "essTail",
+    text: (value: number) => string,
+  ): Phrase => {
+    const found = worstMode(both, which);
+    if (!found) return [];
+    const path = `intersection.coefficients.${found.side}.${which}.${found.mode - 1}`;
+    return [
+      figure(path, found.value, text(found.value)),
+      ` for mode\u00a0${found.mode} of ${found.side.toUpperCase()}`,
+    ];
+  };
+  const rHat = named("rHat", (value) => value.toFixed(4));
+  const bulk = named("essBulk", count);
+  const tail = named("essTail", count);
+  if (bulk.length === 0) return null;
+  return [
+    ...(rHat.length === 0 ? ["Worst: "] : ["Worst R-hat ", ...rHat, "; "]),
+    "fewest effective draws ",
+    ...bulk,
+    ...(tail.length === 0 ? [] : [", in the tails ", ...tail]),
+    ".",
+  ];
+}
+
+/** From here on a mode is not determined on its own, in radians; as in src/report.rs. */
+const MOST_TURN = 0.2;
+
+/** Neighbouring modes that turn into one another, as runs of modes counted from 1. */
+export function unsettledModes(turns: number[]): number[][] {
+  const runs: number[][] = [];
+  turns.forEach((turn, i) => {
+    if (turn <= MOST_TURN) return;
+    const last = runs.at(-1);
+    if (last?.at(-1) === i) last.push(i + 1);
+    else runs.push([i + 1]);
+  });
+  return runs;
+}
+
+/** Said of modes whose variances are too close to tell them apart. */
+export function unsettled(report: Report): string | null {
+  const turns = report.intersection.accuracy?.modeTurns ?? [];
+  const runs = unsettledModes(turns);
+  const first = runs[0];
+  if (!first) return null;
+  const [from = 0, next] = first;
+  const last = first.at(-1) ?? from;
+  const also =
+    runs.length === 1 ? "" : ` The same holds for ${listed(runs.slice(1).map(runName))}.`;
+  if (next === undefined) {
+    return `Mode ${from} is not determined well: its direction may turn by more than ${Math.round((MOST_TURN * 180) / Math.PI)}°.${also}`;
+  }
+  if (first.length === 2) {
+    return `Modes ${from} and ${next} have nearly equal variance: only the two together are determined.${also}`;
+  }
+  return `Modes ${from} to ${last} have nearly equal variances: only all of them together are determined.${also}`;
+}
+
+function runName(run: number[]): string {
+  const [from, next] = run;
+  if (next === undefined) return `mode ${from}`;
+  return run.length === 2 ? `modes ${from} and ${next}` : `modes ${from} to ${run.at(-1)}`;
+}
+
+function listed(names: string[]): string {
+  if (names.length < 2) return names.join("");
+  return `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`;
+}
+
+/** From here on the two sides describe different sets of shapes. */
+const DISAGREE = 0.5;
+
+export function sidesDisagree(report: Report): boolean {
+  return (report.intersection.disagreement?.covariance ?? 0) > DISAGREE;
+}
+
+/** How far what either side alone would give lies apart. */
+export function twoSides(report: Report): Phrase | null {
+  const found = report.intersection.disagreement;
+  if (!found) return null;
+  const path = "intersection.disagreement";
+  return [
+    "The shapes of A near B and those of B near A give two models; A∩B is made of both in equal shares. Their means are ",
+    figure(`${path}.meanToMean`, found.meanToMean, length(found.meanToMean, report.models.a.unit)),
+    " apart, their covariances differ by ",
+    figure(`${path}.covariance`, found.covariance, percent(found.covariance)),
+    sidesDisagree(report)
+      ? ": the two sides describe different sets of shapes. Look at each alone before trusting what they have in common."
+      : ".",
+  ];
 }
 
 const STAGES: Record<Progress["stage"], string> = {
@@ -145,21 +406,32 @@ export function secondsLeft(fraction: number, seconds: number): number | null {
 }
 
 const SAMPLER_WORDS: Record<SamplerName, string> = {
+  auto: "automatic sampler",
+  variational: "Gaussian fit alone",
   independence: "independence sampler",
+  hmc: "Hamiltonian Monte Carlo",
+  mala: "Langevin steps",
+  pcn: "Crank–Nicolson steps",
   paper: "paper’s random walk",
   "paper-corrected": "paper’s walk, corrected",
 };
 
 export function settingsSentence(report: Report): string {
   const { sigma, sigmaRecommended, sampler, chains, draws, seed, align, modes } = report.settings;
+  const { pooling, plausibility, difference } = report.settings;
   const unit = report.models.a.unit;
   const parts = [
     `σ ${sigma === null ? "recommended" : length(sigma, unit)}${sigmaRecommended ? " (recommended)" : ""}`,
-    SAMPLER_WORDS[sampler],
+    SAMPLER_WORDS[sampler] ?? sampler,
     `${chains} chains`,
     `${count(draws)} draws a side`,
     `seed ${seed}`,
   ];
+  if (pooling && pooling !== "both") parts.push(`from ${pooling.toUpperCase()} alone`);
+  if (plausibility === "idempotent") parts.push("idempotent");
+  if (difference && difference !== "soft") {
+    parts.push(`difference ${DEFINITIONS[difference].label}`);
+  }
   if (modes !== null) parts.push(`first ${modes} modes`);
   if (align !== "none") parts.push(align === "rigid" ? "rigidly aligned" : "aligned with scale");
   return parts.join(" · ");

@@ -10,10 +10,13 @@ import type {
   FromEngine,
   Geometry,
   Handle,
+  Picture,
+  Preview,
   Progress,
   Region,
   RegionShapes,
   Settings,
+  SweepPoint,
   ToEngine,
 } from "./protocol";
 import { Watch } from "./watch";
@@ -118,8 +121,20 @@ export class EngineClient {
     region: Region,
     count: number,
     seed: string,
+    exaggeration = 0,
+    picture: Picture = "draws",
   ): Promise<RegionShapes> {
-    return (await this.#ask(signal, { t: "region", region, count, seed }, "region")).shapes;
+    const request = { t: "region", region, count, seed, exaggeration, picture } as const;
+    return (await this.#ask(signal, request, "region")).shapes;
+  }
+
+  async preview(signal: AbortSignal, sigma: number, count: number, seed: string): Promise<Preview> {
+    return this.#ask(signal, { t: "preview", sigma, count, seed }, "preview");
+  }
+
+  async sweep(signal: AbortSignal, sigmas: number[]): Promise<SweepPoint[]> {
+    const request = { t: "sweep", sigmas: Float64Array.from(sigmas) } as const;
+    return (await this.#ask(signal, request, "sweep")).points;
   }
 
   async export(signal: AbortSignal, what: ExportKind): Promise<Reply<"exported">> {

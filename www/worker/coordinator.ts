@@ -6,7 +6,7 @@
  * busy reads no messages and would not see a cancel.
  */
 import { isEngineError, sentenceOf } from "./engine-errors";
-import type { Engine, FromEngine, Handle, Stage, ToEngine } from "./protocol";
+import type { Engine, EngineError, FromEngine, Handle, Stage, ToEngine } from "./protocol";
 import { firstBudget, isIndivisible, nextBudget } from "./slices";
 
 export type Post = (message: FromEngine, transfer?: Transferable[]) => void;
@@ -33,6 +33,8 @@ const BUSY_WITH: Record<Question["t"], string> = {
   geometry: "drawing the model",
   restore: "restoring the comparison",
   region: "drawing shapes",
+  preview: "previewing",
+  sweep: "trying other σ",
   export: "writing the file",
 };
 
@@ -112,15 +114,36 @@ export class Coordinator {
         engine.restore(message.a, message.b, message.report, new Uint8Array(message.draws));
         return { t: "restored", id };
       case "region": {
-        const shapes = engine.region(message.region, message.count, message.seed);
-        return { t: "region", id, shapes };
+        const { region, count, seed, exaggeration, picture } = message;
+        return {
+          t: "region",
+          id,
+          shapes: engine.region(region, count, seed, exaggeration, picture),
+        };
       }
+      case "preview": {
+        this.#refuseWhileRunning();
+        return { t: "preview", id, ...engine.preview(message.sigma, message.count, message.seed) };
+      }
+      case "sweep":
+        this.#refuseWhileRunning();
+        return { t: "sweep", id, points: engine.sweep(message.sigmas) };
       case "export": {
         const { name, mime, bytes } = engine.export(message.what);
         // A copy of its own: what the engine hands out may be a view of its memory.
         return { t: "exported", id, name, mime, bytes: bytes.slice().buffer };
       }
     }
+  }
+
+  /** What only looks ahead must not hold up a run. */
+  #refuseWhileRunning(): void {
+    if (this.#run === null) return;
+    throw {
+      code: "running",
+      message: "A comparison is running.",
+      hint: "Ask again when it is done.",
+    } satisfies EngineError;
   }
 
   #opened(id: number, open: () => ReturnType<Engine["open"]>): FromEngine {

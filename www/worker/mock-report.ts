@@ -1,6 +1,17 @@
 /** Development only: a report with plausible numbers. */
+
+import { DEFAULTS } from "../app/settings";
 import type { MockModel } from "./mock-models";
-import type { Diagnostics, DifferenceReport, ModelReport, Report, Settings } from "./protocol";
+import type {
+  Diagnostics,
+  DifferenceReport,
+  ModeDiagnostics,
+  ModelReport,
+  Prediction,
+  Report,
+  Settings,
+  SweepPoint,
+} from "./protocol";
 
 export function mockReport(
   a: MockModel,
@@ -10,35 +21,94 @@ export function mockReport(
 ): Report {
   const models = { a: mockReportOf(a), b: mockReportOf(b) };
   const side = diagnostics(1.0021, 0.831);
+  const count = models.a.standardDeviations.length;
+  const sigma = settings.sigma ?? RECOMMENDED;
+  const chosen = settings.sampler === "auto" ? undefined : settings.sampler;
+  const share = { both: 0.2, a: 0.18, b: 0.22 };
+  const deviations = models.a.standardDeviations.map((sd) => sd * 0.45);
+  const wave = (i: number, k: number) => 0.5 + 0.5 * Math.sin(7.1 * i + 3.3 * k);
+  const modes = (k: number): ModeDiagnostics => {
+    const list = (of: (i: number) => number) => Array.from({ length: count }, (_, i) => of(i));
+    return {
+      rHat: list((i) => 1 + 0.003 * wave(i, k) + (k === 1 && i === 3 ? 0.009 : 0)),
+      essBulk: list((i) => 2400 + 1500 * wave(i, k + 2)),
+      essTail: list((i) => (i === 5 ? 352 : 1800 + 1500 * wave(i, k + 4))),
+      mcseMean: list((i) => 0.011 + 0.004 * wave(i, k)),
+      mcseSd: list((i) => 0.008 + 0.003 * wave(i, k)),
+      autocorrelation: list((i) => 0.1 * wave(i, k)),
+    };
+  };
   return {
     schema: 1,
     engine: "mock",
     models,
     settings: {
-      seed: "1",
-      sampler: "independence",
-      chains: 16,
-      draws: 4000,
-      burnIn: 10,
-      thin: 1,
-      modes: null,
-      align: "none",
+      ...DEFAULTS,
       ...settings,
-      sigma: settings.sigma ?? 0.6134,
+      sigma,
       sigmaRecommended: (settings.sigma ?? null) === null,
     },
     intersection: {
       modes: 31,
-      standardDeviations: models.a.standardDeviations.map((sd) => sd * 0.45),
-      totalVariance: models.a.totalVariance * 0.2,
+      standardDeviations: deviations,
+      totalVariance: models.a.totalVariance * share[settings.pooling ?? "both"],
       meanDistance: { mean: 0.5873, sd: 0.0712 },
       grassmann: { toA: 2.8132, toB: 2.9011, toUnion: 2.7756 },
       grassmannAffine: { toA: 2.9132, toB: 2.9411, toUnion: 2.8756 },
       diagnostics: side,
       sides: { a: side, b: diagnostics(1.0013, 0.857) },
       vertexSd: { min: 0.41, mean: 0.93, max: 2.6 },
+      inference: {
+        a: {
+          sampler: chosen ?? "independence",
+          reason: "the fit is good: Pareto k 0.21, acceptance 0.83",
+          fit: "variational",
+          moments: "closed-form",
+        },
+        b: {
+          sampler: chosen ?? "hmc",
+          reason: "Pareto k 0.74 of the fit is above 0.7",
+          fit: "laplace",
+          moments: "weighted",
+        },
+      },
+      accuracy: {
+        covariance: 0.0041,
+        standardDeviations: deviations.map((sd, i) => sd * (0.02 + 0.004 * i)),
+        modeTurns: deviations.map((_, i) => (i === 3 || i === 4 ? 0.41 : 0.02 + 0.003 * i)),
+        grassmann: deviations.map((_, i) => 0.01 * (i + 1)),
+        modesTrusted: Math.min(3, count),
+      },
+      disagreement: {
+        meanToMean: 0.467,
+        covariance: 0.62,
+        betweenShare: 0.023,
+        totalVariance: {
+          a: models.a.totalVariance * share.a,
+          b: models.a.totalVariance * share.b,
+        },
+        standardDeviations: {
+          a: deviations.map((sd) => 0.95 * sd),
+          b: deviations.map((sd) => 1.05 * sd),
+        },
+        grassmann: [0.21, 0.4, 0.54, 0.85].filter((_, i) => count >= ([1, 3, 5, 10][i] ?? 0)),
+      },
+      tolerance: {
+        recommended: RECOMMENDED,
+        relative: sigma / models.a.size,
+        nearest: 0.25,
+        farthest: 0.474,
+        predicted: mockPrediction(sigma).distance,
+        effectiveDimensions: mockPrediction(sigma).effectiveDimensions,
+        meeting: 0.2504,
+        noise: null,
+      },
+      coefficients: { a: modes(0), b: modes(1) },
     },
-    differences: { aWithoutB: difference(0.99894), bWithoutA: difference(0.99871) },
+    differences: {
+      aWithoutB: difference(0.99894, settings),
+      bWithoutA: difference(0.99871, settings),
+    },
     overlap: {
       principalAnglesDegrees: [
         1.4, 2.3, 3.1, 4.8, 6.6, 9.2, 13.4, 18.9, 27.3, 39.4, 54.1, 71.7, 89.2,
@@ -46,14 +116,14 @@ export function mockReport(
       varianceOfAInB: 0.8312,
       varianceOfBInA: 0.7964,
       bhattacharyya: 41.2,
-      bhattacharyyaNoise: 0.6134,
+      bhattacharyyaNoise: sigma,
       meanToMean: 8.213,
     },
     warnings: [
       {
-        code: "difference-is-prior",
-        message: "At this σ nearly every shape of A lies outside B.",
-        hint: "Choose a larger σ to see which differences matter.",
+        code: "sides-disagree",
+        message: "The two sides describe different sets of shapes.",
+        hint: "Look at each side alone.",
       },
     ],
     seconds,
@@ -90,15 +160,58 @@ function diagnostics(rHatMax: number, acceptance: number): Diagnostics {
     evaluations: 64160,
     draws: 4000,
     converged: true,
+    importanceEss: 3804,
+    mcseMean: 0.013,
+    mcseSd: 0.0094,
+    autocorrelation: 0.09,
   };
 }
 
-function difference(probability: number): DifferenceReport {
+function difference(probability: number, settings: Partial<Settings>): DifferenceReport {
+  const soft = (settings.difference ?? "soft") === "soft";
+  const quantile = settings.differenceQuantile ?? DEFAULTS.differenceQuantile;
   return {
-    probability,
+    probability: soft ? probability : 1 - quantile,
     standardError: 0.0004,
     meanDistance: { mean: 3.02, sd: 0.61 },
-    diagnostics: { ...diagnostics(1, probability), rHatMax: null, paretoK: null, draws: 4000 },
+    diagnostics: {
+      ...diagnostics(1, probability),
+      rHatMax: null,
+      paretoK: null,
+      importanceEss: null,
+      draws: 2000,
+    },
     vertexSd: { min: 0.81, mean: 2.61, max: 6.43 },
+    definition: settings.difference ?? "soft",
+    threshold: soft ? (settings.sigma ?? RECOMMENDED) : (settings.differenceThreshold ?? 1.52),
+    envelope: "prior",
+    overlapStandardError: 0.006,
+    overlapWithPrior: soft ? 0.972 : 1 - quantile,
+    exclusive: { residualSd: [0.65, 0.27, 0.22, 0.15], unexplained: 0.043 },
+  };
+}
+
+const RECOMMENDED = 0.6134;
+
+/** As the real one falls: distances from near to far, dimensions from many to none. */
+export function mockPrediction(sigma: number): Prediction {
+  const t = Math.log10(sigma / RECOMMENDED);
+  const share = 1 / (1 + 10 ** (-1.5 * t));
+  return {
+    sigma,
+    distance: 0.25 + 0.45 * share,
+    nearest: 0.24 + 0.12 * share,
+    effectiveDimensions: 31 * (1 - share),
+    meanNorm: 6.4 - 4 * share,
+  };
+}
+
+export function mockSweepPoint(sigma: number): SweepPoint {
+  const prediction = mockPrediction(sigma);
+  const share = (prediction.distance - 0.25) / 0.45;
+  return {
+    ...prediction,
+    vertexSd: 0.08 + 1.4 * share,
+    grassmann: { toA: 2.2 - share, toB: 2.4 - share, toUnion: 2.1 - share },
   };
 }

@@ -3,7 +3,7 @@
  * loading, running, cancelling and failing can be seen without the real one.
  */
 import { type MockModel, packagedHeads, plane, star } from "./mock-models";
-import { mockReport, mockReportOf } from "./mock-report";
+import { mockPrediction, mockReport, mockReportOf, mockSweepPoint } from "./mock-report";
 import type {
   Engine,
   EngineError,
@@ -107,10 +107,25 @@ export async function mockEngine(base: string): Promise<Engine> {
       work(150);
       pair = { a: find(a), b: find(b), settings: {} };
     },
-    region(region, count, seed) {
+    region(region, count, seed, exaggeration, picture) {
       work(20);
       const { a, b } = current();
-      return shapesOf(region, a, b, count, Number(seed));
+      const shapes = shapesOf(region, a, b, count, Number(seed), 0.45);
+      if (region !== "aWithoutB" && region !== "bWithoutA") return shapes;
+      const own = region === "aWithoutB" ? a : b;
+      if (picture === "exclusiveModes") return exclusiveOf(shapes, own, 1 + exaggeration);
+      return pushed(shapes, own, 1 + exaggeration);
+    },
+    preview(sigma, count, seed) {
+      work(60);
+      const { a, b } = current();
+      const spread = mockSweepPoint(sigma).vertexSd / 3;
+      const shapes = shapesOf("intersection", a, b, count, Number(seed), spread);
+      return { prediction: mockPrediction(sigma), shapes: { ...shapes, source: "fit" } };
+    },
+    sweep(sigmas) {
+      work(120 * sigmas.length);
+      return Array.from(sigmas, mockSweepPoint);
     },
     export(what: ExportKind) {
       const text = what.kind === "report-json" ? "{}" : `mock ${what.kind}`;
@@ -140,13 +155,14 @@ function shapesOf(
   b: MockModel,
   count: number,
   seed: number,
+  spread: number,
 ): RegionShapes {
   const own = region === "b" || region === "bWithoutA" ? b : a;
   const shared = region === "intersection";
   const mean = shared
-    ? own.mean.map((value, i) => (value + (b.mean[i] ?? 0)) / 2)
+    ? own.mean.map((value, i) => value + (1 - spread) * ((b.mean[i] ?? 0) - value))
     : own.mean.slice();
-  const factor = shared ? 0.45 : 1;
+  const factor = shared ? spread : 1;
   const samples = new Float32Array(count * mean.length);
   const random = mulberry(seed * 7919 + region.length);
   for (let i = 0; i < count; i += 1) {
@@ -166,6 +182,28 @@ function shapesOf(
     count,
     source,
   };
+}
+
+/** Each shape further away from the mean. */
+function pushed(shapes: RegionShapes, own: MockModel, factor: number): RegionShapes {
+  const { length } = own.mean;
+  const samples = shapes.samples.map((value, i) => {
+    const mean = own.mean[i % length] ?? 0;
+    return mean + factor * (value - mean);
+  });
+  return { ...shapes, samples };
+}
+
+function exclusiveOf(shapes: RegionShapes, own: MockModel, factor: number): RegionShapes {
+  const { length } = own.mean;
+  const modes = own.modes.slice(0, shapes.count);
+  const samples = new Float32Array(modes.length * length);
+  modes.forEach((mode, m) => {
+    own.mean.forEach((value, i) => {
+      samples[m * length + i] = value + 3 * factor * (mode[i] ?? 0);
+    });
+  });
+  return { ...shapes, samples, count: modes.length };
 }
 
 export function deviation(modes: Float32Array[], dimension: number, factor: number): Float32Array {

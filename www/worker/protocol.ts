@@ -3,7 +3,7 @@
  * a change of meaning raises PROTOCOL. Bulk data is typed arrays, transferred, never JSON.
  */
 
-export const PROTOCOL = 1;
+export const PROTOCOL = 2;
 
 /** A model that the engine holds, until `close`. */
 export type Handle = number;
@@ -11,7 +11,23 @@ export type Handle = number;
 /** The five regions of the Venn diagram. */
 export type Region = "a" | "b" | "intersection" | "aWithoutB" | "bWithoutA";
 
-export type SamplerName = "independence" | "paper" | "paper-corrected";
+/** What is shown of a difference: shapes drawn from it, or the modes that only its model has. */
+export type Picture = "draws" | "exclusiveModes";
+
+export type SamplerName =
+  | "auto"
+  | "variational"
+  | "independence"
+  | "hmc"
+  | "mala"
+  | "pcn"
+  | "paper"
+  | "paper-corrected";
+export type FitMethod = "variational" | "reweighted" | "laplace" | "rms";
+export type FitChoice = "auto" | FitMethod;
+export type Pooling = "both" | "a" | "b";
+export type Plausibility = "product" | "idempotent";
+export type DifferenceName = "soft" | "distance" | "relative" | "outside";
 export type Alignment = "none" | "rigid" | "similarity";
 
 /** As `Settings` in src/comparison/settings.rs; absent fields take the engine's defaults. */
@@ -19,10 +35,22 @@ export interface Settings {
   sigma: number | null;
   seed: string;
   sampler: SamplerName;
+  fit: FitChoice;
+  pooling: Pooling;
+  plausibility: Plausibility;
+  /** How far a true member lies from its own model, in the unit of A. */
+  noise: number | null;
   chains: number;
   draws: number;
   burnIn: number;
   thin: number;
+  weighted: number;
+  difference: DifferenceName;
+  /** Share of the model's own shapes that a hard difference leaves out. */
+  differenceQuantile: number;
+  /** In the unit of the definition's score; null takes the quantile. */
+  differenceThreshold: number | null;
+  differenceDraws: number;
   modes: number | null;
   align: Alignment;
 }
@@ -66,6 +94,67 @@ export interface Diagnostics {
   evaluations: number;
   draws: number;
   converged: boolean;
+  importanceEss?: number | null;
+  mcseMean?: number | null;
+  mcseSd?: number | null;
+  autocorrelation?: number | null;
+}
+
+export interface BothSides<T> {
+  a: T;
+  b: T;
+}
+
+/** Of each coefficient, first mode first. */
+export interface ModeDiagnostics {
+  rHat: number[];
+  essBulk: number[];
+  essTail: number[];
+  mcseMean: number[];
+  mcseSd: number[];
+  autocorrelation: number[];
+}
+
+/** How one side was inferred. */
+export interface Inference {
+  sampler: SamplerName;
+  /** A sentence. */
+  reason: string;
+  fit: FitMethod;
+  moments: "closed-form" | "weighted" | "draws";
+}
+
+/** Standard errors of the intersection model. */
+export interface Accuracy {
+  covariance: number;
+  standardDeviations: number[];
+  /** Radians by which each mode may turn. */
+  modeTurns: number[];
+  grassmann: number[];
+  modesTrusted: number;
+}
+
+export interface Disagreement {
+  meanToMean: number;
+  covariance: number;
+  betweenShare: number;
+  totalVariance: BothSides<number>;
+  standardDeviations: BothSides<number[]>;
+  /** Of the first 1, 3, 5 and 10 modes. */
+  grassmann: number[];
+}
+
+/** σ beside the distances of the two models, in the unit of A. */
+export interface Tolerance {
+  recommended: number;
+  /** As a share of the size of A. */
+  relative: number;
+  nearest: number;
+  farthest: number;
+  predicted: number;
+  effectiveDimensions: number;
+  meeting: number | null;
+  noise: number | null;
 }
 
 export interface Grassmann {
@@ -80,9 +169,25 @@ export interface DifferenceReport {
   meanDistance: MeanSd;
   diagnostics: Diagnostics;
   vertexSd: Spread;
+  definition?: DifferenceName;
+  /** σ of the paper's difference, of the others where their score begins to count. */
+  threshold?: number | null;
+  envelope?: "prior" | "tilted";
+  /** 1 − total variation: 1 where the difference looks like the model itself. */
+  overlapWithPrior?: number | null;
+  overlapStandardError?: number | null;
+  exclusive?: {
+    /** RMS over the points for a standard deviation of each exclusive mode, in the unit of A. */
+    residualSd: number[];
+    /** Share of the variance that the other model cannot make. */
+    unexplained: number;
+  } | null;
 }
 
-/** As `Report` in src/report.rs. Lengths in the unit of A, angles in degrees. */
+/**
+ * As `Report` in src/report.rs. Lengths in the unit of A, angles in degrees. What may be absent is
+ * so in reports of older engines.
+ */
 export interface Report {
   schema: 1;
   engine: string;
@@ -98,6 +203,11 @@ export interface Report {
     diagnostics: Diagnostics;
     sides: { a: Diagnostics; b: Diagnostics };
     vertexSd: Spread;
+    inference?: BothSides<Inference> | null;
+    accuracy?: Accuracy | null;
+    disagreement?: Disagreement | null;
+    tolerance?: Tolerance | null;
+    coefficients?: BothSides<ModeDiagnostics> | null;
   };
   differences: { aWithoutB: DifferenceReport; bWithoutA: DifferenceReport };
   overlap: {
@@ -140,6 +250,28 @@ export interface RegionShapes {
   source: "model" | "fit" | "draws";
 }
 
+/** What the Gaussian fit alone predicts of A∩B at one σ; lengths in the unit of A. */
+export interface Prediction {
+  sigma: number;
+  /** Mean distance to the other model. */
+  distance: number;
+  /** Distance of the most plausible common shape. */
+  nearest: number;
+  /** Dimensions on which the distance acts. */
+  effectiveDimensions: number;
+  meanNorm: number;
+}
+
+export interface Preview {
+  prediction: Prediction;
+  shapes: RegionShapes;
+}
+
+export interface SweepPoint extends Prediction {
+  vertexSd: number;
+  grassmann: Grassmann;
+}
+
 export type Stage = "prepare" | "fit" | "intersection" | "differences" | "measure" | "done";
 
 export interface Progress {
@@ -176,7 +308,19 @@ export type ToEngine =
   | { t: "cancel"; id: number }
   /** Puts back a finished run from its report and draws. */
   | { t: "restore"; id: number; a: Handle; b: Handle; report: string; draws: ArrayBuffer }
-  | { t: "region"; id: number; region: Region; count: number; seed: string }
+  | {
+      t: "region";
+      id: number;
+      region: Region;
+      count: number;
+      seed: string;
+      exaggeration: number;
+      picture: Picture;
+    }
+  /** A∩B at another σ, by the fit alone. Refused while a run goes on. */
+  | { t: "preview"; id: number; sigma: number; count: number; seed: string }
+  /** The same numbers at several σ, without shapes. Refused while a run goes on. */
+  | { t: "sweep"; id: number; sigmas: Float64Array }
   | { t: "export"; id: number; what: ExportKind }
   | { t: "close"; model: Handle };
 
@@ -199,6 +343,9 @@ export type FromEngine =
   | { t: "done"; id: number; cancelled: boolean; report: string }
   | { t: "restored"; id: number }
   | { t: "region"; id: number; shapes: RegionShapes }
+  | ({ t: "preview"; id: number } & Preview)
+  /** Without the σ at which the fit breaks down. */
+  | { t: "sweep"; id: number; points: SweepPoint[] }
   | { t: "exported"; id: number; name: string; mime: string; bytes: ArrayBuffer }
   | ({ t: "error"; id: number } & EngineError)
   | { t: "fatal"; message: string };
@@ -216,7 +363,16 @@ export interface Engine {
   /** The report as JSON text; `seconds` as the worker's clock measured them. */
   report(secondsTotal: number, secondsSample: number, secondsLoad?: number): string;
   restore(a: Handle, b: Handle, report: string, draws: Uint8Array): void;
-  region(region: Region, count: number, seed: string): RegionShapes;
+  /** Of a difference: shapes x + γ r, with γ the exaggeration and r what B (or A) cannot make. */
+  region(
+    region: Region,
+    count: number,
+    seed: string,
+    exaggeration: number,
+    picture: Picture,
+  ): RegionShapes;
+  preview(sigma: number, count: number, seed: string): Preview;
+  sweep(sigmas: Float64Array): SweepPoint[];
   export(what: ExportKind): { name: string; mime: string; bytes: Uint8Array };
   close(model: Handle): void;
 }

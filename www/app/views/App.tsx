@@ -17,6 +17,7 @@ export function App() {
       <main>
         <div class="centre">
           <Notices place="page" />
+          <Notices place="link" />
           <Headline />
           <Stage />
         </div>

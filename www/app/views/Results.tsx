@@ -1,9 +1,22 @@
-import type { Report } from "../../worker/protocol";
 import { count, degrees } from "../format";
-import { DIAGNOSTICS, GROUPS, type Group, valueAt } from "../numbers";
+import { DIAGNOSTICS, GROUPS } from "../numbers";
 import { outOfDate, result } from "../state";
-import { belief, differences, furtherWarnings, headline, shared, spaces } from "../words";
+import {
+  belief,
+  differences,
+  ESS,
+  furtherWarnings,
+  headline,
+  R_HAT,
+  shared,
+  spaces,
+} from "../words";
+import { Inferred, ModeFigures } from "./Inference";
+import { Modes } from "./Modes";
+import { Numbers } from "./Numbers";
 import { Metric, Phrase } from "./Phrase";
+import { Sweep } from "./Sweep";
+import { TwoSides } from "./TwoSides";
 
 export function Headline() {
   const held = result.value;
@@ -47,56 +60,23 @@ export function Results() {
       {GROUPS.map((group) => (
         <Numbers key={group.title} group={group} report={report} />
       ))}
-      <details class="more">
+      <Sweep />
+      <Modes report={report} />
+      <TwoSides report={report} />
+      <details class="more believed">
         <summary>Can these draws be believed?</summary>
+        <Inferred report={report} />
         <Numbers group={DIAGNOSTICS} report={report} />
         <p class="small">
-          R-hat (rank-normalised, split) should be below 1.01 and ESS above {count(400)}; Pareto k
-          below 0.7. A difference is sampled exactly, so its draws are independent and have no
-          R-hat.
+          R-hat (rank-normalised, split and folded) should be below {R_HAT} and ESS above{" "}
+          {count(ESS)} for every mode; or Pareto k below 0.7 and the effective size of the weights
+          above {count(1000)}. MCSE is the Monte-Carlo standard error, in standard deviations of a
+          mode. A difference is sampled exactly, so its draws are independent and have no R-hat.
         </p>
+        <ModeFigures report={report} />
         <Angles angles={report.overlap.principalAnglesDegrees} />
       </details>
     </section>
-  );
-}
-
-function Numbers({ group, report }: { group: Group; report: Report }) {
-  return (
-    <table class="numbers" data-columns={group.columns.length}>
-      <caption>{group.title}</caption>
-      {group.columns.length > 0 && (
-        <thead>
-          <tr>
-            <td />
-            {group.columns.map((column) => (
-              <th key={column} scope="col">
-                {column}
-              </th>
-            ))}
-          </tr>
-        </thead>
-      )}
-      <tbody>
-        {group.rows.map((row) => (
-          <tr key={row.label}>
-            <th scope="row">{row.label}</th>
-            {row.metrics.map((path) => {
-              const value = valueAt(report, path);
-              return (
-                <td key={path}>
-                  {value === null ? (
-                    <span class="dim">–</span>
-                  ) : (
-                    <Metric path={path} value={value} text={row.show(value, report)} />
-                  )}
-                </td>
-              );
-            })}
-          </tr>
-        ))}
-      </tbody>
-    </table>
   );
 }
 

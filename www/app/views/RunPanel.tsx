@@ -1,7 +1,7 @@
 import { cancel, start } from "../comparison";
 import { duration, number, percent } from "../format";
 import { engine, outOfDate, pageState, result, run, unit } from "../state";
-import { liveBelief, secondsLeft, settingsSentence, stageName } from "../words";
+import { LOOKS_WELL, liveBelief, secondsLeft, settingsSentence, stageName } from "../words";
 import { Notices } from "./Notices";
 
 export function RunPanel() {
@@ -86,7 +86,7 @@ function Running() {
           <dd>{progress?.essBulkMin == null ? "–" : number(progress.essBulkMin)}</dd>
         </div>
       </dl>
-      <p class="belief" data-converged={belief === "converged so far"}>
+      <p class="belief" data-converged={belief === LOOKS_WELL}>
         {belief}
       </p>
     </>

@@ -2,13 +2,26 @@ import { number } from "../format";
 import type { Side } from "../state";
 
 const [WIDTH, HEIGHT] = [120, 44];
+/** Half of the error bars, in standard errors. */
+const ERRORS_SHOWN = 2;
+
+interface Props {
+  deviations: number[];
+  side: Side | "ab";
+  /** Standard error of each deviation. */
+  errors?: number[] | undefined;
+  /** Modes, from 1, that are not determined one by one. */
+  doubtful?: Set<number> | undefined;
+}
 
 /** Standard deviations of the modes, largest first, as bars. */
-export function Scree({ deviations, side }: { deviations: number[]; side: Side }) {
-  const largest = Math.max(...deviations, 1e-300);
+export function Scree({ deviations, side, errors, doubtful }: Props) {
+  const ends = deviations.map((deviation, i) => deviation + ERRORS_SHOWN * (errors?.[i] ?? 0));
+  const largest = Math.max(...ends, 1e-300);
   const shown = deviations.slice(0, 60);
   const step = WIDTH / Math.max(shown.length, 8);
   const [first = 0, last = 0] = [deviations[0], deviations.at(-1)];
+  const tall = (value: number) => (Math.max(0, value) / largest) * HEIGHT;
   return (
     <svg
       class="scree-plot"
@@ -19,9 +32,22 @@ export function Scree({ deviations, side }: { deviations: number[]; side: Side }
       aria-label={`Standard deviations of ${deviations.length} modes, from ${number(first)} down to ${number(last)}`}
     >
       {shown.map((deviation, i) => {
-        const height = Math.max(0.75, (deviation / largest) * HEIGHT);
+        const height = Math.max(0.75, tall(deviation));
+        const error = ERRORS_SHOWN * (errors?.[i] ?? 0);
+        const middle = (i + 0.36) * step;
         return (
-          <rect key={i} x={i * step} y={HEIGHT - height} width={step * 0.72} height={height} />
+          <g key={i} data-doubtful={doubtful?.has(i + 1)}>
+            <rect x={i * step} y={HEIGHT - height} width={step * 0.72} height={height} />
+            {error > 0 && (
+              <line
+                class="error"
+                x1={middle}
+                x2={middle}
+                y1={HEIGHT - tall(deviation - error)}
+                y2={HEIGHT - tall(deviation + error)}
+              />
+            )}
+          </g>
         );
       })}
     </svg>

@@ -1,25 +1,31 @@
-import type { Alignment, SamplerName, Settings } from "../../worker/protocol";
-import { number } from "../format";
+import type { DifferenceName, Settings } from "../../worker/protocol";
 import {
   ALIGNMENTS,
   budgetOf,
   DEFAULTS,
+  DIFFERENCES,
+  FITS,
+  leastDraws,
+  MOST_DRAWS,
+  type Options,
+  PLAUSIBILITIES,
   parseCount,
+  parsePercent,
+  parsePositive,
   parseSeed,
-  parseSigma,
+  percentText,
+  RANGES,
   SAMPLERS,
+  SIDES_USED,
 } from "../settings";
-import { chosenPart, result, settings, unit } from "../state";
+import { change, chosenPart, settings, unit } from "../state";
+import { DEFINITIONS } from "../words";
 import { Field } from "./Field";
+import { SigmaField } from "./SigmaField";
 import { TypedField } from "./TypedField";
-
-function change(part: Partial<Settings>): void {
-  settings.value = { ...settings.value, ...part };
-}
 
 export function SettingsPanel() {
   const now = settings.value;
-  const budget = budgetOf(now.sampler);
   return (
     <section class="settings" aria-label="Settings">
       <SigmaField />
@@ -28,14 +34,14 @@ export function SettingsPanel() {
         value={now.sampler}
         options={SAMPLERS}
         standard={DEFAULTS.sampler}
-        onChoose={(sampler: SamplerName) => change({ sampler, ...budgetOf(sampler) })}
+        onChoose={(sampler) => change({ sampler, ...budgetOf(sampler) })}
       />
       <Choice
         label="Align B to A"
         value={now.align}
         options={ALIGNMENTS}
         standard={DEFAULTS.align}
-        onChoose={(align: Alignment) => change({ align })}
+        onChoose={(align) => change({ align })}
       />
       <ModesField />
       <TypedField
@@ -46,43 +52,147 @@ export function SettingsPanel() {
         onChange={(seed) => change({ seed })}
         wrong="a whole number below 2⁶⁴"
       />
-      <TypedField
+      <CountField
         label="Chains"
-        value={String(now.chains)}
-        standard={String(budget.chains)}
-        parse={(text) => parseCount(text, 2, 1024)}
-        onChange={(chains) => change({ chains, draws: Math.max(now.draws, 8 * chains) })}
-        wrong="2 to 1024"
+        name="chains"
+        standard={budgetOf(now.sampler).chains}
+        range={RANGES.chains}
+        onChange={(chains) => change({ chains, draws: Math.max(now.draws, leastDraws(chains)) })}
       />
-      <TypedField
+      <CountField
         label="Draws a side"
-        value={String(now.draws)}
-        standard={String(budget.draws)}
-        parse={(text) => parseCount(text, 8 * now.chains, 10_000_000)}
-        onChange={(draws) => change({ draws })}
-        wrong={`${8 * now.chains} to 10 000 000`}
+        name="draws"
+        standard={budgetOf(now.sampler).draws}
+        range={[leastDraws(now.chains), MOST_DRAWS]}
       />
+      <More />
     </section>
   );
 }
 
-function SigmaField() {
+const RARE = [
+  "fit",
+  "pooling",
+  "plausibility",
+  "noise",
+  "weighted",
+  "difference",
+  "differenceQuantile",
+  "differenceThreshold",
+  "differenceDraws",
+] as const satisfies (keyof Settings)[];
+
+function More() {
   const now = settings.value;
-  const used = result.value?.report.settings;
-  const recommended = used?.sigmaRecommended ? used.sigma : null;
+  const changed = RARE.filter((name) => now[name] !== DEFAULTS[name]).length;
   return (
-    <TypedField
-      label="Tolerance σ"
-      value={now.sigma === null ? "" : String(now.sigma)}
-      standard=""
-      placeholder={recommended === null ? "auto" : number(recommended)}
-      suffix={unit.value}
-      standardWord="recommended"
-      parse={parseSigma}
-      onChange={(sigma) => change({ sigma })}
-      wrong={`a positive length in ${unit.value}`}
-      help="How far from a model, on average per point, a shape may lie and still count as one it can make."
-    />
+    <details class="more-settings">
+      <summary>
+        More{changed > 0 && <span class="standard">&nbsp;· {changed} changed</span>}
+      </summary>
+      <Choice
+        label="Fit"
+        value={now.fit}
+        options={FITS}
+        standard={DEFAULTS.fit}
+        onChoose={(fit) => change({ fit })}
+      />
+      <Choice
+        label="Sides"
+        value={now.pooling}
+        options={SIDES_USED}
+        standard={DEFAULTS.pooling}
+        onChoose={(pooling) => change({ pooling })}
+      />
+      <Choice
+        label="Plausibility"
+        value={now.plausibility}
+        options={PLAUSIBILITIES}
+        standard={DEFAULTS.plausibility}
+        onChoose={(plausibility) => change({ plausibility })}
+        alwaysHelp
+      />
+      <TypedField
+        label="Noise level"
+        value={now.noise === null ? "" : String(now.noise)}
+        standard=""
+        placeholder="none"
+        suffix={unit.value}
+        parse={parsePositive}
+        onChange={(noise) => change({ noise })}
+        wrong={`a positive length in ${unit.value}`}
+        help="How far a true member of either population lies from its own model; the recommended σ heeds it."
+      />
+      <CountField
+        label="Weighted"
+        accessibleLabel="Weighted draws"
+        name="weighted"
+        standard={DEFAULTS.weighted}
+        range={RANGES.weighted}
+        suffix="draws"
+        help="Weighted draws with gradients, on each side, that correct the mean and variance of the fit."
+      />
+      <h3>Differences</h3>
+      <DifferenceFields />
+    </details>
+  );
+}
+
+const DEFINED = Object.fromEntries(
+  DIFFERENCES.map((name) => {
+    const { label, help } = DEFINITIONS[name];
+    return [name, { label: label.charAt(0).toUpperCase() + label.slice(1), help }];
+  }),
+) as Options<DifferenceName>;
+
+function DifferenceFields() {
+  const now = settings.value;
+  const scoreUnit = { soft: "", distance: unit.value, relative: "× its own", outside: "SD" };
+  return (
+    <>
+      <Choice
+        label="Definition"
+        value={now.difference}
+        options={DEFINED}
+        standard={DEFAULTS.difference}
+        onChoose={(difference) => change({ difference, differenceThreshold: null })}
+        alwaysHelp
+      />
+      {now.difference !== "soft" && (
+        <>
+          <TypedField
+            label="Leaves out"
+            value={percentText(now.differenceQuantile)}
+            standard={percentText(DEFAULTS.differenceQuantile)}
+            suffix="% of the shapes"
+            parse={parsePercent}
+            onChange={(differenceQuantile) =>
+              change({ differenceQuantile, differenceThreshold: null })
+            }
+            wrong="0 to below 100"
+            help="Share of the model’s own shapes that are not in its difference."
+          />
+          <TypedField
+            label="Threshold"
+            value={now.differenceThreshold === null ? "" : String(now.differenceThreshold)}
+            standard=""
+            placeholder="none"
+            suffix={scoreUnit[now.difference]}
+            parse={parsePositive}
+            onChange={(differenceThreshold) => change({ differenceThreshold })}
+            wrong="a positive number, or nothing"
+            help="Where a shape begins to count, instead of a share of the shapes."
+          />
+        </>
+      )}
+      <CountField
+        label="Draws"
+        accessibleLabel="Draws of a difference"
+        name="differenceDraws"
+        standard={DEFAULTS.differenceDraws}
+        range={RANGES.differenceDraws}
+      />
+    </>
   );
 }
 
@@ -97,10 +207,35 @@ function ModesField() {
       placeholder="all"
       suffix={most > 0 ? `of ${most}` : ""}
       parse={(text) =>
-        text.trim() === "" || text.trim() === "all" ? null : parseCount(text, 1, 100_000)
+        text.trim() === "" || text.trim() === "all" ? null : parseCount(text, ...RANGES.modes)
       }
       onChange={(modes) => change({ modes })}
       wrong="a whole number, or nothing for all"
+    />
+  );
+}
+
+interface CountFieldProps {
+  label: string;
+  accessibleLabel?: string;
+  name: "chains" | "draws" | "weighted" | "differenceDraws";
+  standard: number;
+  range: readonly [number, number];
+  onChange?: (value: number) => void;
+  suffix?: string;
+  help?: string;
+}
+
+function CountField({ name, standard, range, onChange, ...shown }: CountFieldProps) {
+  const [least, most] = range;
+  return (
+    <TypedField
+      {...shown}
+      value={String(settings.value[name])}
+      standard={String(standard)}
+      parse={(text) => parseCount(text, least, most)}
+      onChange={onChange ?? ((value) => change({ [name]: value }))}
+      wrong={`${least} to ${most.toLocaleString("en").replaceAll(",", "\u202f")}`}
     />
   );
 }
@@ -109,31 +244,42 @@ interface ChoiceProps<T extends string> {
   label: string;
   value: T;
   standard: T;
-  options: Record<T, { label: string; help: string }>;
+  options: Options<T>;
   onChoose: (value: T) => void;
+  /** Where the default needs a word of explanation too. */
+  alwaysHelp?: boolean;
 }
 
-function Choice<T extends string>({ label, value, standard, options, onChoose }: ChoiceProps<T>) {
+function Choice<T extends string>(props: ChoiceProps<T>) {
+  const { label, value, standard, options, onChoose, alwaysHelp = false } = props;
   const names = Object.keys(options) as T[];
+  const about = `${label.replace(/\W+/g, "-").toLowerCase()}-about`;
+  const { help } = options[value];
   return (
-    <Field
-      label={label}
-      changed={value !== standard}
-      onReset={() => onChoose(standard)}
-      help={options[value].help}
-    >
-      <select
-        value={value}
-        aria-label={label}
-        onChange={(event) => onChoose(event.currentTarget.value as T)}
+    <>
+      <Field
+        label={label}
+        changed={value !== standard}
+        onReset={() => onChoose(standard)}
+        help={help}
       >
-        {names.map((name) => (
-          <option key={name} value={name}>
-            {options[name].label}
-            {name === standard && value !== name ? " (default)" : ""}
-          </option>
-        ))}
-      </select>
-    </Field>
+        <select
+          value={value}
+          aria-label={label}
+          aria-describedby={about}
+          onChange={(event) => onChoose(event.currentTarget.value as T)}
+        >
+          {names.map((name) => (
+            <option key={name} value={name}>
+              {options[name].label}
+              {name === standard && value !== name ? " (default)" : ""}
+            </option>
+          ))}
+        </select>
+      </Field>
+      <p id={about} class={alwaysHelp || value !== standard ? "field-help" : "unseen"}>
+        {help}
+      </p>
+    </>
   );
 }

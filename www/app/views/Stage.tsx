@@ -5,8 +5,9 @@ import { emptyRegions, outOfDate, region, result, run, shapes, slots, unit, view
 import { contentOf } from "../viewer/contents";
 import { dimension, hover, ownRange, range, scene, takeCanvas } from "../viewer/stage-controller";
 import { ColorBar } from "./ColorBar";
+import { DifferenceBar } from "./DifferenceBar";
 import { BackIcon, ExpandIcon } from "./icons";
-import { REGION_NAMES, regionLabel } from "./names";
+import { REGION_NAMES, regionLabel, shownIn } from "./names";
 import { Toolbar } from "./Toolbar";
 import { VennMap } from "./VennMap";
 
@@ -29,6 +30,7 @@ export function Stage() {
         <Panes key={kind === 2 ? "flat" : "space"} live={kind !== null} />
         <Tooltip />
       </div>
+      <DifferenceBar />
       <ColorBar range={range.value} own={ownRange.value} />
     </section>
   );
@@ -84,7 +86,7 @@ function canvasLabel(): string {
 function Pane({ name, panes }: { name: Region; panes: Map<Region, HTMLElement> }) {
   const alone = region.value === name;
   const away = region.value !== null && !alone;
-  const { sign, meaning } = REGION_NAMES[name];
+  const { sign } = REGION_NAMES[name];
   return (
     <div class="pane" data-pane={name} data-away={away}>
       <div
@@ -95,7 +97,7 @@ function Pane({ name, panes }: { name: Region; panes: Map<Region, HTMLElement> }
         }}
       />
       <p class="pane-label">
-        <strong>{sign}</strong> <span class="pane-meaning">{meaning}</span>
+        <strong>{sign}</strong> <span class="pane-meaning">{shownIn(name)}</span>
       </p>
       <button
         type="button"
@@ -119,7 +121,8 @@ function PaneNote({ name }: { name: Region }) {
   if (empty)
     return <p class="pane-note">{isEmpty(name) ? "Empty: there is no such shape." : empty}</p>;
   if (drawn) {
-    return shapes.value[name]?.source === "fit" ? <p class="pane-note">first guess</p> : null;
+    const guess = shapes.value[name]?.source === "fit" && run.value;
+    return guess ? <p class="pane-note">first guess</p> : null;
   }
   return (
     <p class="pane-note">{run.value ? "waiting for draws" : slots.a.value ? "" : "loading"}</p>

@@ -3,6 +3,8 @@ import { Field } from "./Field";
 
 interface Props<T> {
   label: string;
+  /** Where the label alone would name two fields. */
+  accessibleLabel?: string | undefined;
   value: string;
   standard: string;
   parse: (text: string) => T | "invalid";
@@ -28,6 +30,7 @@ export function TypedField<T>(props: Props<T>) {
     suffix,
     help,
     standardWord,
+    accessibleLabel = label,
   } = props;
   const invalid = useSignal(false);
   const take = (text: string) => {
@@ -41,7 +44,7 @@ export function TypedField<T>(props: Props<T>) {
     const parsed = parse(standard);
     if (parsed !== "invalid") onChange(parsed);
   };
-  const about = `${label.replace(/\W+/g, "-").toLowerCase()}-about`;
+  const about = `${accessibleLabel.replace(/\W+/g, "-").toLowerCase()}-about`;
   return (
     <Field
       label={label}
@@ -53,7 +56,7 @@ export function TypedField<T>(props: Props<T>) {
       <input
         type="text"
         inputMode="decimal"
-        aria-label={label}
+        aria-label={accessibleLabel}
         aria-invalid={invalid.value}
         aria-describedby={about}
         value={value}

@@ -1,5 +1,8 @@
 /** What the five regions are called. */
 import type { Region } from "../../worker/protocol";
+import { length } from "../format";
+import type { ViewMode } from "../link";
+import { exaggeration, picture, preview, run, unit, view } from "../state";
 
 export const REGION_NAMES: Record<Region, { sign: string; meaning: string }> = {
   a: { sign: "A", meaning: "all that A can make" },
@@ -12,4 +15,30 @@ export const REGION_NAMES: Record<Region, { sign: string; meaning: string }> = {
 export function regionLabel(region: Region): string {
   const { sign, meaning } = REGION_NAMES[region];
   return `${sign}, ${meaning}`;
+}
+
+/** What a pane shows just now: what its region means, or what else is drawn there. */
+export function shownIn(region: Region): string {
+  const { meaning } = REGION_NAMES[region];
+  if (region === "intersection") {
+    const ahead = run.value ? null : preview.value;
+    return ahead === null ? meaning : `preview, σ ${length(ahead.sigma, unit.value)}`;
+  }
+  if (region !== "aWithoutB" && region !== "bWithoutA") return meaning;
+  const drawn = differencePicture();
+  return drawn.startsWith("γ") ? `exaggerated, ${drawn}` : drawn || meaning;
+}
+
+const EXCLUSIVE: Record<ViewMode, string> = {
+  mean: "mean of the model",
+  samples: "exclusive modes",
+  sd: "expected residual",
+};
+
+/** What is drawn of a difference beside its draws as they are; empty where that is all. */
+export function differencePicture(): string {
+  return [
+    ...(picture.value === "exclusiveModes" ? [EXCLUSIVE[view.value]] : []),
+    ...(exaggeration.value > 0 ? [`γ\u202f${exaggeration.value.toFixed(1)}`] : []),
+  ].join(", ");
 }

@@ -1,0 +1,33 @@
+/** Scales of the small plots. Pure. */
+
+export type Scale = (value: number) => number;
+
+export function linear(from: number, to: number, start: number, end: number): Scale {
+  const span = to - from || 1;
+  return (value) => start + ((value - from) / span) * (end - start);
+}
+
+export function logarithmic(from: number, to: number, start: number, end: number): Scale {
+  const scale = linear(Math.log(from), Math.log(to), start, end);
+  return (value) => scale(Math.log(value));
+}
+
+/** Round values from `low` to about `high`, some `count` of them. */
+export function ticks(low: number, high: number, count: number): number[] {
+  const span = high - low;
+  if (!(span > 0) || !Number.isFinite(span)) return [low];
+  const rough = span / count;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = power * ([1, 2, 5, 10].find((factor) => factor * power >= rough) ?? 10);
+  const first = Math.ceil(low / step - 1e-9);
+  const last = Math.ceil(high / step - 1e-9);
+  return Array.from({ length: last - first + 1 }, (_, i) => (first + i) * step);
+}
+
+const SWEEP_POINTS = 17;
+
+/** From a hundredth to a hundred times the recommended σ, itself among them. */
+export function sweepSigmas(middle: number): number[] {
+  const half = (SWEEP_POINTS - 1) / 2;
+  return Array.from({ length: SWEEP_POINTS }, (_, i) => middle * 10 ** ((2 * (i - half)) / half));
+}
