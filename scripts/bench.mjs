@@ -1,13 +1,17 @@
 /**
  * `npm run bench`: the comparison that the paper took 110 minutes for in size (5,764 points, 50 + 50
  * modes; synthetic models), natively and in Chromium with both builds of the engine. Prints medians.
+ *
+ * `npm run bench -- --sizes` instead compares pairs of the size of FLAME and BFM, natively (see
+ * benches/sizes.rs) and once in Chromium with each build, with the peak of resident memory of the page's process.
  */
-import { mkdirSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync } from "node:fs";
 import { cpus } from "node:os";
 import { join } from "node:path";
 import {
   closeBrowser,
   download,
+  downloadReport,
   dropFiles,
   untilState,
   withPage,
@@ -18,11 +22,17 @@ import { main, must, root } from "./steps/run.mjs";
 const RUNS = 5;
 const SIGMA = 0.3;
 const bench = ["bench", "--quiet", "--locked", "--bench", "lyhm", "--"];
+const sizes = ["bench", "--quiet", "--locked", "--bench", "sizes", "--"];
+/** Pairs of benches/sizes.rs that are compared in Chromium. */
+const LARGE = ["flame", "bfm"];
+/** Milliseconds that one of them may take. */
+const LONGEST = 600_000;
 const hint = "read what the compiler says above.";
 
 await main(async () => {
   await build();
   console.log(`${cpus()[0]?.model.trim()}, ${cpus().length} processors\n\nNatively`);
+  if (process.argv.includes("--sizes")) return compareSizes();
   console.log((await must("cargo", bench, { hint })).trim());
   const folder = join(root, ".setup/bench");
   mkdirSync(folder, { recursive: true });
@@ -31,6 +41,53 @@ await main(async () => {
   for (const build of ["threads", "serial"]) await inChromium(build, files);
   await closeBrowser();
 });
+
+async function compareSizes() {
+  console.log((await must("cargo", [...sizes, ...LARGE], { hint })).trim());
+  const folder = join(root, ".setup/bench");
+  await must("cargo", [...sizes, "--write", folder, ...LARGE], { hint });
+  for (const build of ["threads", "serial"]) {
+    for (const name of LARGE) await sizeInChromium(build, name, folder);
+  }
+  await closeBrowser();
+}
+
+/** One comparison from the files to the report: large models are compared once. */
+async function sizeInChromium(build, name, folder) {
+  await withPage({}, async ({ url, page, browser }) => {
+    await page.goto(`${url}${build === "serial" ? "?serial" : ""}#v=1&sigma=${SIGMA}`);
+    await untilState(page, "done");
+    const before = await downloadReport(page);
+    for (const side of ["A", "B"]) {
+      const file = join(folder, `${name}-${side.toLowerCase()}.npz`);
+      await page.getByLabel(`File for model ${side}`).setInputFiles(file);
+      const card = page.getByRole("region", { name: `Model ${side}` });
+      await card
+        .getByRole("heading", { name: `${name}-${side.toLowerCase()}` })
+        .waitFor({ timeout: LONGEST });
+    }
+    await untilState(page, "done", LONGEST);
+    const { models, seconds } = await downloadReport(page);
+    if (models.b.points === before.models.b.points)
+      throw new Error("the large models were not compared");
+    console.log(`\nIn Chromium, ${build}, ${name}`);
+    show("opening the files", "s", [seconds.load]);
+    show("to the report, differences included", "s", [seconds.total - seconds.load]);
+    const memory = await largestMemory(browser);
+    if (memory) show("peak of resident memory of the page", "MB", [memory / 1e6]);
+  });
+}
+
+/** Most memory that a process of the browser's pages has had; nothing where there is no /proc. */
+async function largestMemory(browser) {
+  const session = await browser.newBrowserCDPSession();
+  const { processInfo } = await session.send("SystemInfo.getProcessInfo");
+  const peaks = processInfo
+    .filter(({ type, id }) => type === "renderer" && existsSync(`/proc/${id}/status`))
+    .map(({ id }) => /VmHWM:\s*(\d+)/.exec(readFileSync(`/proc/${id}/status`, "utf8")))
+    .map((found) => 1024 * Number(found?.[1] ?? 0));
+  return Math.max(0, ...peaks);
+}
 
 async function inChromium(build, files) {
   await withPage({}, async ({ url, page }) => {

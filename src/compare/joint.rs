@@ -158,15 +158,21 @@ impl Joint {
         beyond.view_mut((0, others), across.shape()).copy_from(&across);
         beyond.view_mut((others, 0), (directions, others)).copy_from(&across.transpose());
         beyond -= gram(&leaning);
-        let (vectors, squares) = eigen(beyond);
+        let (vectors, squares) = eigen(beyond.clone());
         let clear =
             squares.iter().take_while(|&&value| value > NEARLY_INSIDE * NEARLY_INSIDE).count();
-        let mut sines = vectors.columns(0, clear).transpose();
         let mut turned = vectors.columns(0, clear).into_owned();
-        for (index, square) in squares.iter().take(clear).enumerate() {
-            sines.row_mut(index).scale_mut(square.sqrt());
-            turned.column_mut(index).unscale_mut(square.sqrt());
+        for (mut column, square) in turned.column_iter_mut().zip(squares.iter()) {
+            column /= square.sqrt();
         }
+        // W/s has lost digits where s is small: by Cholesky it gets back those that H has.
+        let unit = cross(&turned, &product(&beyond, &turned)).cholesky();
+        if let Some(rows) =
+            unit.and_then(|unit| unit.l().solve_lower_triangular(&turned.transpose()))
+        {
+            turned = rows.transpose();
+        }
+        let seen_beyond = cross(&turned, &beyond);
 
         let (rows, kept) = (inside + others + directions, inside + clear);
         let mut mixing = DMatrix::zeros(rows, kept);
@@ -187,10 +193,10 @@ impl Joint {
             joint.form(&nearly.columns(first, count).into_owned());
         }
 
-        // Bᵀ[E₂ δ] is K, diag(s) Wᵀ and what the formed directions see.
+        // Bᵀ[E₂ δ] is K, (W/s)ᵀH and what the formed directions see.
         let seen =
             side_by_side(&[&cross(&joint.formed, b.basis()), &cross(&joint.formed, &joint.apart)]);
-        let coordinates = stacked(&[&leaning, &sines, &seen]);
+        let coordinates = stacked(&[&leaning, &seen_beyond, &seen]);
         let size = coordinates.nrows();
         let mut scaled = coordinates.columns(0, others).into_owned();
         for (mut column, deviation) in scaled.column_iter_mut().zip(b.standard_deviations().iter())
@@ -360,4 +366,87 @@ fn stacked(parts: &[&DMatrix<f64>]) -> DMatrix<f64> {
         first += part.nrows();
     }
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::principal_angles;
+
+    /// Unit vectors along the axes, turned by `angles` towards axes of their own.
+    fn leaning(rows: usize, angles: &[f64]) -> DMatrix<f64> {
+        let mut basis = DMatrix::zeros(rows, angles.len());
+        for (index, &angle) in angles.iter().enumerate() {
+            let (sine, cosine) = libm::sincos(angle);
+            basis[(index, index)] = cosine;
+            basis[(angles.len() + index, index)] = sine;
+        }
+        basis
+    }
+
+    #[test]
+    fn directions_nearly_inside_are_found_with_their_angles() {
+        let angles = [0.0, 1e-12, 3e-9, 1e-6, 1e-3, 0.029, 0.031, 0.4, 1.5];
+        let (rows, count) = (90, angles.len());
+        // A reflection mixes all coordinates, so that nothing is exact.
+        let normal = DVector::from_fn(rows, |i, _| libm::sin(1.0 + i as f64)).normalize();
+        let reflected = |basis: DMatrix<f64>| &basis - &normal * (normal.tr_mul(&basis) * 2.0);
+        let build = |angles: &[f64], mean: f64| {
+            let deviations = DVector::from_fn(count, |k, _| 3.0 / (k + 1) as f64);
+            let mean = DVector::from_fn(rows, |i, _| mean * libm::cos(i as f64));
+            LinearModel::from_orthonormal(3, mean, reflected(leaning(rows, angles)), deviations)
+        };
+        for apart in [0.0, 1.0] {
+            let (a, b) = (build(&[0.0; 9], 1.0), build(&angles, 1.0 + apart));
+            let joint = Joint::new(&a, &b);
+            let expected = 2 * count - 2 + usize::from(apart > 0.0);
+            assert_eq!(joint.dimension(), expected, "all but those of 0 and 1e-12");
+            let basis = joint.basis();
+            let off = (basis.tr_mul(&basis) - DMatrix::identity(expected, expected)).amax();
+            // The Gram matrix has squares of sines to 10⁻¹⁶, of which the smallest is 10⁻³.
+            assert!(off < 1e-12, "orthonormal but for {off}");
+            let off = (joint.shape(joint.mean(1)) - b.mean()).amax();
+            assert!(off < 1e-12, "mean of B, off by {off}");
+            let found = principal_angles(&joint.modes(0), &joint.modes(1));
+            for (found, angle) in found.into_iter().zip(angles) {
+                // What is dropped shows no angle, or part of it where δ has some of that direction.
+                let dropped = if angle < SMALLEST_NEW_DIRECTION { angle } else { 0.0 };
+                let off = (found - angle).abs();
+                let allowed = dropped + 1e-14 + 1e-12 * angle;
+                assert!(off <= allowed, "{found}, not {angle}: off by {off}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_factor_of_any_rank_has_the_covariance() {
+        let mixed = DMatrix::from_fn(5, 2, |i, j| libm::sin((3 * i + 7 * j) as f64));
+        let moments = Moments { mean: DVector::zeros(5), covariance: &mixed * mixed.transpose() };
+        let factor = moments.factor();
+        assert_eq!(factor.ncols(), 2, "rank");
+        let off = (&factor * factor.transpose() - &moments.covariance).amax();
+        assert!(off < 1e-15, "covariance, off by {off}");
+        let nothing = Moments { mean: DVector::zeros(3), covariance: DMatrix::zeros(3, 3) };
+        assert_eq!(nothing.factor().ncols(), 0, "nothing varies");
+        assert_eq!(nothing.principal_components().1.len(), 0, "no components");
+    }
+
+    #[test]
+    fn the_map_of_a_joint_model_is_that_of_the_model_it_forms() {
+        let basis = |seed: usize| {
+            DMatrix::from_fn(36, 3, |i, j| libm::sin((seed * i * (j + 1)) as f64 * 0.3 + j as f64))
+        };
+        let build = |seed: usize| {
+            LinearModel::from_scaled_basis(3, DVector::zeros(36), basis(seed)).unwrap().0
+        };
+        let joint = Joint::new(&build(1), &build(2));
+        let pooled = Moments::pooled(&joint.prior(0), &joint.prior(1));
+        let model = joint.principal_components(&pooled, 4).unwrap();
+        let formed = joint.formed(&model);
+        assert_eq!(formed.mode_count(), 4, "as many as asked for");
+        let maps = (joint.vertex_standard_deviations(&model), formed.vertex_standard_deviations());
+        for (found, expected) in maps.0.into_iter().zip(maps.1) {
+            assert!((found - expected).abs() < 1e-13, "{found}, not {expected}");
+        }
+    }
 }

@@ -212,20 +212,26 @@ fn columns(basis: Named, length: usize) -> Result<DMatrix<f64>, Fault> {
     if length == 0 || modes == 0 || length.checked_mul(modes) != Some(array.data.len()) {
         return Err(wrong());
     }
-    let mut flat = Vec::new();
-    let bytes = (array.data.len() as u64).saturating_mul(8);
-    flat.try_reserve_exact(array.data.len()).map_err(|_| Fault::Size {
-        what: name.clone(),
-        claimed: bytes,
-        limit: bytes / 2,
-    })?;
-    match &array.data {
-        Data::F64(values) => fill(&mut flat, values, length, by_mode, |value| value),
-        Data::F32(values) => fill(&mut flat, values, length, by_mode, f64::from),
-        Data::I64(values) => fill(&mut flat, values, length, by_mode, |value| value as f64),
-        Data::I32(values) => fill(&mut flat, values, length, by_mode, f64::from),
-        Data::Text(_) => return Err(not_numbers(&name, "text")),
-    }
+    let flat = match array.data {
+        Data::F64(values) if by_mode => values,
+        data => {
+            let mut flat = Vec::new();
+            let bytes = (data.len() as u64).saturating_mul(8);
+            flat.try_reserve_exact(data.len()).map_err(|_| Fault::Size {
+                what: name.clone(),
+                claimed: bytes,
+                limit: bytes / 2,
+            })?;
+            match &data {
+                Data::F64(values) => fill(&mut flat, values, length, by_mode, |value| value),
+                Data::F32(values) => fill(&mut flat, values, length, by_mode, f64::from),
+                Data::I64(values) => fill(&mut flat, values, length, by_mode, |value| value as f64),
+                Data::I32(values) => fill(&mut flat, values, length, by_mode, f64::from),
+                Data::Text(_) => return Err(not_numbers(&name, "text")),
+            }
+            flat
+        }
+    };
     let count = flat.iter().filter(|value| !value.is_finite()).count();
     if count > 0 {
         return Err(Fault::NotFinite { what: name, count });
@@ -241,12 +247,20 @@ fn fill<T: Copy>(
     by_mode: bool,
     number: impl Fn(T) -> f64,
 ) {
-    let modes = values.len() / rows;
+    /// Rows that are turned together: a column of them fills whole lines of the cache.
+    const BLOCK: usize = 64;
     if by_mode {
         flat.extend(values.iter().map(|&value| number(value)));
-    } else {
+        return;
+    }
+    let modes = values.len() / rows;
+    flat.resize(values.len(), 0.0);
+    for (block, values) in values.chunks(BLOCK * modes).enumerate() {
         for mode in 0..modes {
-            flat.extend(values.iter().skip(mode).step_by(modes).map(|&value| number(value)));
+            let targets = &mut flat[mode * rows + block * BLOCK..(mode + 1) * rows];
+            for (target, row) in targets.iter_mut().zip(values.chunks_exact(modes)) {
+                *target = number(row[mode]);
+            }
         }
     }
 }

@@ -7,7 +7,8 @@
 //! convention and makes it orthogonal and sorted with one thin SVD: no file's claim that its
 //! columns are orthonormal is trusted.
 //!
-//! **Limits.** All numbers are held in `f64`; a model of 53,490 points and 199 modes takes 255 MB.
+//! **Limits.** All numbers are held in `f64`; a model of 53,490 points and 199 modes takes 255 MB, once
+//! for all its copies.
 
 mod linear_model;
 mod population;

@@ -1,8 +1,7 @@
 //! Products with tall matrices, spread over threads.
 //!
-//! Rows go in blocks that stay in the second cache; inside a block a tile of the result stays in
-//! registers, as vectors of two lanes (SSE2, NEON, wasm simd128): 4 rows × 4 columns of a product, 4 × 3
-//! of a cross product, so that a number that is loaded is used three or four times.
+//! Rows go in blocks that stay in the second cache; a block is turned to rows and taken through one of
+//! the two products of [`crate::lanes`].
 //!
 //! Every sum has a fixed order that depends on the sizes of the matrices only: the bits of a result are
 //! the same on any machine, with any number of threads. Some blocks are computed at a time and put
@@ -14,24 +13,23 @@
 use core::ops::Range;
 
 use nalgebra::DMatrix;
-use wide::f64x2;
+use pulp::{Simd, WithSimd};
 
+use crate::lanes::{self, Aligned, ROWS, Real, Tile, VECTORS, add_cross, padded};
 use crate::parallel;
 
-/// Rows of a block: with 200 columns 400 KB, which the second cache holds.
-const BLOCK: usize = 256;
+/// Rows of a block of a product: with 200 columns 400 KB, which the second cache holds.
+const BLOCK: usize = 42 * ROWS;
 /// Blocks of a product that are held until they are put in their place.
 const WAVE: usize = 32;
+/// Columns of the small factor that lie together: the widest tile, two vectors of eight.
+const PANEL: usize = 8 * VECTORS;
+/// Rows of a block of a cross product: two vectors of them stay in the nearest cache.
+const CROSS_BLOCK: usize = 128;
 /// Rows whose cross product is one item of work.
-const CHUNK: usize = 8 * BLOCK;
+const CHUNK: usize = 16 * CROSS_BLOCK;
 /// Such items that are held until they are added.
 const CROSS_WAVE: usize = 8;
-/// The tile of a product.
-const ROWS: usize = 4;
-const COLUMNS: usize = 4;
-/// Columns of either matrix in the tile of a cross product.
-const LEFT: usize = 4;
-const RIGHT: usize = 3;
 
 /// left · right, for a tall left (D × p) and a small right (p × k).
 ///
@@ -134,11 +132,11 @@ fn put(matrix: &mut DMatrix<f64>, range: Range<usize>, block: &[f64]) {
     }
 }
 
-/// The small factor of a product: tiles of columns, row by row, every number in both lanes.
+/// The small factor of a product (inner × columns), row-major in panels of columns.
 struct Packed {
     inner: usize,
     columns: usize,
-    weights: Vec<[f64x2; COLUMNS]>,
+    panels: Aligned<f64>,
 }
 
 impl Packed {
@@ -146,50 +144,70 @@ impl Packed {
         let (inner, columns) = right.shape();
         assert_eq!(left.iter().map(|one| one.ncols()).sum::<usize>(), inner, "inner sizes");
         assert!(left.iter().all(|one| one.nrows() == left[0].nrows()), "rows");
-        let mut weights = Vec::with_capacity(columns.div_ceil(COLUMNS) * inner);
-        for first in (0..columns).step_by(COLUMNS) {
-            for row in 0..inner {
-                weights.push(core::array::from_fn(|tile| {
-                    let column = first + tile;
-                    f64x2::splat(if column < columns { right[(row, column)] } else { 0.0 })
-                }));
+        let mut panels = Aligned::new(columns.next_multiple_of(PANEL) * inner);
+        for (index, column) in right.column_iter().enumerate() {
+            let first = index / PANEL * PANEL * inner + index % PANEL;
+            for (row, &value) in column.iter().enumerate() {
+                panels[first + row * PANEL] = value;
             }
         }
-        Self { inner, columns, weights }
+        Self { inner, columns, panels }
     }
 
     /// The rows `range` of the product, column by column.
     fn times(&self, left: &[&DMatrix<f64>], range: Range<usize>) -> Vec<f64> {
-        let (inner, rows) = (self.inner, range.len());
-        let mut tiles = vec![[f64x2::ZERO; ROWS / 2]; rows.div_ceil(ROWS) * inner];
-        for (k, column) in left.iter().flat_map(|one| one.column_iter()).enumerate() {
-            for (tile, values) in column.as_slice()[range.clone()].chunks(ROWS).enumerate() {
-                let mut four = [0.0; ROWS];
-                four[..values.len()].copy_from_slice(values);
-                tiles[tile * inner + k] =
-                    [f64x2::new([four[0], four[1]]), f64x2::new([four[2], four[3]])];
-            }
+        let mut rows = vec![0.0; range.len().next_multiple_of(ROWS) * self.inner];
+        turn(left, range.clone(), &mut rows, self.inner);
+        lanes::dispatch(Block { right: self, rows: &rows, present: range.len() })
+    }
+}
+
+/// Copies the rows `range` of matrices side by side, one after the other, `stride` apart.
+fn turn(matrices: &[&DMatrix<f64>], range: Range<usize>, rows: &mut [f64], stride: usize) {
+    let columns = matrices.iter().flat_map(|matrix| matrix.column_iter());
+    for (index, column) in columns.enumerate() {
+        let targets = rows[index..].iter_mut().step_by(stride);
+        for (target, value) in targets.zip(&column.as_slice()[range.clone()]) {
+            *target = *value;
         }
-        let mut result = vec![0.0; rows * self.columns];
+    }
+}
+
+/// Rows (row-major, filled up to a multiple of `ROWS`) times the small factor.
+struct Block<'a> {
+    right: &'a Packed,
+    rows: &'a [f64],
+    present: usize,
+}
+
+impl WithSimd for Block<'_> {
+    type Output = Vec<f64>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<f64> {
+        let Packed { inner, columns, ref panels } = *self.right;
+        let mut result = vec![0.0; self.present * columns];
         if inner == 0 {
             return result;
         }
-        for (group, weights) in self.weights.chunks_exact(inner).enumerate() {
-            for (tile, numbers) in tiles.chunks_exact(inner).enumerate() {
-                let mut sums = [[f64x2::ZERO; ROWS / 2]; COLUMNS];
-                for (number, weight) in numbers.iter().zip(weights) {
-                    for column in 0..COLUMNS {
-                        for vector in 0..ROWS / 2 {
-                            sums[column][vector] += number[vector] * weight[column];
-                        }
+        let width = VECTORS * f64::width::<S>();
+        let zero = f64::splat(simd, 0.0);
+        let mut tile = Aligned::<f64>::new(PANEL);
+        for column in (0..columns).step_by(width) {
+            let panel = &panels[column / PANEL * PANEL * inner + column % PANEL..];
+            for first in (0..self.present).step_by(ROWS) {
+                let sums = f64::rows::<S, ROWS, VECTORS>(
+                    simd,
+                    [[zero; VECTORS]; ROWS],
+                    (&self.rows[first * inner..], inner),
+                    (panel, PANEL),
+                    inner,
+                );
+                for (row, sums) in (first..self.present).zip(sums) {
+                    f64::vectors_mut::<S>(&mut tile[..width]).copy_from_slice(&sums);
+                    for (column, value) in (column..columns).zip(&tile[..width]) {
+                        result[column * self.present + row] = *value;
                     }
-                }
-                let first = tile * ROWS;
-                let present = ROWS.min(rows - first);
-                for (column, sum) in (group * COLUMNS..self.columns).zip(sums) {
-                    let four = sum.map(f64x2::to_array);
-                    result[column * rows + first..][..present]
-                        .copy_from_slice(&four.as_flattened()[..present]);
                 }
             }
         }
@@ -201,80 +219,56 @@ impl Packed {
 fn sum_of_chunks(left: &DMatrix<f64>, right: &DMatrix<f64>, upper: bool) -> DMatrix<f64> {
     assert_eq!(left.nrows(), right.nrows(), "rows");
     let rows = left.nrows();
-    let mut sum = DMatrix::zeros(left.ncols(), right.ncols());
+    let stride = padded(right.ncols());
+    let mut total = vec![0.0; left.ncols() * stride];
     for wave in 0..rows.div_ceil(CROSS_WAVE * CHUNK) {
         let wave = part(&(0..rows), wave, CROSS_WAVE * CHUNK);
         let chunks = parallel::map(wave.len().div_ceil(CHUNK), |index| {
-            cross_chunk(left, right, part(&wave, index, CHUNK), upper)
+            let rows = part(&wave, index, CHUNK);
+            lanes::dispatch(Chunk { left, right, rows, stride, upper })
         });
         for chunk in chunks {
-            for (target, value) in sum.as_mut_slice().iter_mut().zip(chunk) {
+            for (target, value) in total.iter_mut().zip(chunk) {
                 *target += value;
             }
         }
     }
-    sum
+    DMatrix::from_fn(left.ncols(), right.ncols(), |row, column| total[row * stride + column])
 }
 
-/// What the rows `chunk` add to leftᵀ · right, column by column.
-fn cross_chunk(
-    left: &DMatrix<f64>,
-    right: &DMatrix<f64>,
-    chunk: Range<usize>,
+/// What some rows add to leftᵀ · right, row-major.
+struct Chunk<'a> {
+    left: &'a DMatrix<f64>,
+    right: &'a DMatrix<f64>,
+    rows: Range<usize>,
+    stride: usize,
     upper: bool,
-) -> Vec<f64> {
-    let (rows, count) = (left.nrows(), left.ncols());
-    let mut sums = vec![0.0; count * right.ncols()];
-    for block in 0..chunk.len().div_ceil(BLOCK) {
-        let block = part(&chunk, block, BLOCK);
-        for j in (0..right.ncols()).step_by(RIGHT) {
-            // At the border a column is taken again, and its sums are not kept.
-            let place = |column: usize, columns: usize| column.min(columns - 1) * rows;
-            let others: [&[f64]; RIGHT] = core::array::from_fn(|tile| {
-                &right.as_slice()[place(j + tile, right.ncols())..][block.clone()]
-            });
-            let end = if upper { count.min(j + RIGHT) } else { count };
-            for i in (0..end).step_by(LEFT) {
-                let ones: [&[f64]; LEFT] = core::array::from_fn(|tile| {
-                    &left.as_slice()[place(i + tile, count)..][block.clone()]
-                });
-                let tile = cross_tile(ones, others);
-                for (column, values) in (j..right.ncols()).zip(tile) {
-                    let targets = &mut sums[column * count + i..(column + 1) * count];
-                    for (target, value) in targets.iter_mut().zip(values) {
-                        *target += value;
-                    }
-                }
-            }
-        }
-    }
-    sums
 }
 
-/// Inner products of all pairs of columns.
-fn cross_tile(ones: [&[f64]; LEFT], others: [&[f64]; RIGHT]) -> [[f64; LEFT]; RIGHT] {
-    let pairs = ones[0].len() / 2;
-    let ones = ones.map(|column| column.as_chunks::<2>());
-    let others = others.map(|column| column.as_chunks::<2>());
-    let left = ones.map(|(column, _)| &column[..pairs]);
-    let right = others.map(|(column, _)| &column[..pairs]);
-    let mut sums = [[f64x2::ZERO; LEFT]; RIGHT];
-    for pair in 0..pairs {
-        let one = left.map(|column| f64x2::new(column[pair]));
-        for j in 0..RIGHT {
-            let other = f64x2::new(right[j][pair]);
-            for i in 0..LEFT {
-                sums[j][i] += one[i] * other;
-            }
+impl WithSimd for Chunk<'_> {
+    type Output = Vec<f64>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) -> Vec<f64> {
+        let Self { left, right, rows, stride, upper } = self;
+        let mut sums = vec![0.0; left.ncols() * stride];
+        let mut ones = vec![0.0; CROSS_BLOCK * left.ncols()];
+        let mut others = Aligned::<f64>::new(CROSS_BLOCK * stride);
+        for block in 0..rows.len().div_ceil(CROSS_BLOCK) {
+            let block = part(&rows, block, CROSS_BLOCK);
+            turn(&[left], block.clone(), &mut ones, left.ncols());
+            turn(&[right], block.clone(), &mut others, stride);
+            add_cross(
+                simd,
+                Tile { values: &ones, stride: left.ncols(), columns: left.ncols() },
+                Tile { values: &others, stride, columns: right.ncols() },
+                block.len(),
+                &mut sums,
+                upper,
+            );
         }
+        sums
     }
-    core::array::from_fn(|j| {
-        core::array::from_fn(|i| {
-            let [even, odd] = sums[j][i].to_array();
-            let last = ones[i].1.first().zip(others[j].1.first());
-            even + odd + last.map_or(0.0, |(one, other)| one * other)
-        })
-    })
 }
 
 #[cfg(test)]

@@ -240,6 +240,42 @@ mod tests {
     }
 
     #[test]
+    fn every_way_to_the_triangle_gives_the_same_decomposition() {
+        // Columns that lean on the first one the more, the smaller the share of their own.
+        for (share, steps) in [(0.5, "one step"), (1e-2, "two steps"), (1e-7, "reflections")] {
+            let matrix = DMatrix::from_fn(96, 6, |i, j| {
+                let own = libm::cos((i * (2 * j + 1)) as f64 * 0.1);
+                libm::pow(10.0, j as f64 - 3.0) * (libm::sin(i as f64) + share * own)
+            });
+            let svd = thin_svd(&matrix);
+            let careful = by_reflections(matrix.clone());
+            let values = (&svd.values - &careful.values).amax();
+            assert!(values < 1e-13 * svd.values[0], "{steps}: singular values, off by {values}");
+            let gram = svd.left.transpose() * &svd.left;
+            let off = (gram - DMatrix::identity(6, 6)).amax();
+            assert!(off < 1e-14, "{steps}: VᵀV differs from I by {off}");
+            let product = &svd.left * DMatrix::from_diagonal(&svd.values) * svd.right.transpose();
+            let off = largest_difference(&product, &matrix);
+            assert!(off < 1e-14 * svd.values[0], "{steps}: product off by {off}");
+            let alone = (singular_values(&matrix) - &careful.values).amax();
+            assert!(alone < 1e-15 * svd.values[0], "{steps}: values alone, off by {alone}");
+        }
+    }
+
+    #[test]
+    fn the_ways_are_chosen_by_condition() {
+        let squared_condition = |share: f64| {
+            let matrix = DMatrix::from_fn(96, 2, |i, j| {
+                libm::sin(i as f64) + j as f64 * share * libm::cos(1.7 * i as f64)
+            });
+            CholeskyStep::new(&gram(&matrix)).map(|step| step.squared_condition)
+        };
+        assert!(squared_condition(0.5).is_some_and(|found| found < GOOD_AT_ONCE), "one step");
+        assert!(squared_condition(1e-2).is_some_and(|found| found > GOOD_AT_ONCE), "two steps");
+        assert!(squared_condition(1e-7).is_none(), "reflections");
+    }
+
+    #[test]
     fn small_singular_values_keep_their_relative_accuracy() {
         // numpy.linalg.svd of the 6 × 3 Hilbert matrix.
         let values = thin_svd(&hilbert(6, 3)).values;
