@@ -8,7 +8,7 @@ pub(crate) enum Variant {
 }
 
 /// Shared memory must name its ceiling. 1 GiB: phones refuse to set more aside.
-const SHARED_MEMORY_BYTES: u32 = 1 << 30;
+const SHARED_MEMORY_BYTES: u32 = 1 << 31;
 
 /// A page of WebAssembly memory.
 const PAGE_BYTES: u32 = 1 << 16;
