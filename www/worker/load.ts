@@ -23,9 +23,10 @@ export async function loadEngine(start: WorkerStart): Promise<Loaded> {
   const threads = start.threads ?? navigator.hardwareConcurrency;
   // One thread is the serial build's, unless it is asked for by number.
   const wanted = !start.serial && (threads > 1 || start.threads !== null);
-  if (wanted && canShareMemory()) {
+  const memory = wanted ? sharedMemory() : null;
+  if (memory) {
     try {
-      return await within(POOL_TIMEOUT_MS, loadThreads(start.base, threads));
+      return await within(POOL_TIMEOUT_MS, loadThreads(start.base, threads, memory));
     } catch {
       // Whatever went wrong with threads, the serial build gives the same results.
     }
@@ -39,29 +40,45 @@ export async function loadEngine(start: WorkerStart): Promise<Loaded> {
   };
 }
 
-async function loadThreads(base: string, threads: number): Promise<Loaded> {
-  const pack = await importPackage(base, "threads");
+async function loadThreads(
+  base: string,
+  threads: number,
+  memory: WebAssembly.Memory,
+): Promise<Loaded> {
+  const pack = await importPackage(base, "threads", { memory });
   await pack.initThreadPool?.(threads);
   return { engine: new pack.Engine(), build: "threads", threads, version: pack.Engine.version() };
 }
 
-async function importPackage(base: string, build: "threads" | "serial"): Promise<EnginePackage> {
+async function importPackage(
+  base: string,
+  build: "threads" | "serial",
+  options?: object,
+): Promise<EnginePackage> {
   const address = new URL(`engine/${build}/shapevenn.js`, base).href;
   const pack = (await import(/* @vite-ignore */ address)) as EnginePackage;
-  await pack.default();
+  await pack.default(options);
   return pack;
 }
 
-/** Safari has refused shared memory that its own checks promised, so try it. */
-function canShareMemory(): boolean {
-  if (!globalThis.crossOriginIsolated) return false;
-  if (typeof Worker === "undefined") return false;
-  try {
-    const memory = new WebAssembly.Memory({ initial: 1, maximum: 16384, shared: true });
-    return memory.buffer instanceof SharedArrayBuffer;
-  } catch {
-    return false;
+/** Pages of 64 KiB that shared memory may grow to: what the build allows, or what a phone does. */
+const CEILINGS = [32768, 16384];
+/** Pages at the start; more than the build asks for. */
+const FIRST_PAGES = 64;
+
+/** Shared memory for the threads; null where there is none. Its ceiling is set aside at once, which phones refuse. */
+function sharedMemory(): WebAssembly.Memory | null {
+  if (!globalThis.crossOriginIsolated || typeof Worker === "undefined") return null;
+  for (const maximum of CEILINGS) {
+    try {
+      // Safari has refused shared memory that its own checks promised, so try it.
+      const memory = new WebAssembly.Memory({ initial: FIRST_PAGES, maximum, shared: true });
+      if (memory.buffer instanceof SharedArrayBuffer) return memory;
+    } catch {
+      // A lower ceiling may do.
+    }
   }
+  return null;
 }
 
 function within<T>(milliseconds: number, work: Promise<T>): Promise<T> {

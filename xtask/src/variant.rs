@@ -7,7 +7,8 @@ pub(crate) enum Variant {
     Threads,
 }
 
-/// Shared memory must name its ceiling. 1 GiB: phones refuse to set more aside.
+/// Shared memory must name its ceiling: two models of 53,149 points and 199 modes need more than 1 GiB. Phones
+/// refuse to set so much aside; the page then asks for less.
 const SHARED_MEMORY_BYTES: u32 = 1 << 31;
 
 /// A page of WebAssembly memory.
