@@ -93,10 +93,13 @@ fn covariance(a: &LinearModel, b: &LinearModel, sigma: f64) {
         covariance: sides.fits[side].covariance(),
     });
     println!("    {:52} {:8.4}", "closed form, no evaluations", error(closed));
-    let mean: f64 =
-        (1..=REPEATS).map(|seed| error(sides.weighted(WEIGHTED, seed))).sum::<f64>() / REPEATS as f64;
+    let mean: f64 = (1..=REPEATS).map(|seed| error(sides.weighted(WEIGHTED, seed))).sum::<f64>()
+        / REPEATS as f64;
     let evaluations = 4 * WEIGHTED;
-    println!("    {:52} {mean:8.4}", format!("gradients of weighted draws, {evaluations} evaluations"));
+    println!(
+        "    {:52} {mean:8.4}",
+        format!("gradients of weighted draws, {evaluations} evaluations")
+    );
     for (name, settings) in [
         ("independence draws alone", Settings { draws: 10_000, ..Settings::default() }),
         ("the paper's walk, corrected", Settings::of(Sampler::PaperCorrected)),
@@ -116,7 +119,8 @@ fn covariance(a: &LinearModel, b: &LinearModel, sigma: f64) {
 fn effective(a: &LinearModel, b: &LinearModel, sigma: f64) {
     let rate = |settings: Settings| {
         let run = common::compared(a, b, Settings { sigma: Some(sigma), ..settings });
-        let rates = run.results().intersection.map(|draws| worst(&draws) / draws.evaluations as f64);
+        let rates =
+            run.results().intersection.map(|draws| worst(&draws) / draws.evaluations as f64);
         let r_hat = common::report(&run).intersection.diagnostics.r_hat_max.unwrap();
         (rates[0].min(rates[1]), r_hat)
     };

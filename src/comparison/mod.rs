@@ -386,11 +386,6 @@ impl Comparison {
         }
     }
 
-    /// Whether the other model makes every shape of this side, to rounding.
-    fn is_contained(&self, side: usize) -> bool {
-        self.sides[side].is_contained(self.pair.scale())
-    }
-
     /// Whether the other model makes every shape of this side, to rounding: the difference is empty.
     fn is_empty(&self, side: usize) -> bool {
         self.settings.difference.is_empty(&self.sides[side], self.pair.scale())

@@ -256,7 +256,7 @@ impl Comparison {
                 && difference.diagnostics.draws > 0
                 && difference.probability > NEARLY_ALL
         };
-        if self.is_contained(0) && self.is_contained(1) {
+        if self.is_empty(0) && self.is_empty(1) {
             let half = match self.settings.plausibility {
                 Plausibility::Product => {
                     " Their intersection has less variance than either, half where the two are the same, because the paper's posterior counts plausibility twice."
