@@ -38,6 +38,7 @@ await main(async () => {
   mkdirSync(folder, { recursive: true });
   await must("cargo", [...bench, "--write", folder], { hint });
   const files = ["face-a.npz", "face-b.npz"].map((name) => join(folder, name));
+  await roofInChromium();
   for (const build of ["threads", "serial"]) await inChromium(build, files);
   await closeBrowser();
 });
@@ -87,6 +88,39 @@ async function largestMemory(browser) {
     .map(({ id }) => /VmHWM:\s*(\d+)/.exec(readFileSync(`/proc/${id}/status`, "utf8")))
     .map((found) => 1024 * Number(found?.[1] ?? 0));
   return Math.max(0, ...peaks);
+}
+
+/** The kernel beside separate multiplies and adds in registers, one thread, as benches/kernel.rs does natively. */
+async function roofInChromium() {
+  await withPage({}, async ({ url, page }) => {
+    await page.goto(url);
+    const rates = await page.evaluate(async (address) => {
+      const engine = await import(address);
+      await engine.default();
+      const work = new engine.Roofline(5764, 50, 32);
+      const rate = (once) => {
+        let best = 0;
+        for (let window = 0; window < 20; window += 1) {
+          const begun = performance.now();
+          let done = 0;
+          while (performance.now() - begun < 50) done += once();
+          best = Math.max(best, done / (performance.now() - begun) / 1e6);
+        }
+        return best;
+      };
+      return {
+        roof: rate(() => engine.Roofline.peak(100_000)),
+        distances: rate(() => work.distances()),
+        gradients: rate(() => work.gradients()),
+      };
+    }, new URL("engine/serial/shapevenn.js", url).href);
+    console.log("\nIn Chromium, one thread, 5,764 × 50, best of 20 windows");
+    console.log(`multiplies and adds in registers ${rates.roof.toFixed(1)} Gflop/s`);
+    for (const name of ["distances", "gradients"]) {
+      const share = Math.round((100 * rates[name]) / rates.roof);
+      console.log(`${name} ${rates[name].toFixed(1)} Gflop/s, ${share} % of it`);
+    }
+  });
 }
 
 async function inChromium(build, files) {

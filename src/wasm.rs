@@ -14,6 +14,7 @@ use crate::comparison::{Comparison, Picture, Region, RegionShapes, Settings, Sha
 use crate::files::{self, Described, Download, Error};
 use crate::model::{Cells, LinearModel};
 use crate::report::{ModelReport, Seconds};
+use crate::roofline::{self, Workload};
 
 #[cfg(feature = "threads")]
 pub use wasm_bindgen_rayon::init_thread_pool;
@@ -41,6 +42,36 @@ struct OpenedPart<'a> {
     model: u32,
     part: &'a str,
     report: &'a ModelReport,
+}
+
+/// Work with a known number of floating-point operations, for the benchmark that measures how near the
+/// kernel is to what the processor can do: `{points, modes}` models and a batch of proposals.
+#[wasm_bindgen]
+#[derive(Debug)]
+pub struct Roofline(Workload);
+
+#[wasm_bindgen]
+impl Roofline {
+    /// For models of a size.
+    #[wasm_bindgen(constructor)]
+    pub fn new(points: usize, modes: usize, batch: usize) -> Self {
+        Self(Workload::new(points, modes, batch))
+    }
+
+    /// Operations done by the kernel for one batch of distances.
+    pub fn distances(&self) -> f64 {
+        self.0.distances()
+    }
+
+    /// Operations done by the kernel for one batch of distances and gradients.
+    pub fn gradients(&self) -> f64 {
+        self.0.gradients()
+    }
+
+    /// Operations done in registers, `rounds` times: the roof.
+    pub fn peak(rounds: usize) -> f64 {
+        roofline::peak(rounds)
+    }
 }
 
 fn shown(region: JsValue, shapes: &RegionShapes) -> JsValue {

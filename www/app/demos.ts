@@ -40,7 +40,7 @@ const heads: Demo[] = [
       shapesOfB: "female heads",
     },
     note: HEADS_NOTE,
-    sigma: 2,
+    sigma: 1,
   },
   {
     id: "heads-expression",
