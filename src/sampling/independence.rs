@@ -19,7 +19,7 @@ use super::{Chains, Draws, Gaussian, Schedule, Stream, Target, fill_normal, stre
 use crate::parallel;
 
 /// Share of proposals that come from the defensive component.
-const DEFENSIVE_SHARE: f64 = 0.05;
+const DEFENSIVE_SHARE: f64 = 0.01;
 
 /// An ensemble of independence chains.
 #[derive(Debug)]
