@@ -32,7 +32,7 @@ use crate::compare::{
     Tolerance, nearest_meeting, plausible_radius, recommended_tolerance,
 };
 use crate::model::LinearModel;
-use crate::report::{ModelReport, Report, Seconds};
+use crate::report::{Diagnostics, DifferenceReport, ModeDiagnostics, ModelReport, Report, Seconds};
 use crate::sampling::{Draws, Gaussian, Rejection};
 use inference::Inference;
 
@@ -96,6 +96,10 @@ pub struct Comparison {
     criteria: Vec<Criterion>,
     rejections: Vec<Rejection>,
     live: Option<(usize, f64, f64)>,
+    /// Diagnostics of both sides, the worst and each coefficient's, once they are measured.
+    summaries: Vec<(Diagnostics, ModeDiagnostics)>,
+    /// What the report says of both differences, once they are measured.
+    outside: Vec<DifferenceReport>,
     cancelled: bool,
     finished: Option<Finished>,
 }
@@ -140,6 +144,8 @@ impl Comparison {
             criteria: Vec::new(),
             rejections: Vec::new(),
             live: None,
+            summaries: Vec::new(),
+            outside: Vec::new(),
             cancelled: false,
             finished: None,
         })
@@ -458,7 +464,7 @@ impl Comparison {
             Stage::Differences => {
                 0.7 + 0.125 * self.rejections.iter().map(Rejection::fraction).sum::<f64>()
             }
-            Stage::Measure => 0.95,
+            Stage::Measure => 0.95 + 0.01 * (self.summaries.len() + self.outside.len()) as f64,
             Stage::Done => 1.0,
         };
         done.clamp(0.0, 1.0)

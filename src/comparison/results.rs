@@ -198,7 +198,21 @@ impl Comparison {
         plain.clone().with_cells(a.cells().clone()).unwrap_or(plain)
     }
 
+    /// The next piece of the report: diagnostics of either side, of either difference, then all the rest.
     pub(super) fn measure(&mut self) -> Result<(), ComparisonError> {
+        let (drawn, outside) = (self.summaries.len(), self.outside.len());
+        if drawn < 2 {
+            self.summaries.push(summary::of_inference(&self.inferences[drawn]));
+            Ok(())
+        } else if outside < 2 {
+            self.outside.push(self.difference_report(outside));
+            Ok(())
+        } else {
+            self.finish()
+        }
+    }
+
+    fn finish(&mut self) -> Result<(), ComparisonError> {
         let flat = ComparisonError::FlatIntersection;
         let (Some(joint), Some(estimates)) = (&self.joint, self.estimates()) else {
             return Err(flat);
@@ -206,7 +220,7 @@ impl Comparison {
         let Some(moments) = pooled(joint, &estimates) else { return Err(flat) };
         let intersection = self.model_of(&moments).ok_or(flat)?;
         let [(worst_a, modes_a), (worst_b, modes_b)] =
-            [0, 1].map(|side| summary::of_inference(&self.inferences[side]));
+            [0, 1].map(|side| self.summaries[side].clone());
         let [grassmann, grassmann_affine] = grassmann(joint, &intersection);
         let distances: Vec<f64> = self
             .pooled_sides()
@@ -246,8 +260,8 @@ impl Comparison {
                 tolerance: self.tolerance_report(),
             },
             differences: Differences {
-                a_without_b: self.difference_report(0),
-                b_without_a: self.difference_report(1),
+                a_without_b: self.outside[0].clone(),
+                b_without_a: self.outside[1].clone(),
             },
             overlap: self.overlap(joint),
             warnings: Vec::new(),
