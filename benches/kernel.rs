@@ -4,7 +4,8 @@
 //! multiplications and additions in registers (the roof: the engine never fuses them), the rate of the
 //! batched distance and of distance with gradient as a share of it, on one thread and on all; the time of
 //! operators and fits; and that of one evaluation over models of many sizes, with the least-squares line
-//! through it. `-- --quick` stops after the rates.
+//! through it. `-- --quick` stops after the rates; `-- --plot FILE` writes the times of all sizes as a plot and
+//! does nothing else.
 #![allow(clippy::print_stdout, clippy::unwrap_used, reason = "a benchmark prints, or stops")]
 
 use std::hint::black_box;
@@ -23,6 +24,12 @@ const SECONDS: f64 = 0.3;
 const WINDOW: f64 = 0.000_5;
 
 fn main() {
+    let arguments: Vec<String> = std::env::args().collect();
+    if let Some(place) = arguments.iter().position(|argument| argument == "--plot") {
+        let found = sizes();
+        std::fs::write(&arguments[place + 1], plot(&found)).unwrap();
+        return;
+    }
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     println!("Gflop/s are 10⁹ multiplications and additions a second; best of many short windows.");
     for threads in if threads > 1 { vec![1, threads] } else { vec![1] } {
@@ -35,7 +42,7 @@ fn main() {
     );
     if !std::env::args().any(|argument| argument == "--quick") {
         preparation();
-        sizes();
+        let _ = sizes();
     }
 }
 
@@ -98,7 +105,7 @@ fn show(work: &Workload, points: usize, modes: usize, batch: usize, peak: f64) {
 }
 
 /// µs of an evaluation over models of many sizes, and the line through them.
-fn sizes() {
+fn sizes() -> Vec<(f64, f64)> {
     const POINTS: [usize; 6] = [1_000, 2_000, 5_000, 10_000, 20_000, 50_000];
     const MODES: [usize; 5] = [10, 25, 50, 100, 200];
     println!("\nµs of one evaluation, 64 at a time, all threads");
@@ -125,6 +132,75 @@ fn sizes() {
         slope * 1e6,
         100.0 * off
     );
+    found
+}
+
+/// Microseconds against n·q, both logarithmic, with the line of one slope through their middle.
+fn plot(found: &[(f64, f64)]) -> String {
+    use std::fmt::Write;
+    const SIZE: (f64, f64) = (640.0, 400.0);
+    const LOG_X: (f64, f64) = (4.0, 7.0);
+    const LOG_Y: (f64, f64) = (-1.0, 3.0);
+    let x =
+        |value: f64| 70.0 + (libm::log10(value) - LOG_X.0) / (LOG_X.1 - LOG_X.0) * (SIZE.0 - 90.0);
+    let y =
+        |value: f64| 20.0 + (LOG_Y.1 - libm::log10(value)) / (LOG_Y.1 - LOG_Y.0) * (SIZE.1 - 75.0);
+    let logs = found.iter().map(|(size, micros)| libm::log10(micros / size));
+    let slope = libm::pow(10.0, logs.sum::<f64>() / found.len() as f64);
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" role=\"img\" \
+         aria-label=\"Microseconds of one evaluation against points times modes\" \
+         font-family=\"sans-serif\" font-size=\"13\">\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n",
+        SIZE.0, SIZE.1
+    );
+    for power in 4..=7 {
+        let at = x(libm::pow(10.0, f64::from(power)));
+        writeln!(svg, "<path d=\"M{at:.1} 20V{:.1}\" stroke=\"#ddd\"/>", SIZE.1 - 55.0).unwrap();
+        writeln!(
+            svg,
+            "<text x=\"{at:.1}\" y=\"{:.1}\" text-anchor=\"middle\">10<tspan dy=\"-5\" font-size=\"9\">{power}</tspan></text>",
+            SIZE.1 - 36.0
+        )
+        .unwrap();
+    }
+    for power in -1..=3 {
+        let value = libm::pow(10.0, f64::from(power));
+        let at = y(value);
+        writeln!(svg, "<path d=\"M70 {at:.1}H{:.1}\" stroke=\"#ddd\"/>", SIZE.0 - 20.0).unwrap();
+        writeln!(svg, "<text x=\"62\" y=\"{:.1}\" text-anchor=\"end\">{value}</text>", at + 4.0)
+            .unwrap();
+    }
+    let (low, high) = (1e4, 1e7);
+    writeln!(
+        svg,
+        "<path d=\"M{:.1} {:.1}L{:.1} {:.1}\" stroke=\"#0072b2\" stroke-width=\"1.5\"/>",
+        x(low),
+        y(slope * low),
+        x(high),
+        y(slope * high)
+    )
+    .unwrap();
+    for (size, micros) in found {
+        writeln!(
+            svg,
+            "<circle cx=\"{:.1}\" cy=\"{:.1}\" r=\"3.5\" fill=\"#d55e00\"/>",
+            x(*size),
+            y(*micros)
+        )
+        .unwrap();
+    }
+    writeln!(
+        svg,
+        "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"middle\">points × modes</text>\n\
+         <text transform=\"translate(18 {:.1}) rotate(-90)\" text-anchor=\"middle\">µs an evaluation</text>\n\
+         <text x=\"84\" y=\"40\" fill=\"#0072b2\">{:.2} µs for 100,000</text>\n</svg>",
+        0.5 * SIZE.0 + 25.0,
+        SIZE.1 - 12.0,
+        0.5 * SIZE.1 - 17.0,
+        1e5 * slope
+    )
+    .unwrap();
+    svg
 }
 
 /// Seconds to prepare a comparison: operators and iterations of a fit.
