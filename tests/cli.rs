@@ -183,7 +183,7 @@ fn out_writes_everything_and_all_of_it_opens_again() {
     };
     assert_eq!(shape("intersection_a"), [8, 50, 4], "chains, draws, modes");
     assert_eq!(shape("intersection_b_distance"), [8, 50], "chains, draws");
-    assert_eq!(shape("a_without_b"), [400, 4], "draws, modes");
+    assert_eq!(shape("a_without_b"), [2000, 4], "draws, modes");
 
     for name in ["intersection.h5", "intersection.npz"] {
         let opened = formats::open(name, &read(name)).unwrap();

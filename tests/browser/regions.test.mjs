@@ -36,7 +36,7 @@ for (const demo of ["heads-sex", "stars-1", "planes"]) {
 
 test("the differences that are empty say so instead of showing something", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#v=1&demo=stars-1&sigma=1000&draws=400`);
+    await page.goto(`${url}#v=1&demo=stars-1&diff=distance&beyond=1000&draws=400`);
     await untilState(page, "done");
     for (const name of ["aWithoutB", "bWithoutA"]) {
       await page

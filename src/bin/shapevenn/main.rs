@@ -95,7 +95,7 @@ struct Compare {
     /// Chains on each side
     #[arg(long)]
     chains: Option<usize>,
-    /// Draws kept on each side of the intersection, and of each difference
+    /// Draws kept on each side of the intersection
     #[arg(long)]
     draws: Option<usize>,
     /// Steps of each chain thrown away at its start
@@ -301,10 +301,7 @@ fn settings(arguments: &Compare) -> Settings {
         seed: arguments.seed.unwrap_or(defaults.seed),
         chains: arguments.chains.unwrap_or(defaults.chains),
         draws: arguments.draws.unwrap_or(defaults.draws),
-        difference_draws: arguments
-            .difference_draws
-            .or(arguments.draws)
-            .unwrap_or(defaults.difference_draws),
+        difference_draws: arguments.difference_draws.unwrap_or(defaults.difference_draws),
         fit: arguments.fit.unwrap_or_default(),
         weighted: arguments.weighted.unwrap_or(defaults.weighted),
         pooling: arguments.pooling.unwrap_or_default(),
