@@ -7,15 +7,17 @@
 //! a quarter of that range, E d(σ) = d₀ + ¼(d_∞ − d₀), or more where true members lie farther than that from
 //! their own model (noise): then the noise, but no more than nine tenths of the range.
 //!
-//! E d is taken under the rms fit, which has it in closed form in O(q³) for any σ, and brought from
-//! rms to mean distance with their ratio at σ = ∞ (by quadrature).
+//! E d is taken under the rms fit, which has it in closed form in O(q) for any σ once its two quadratic
+//! forms are diagonal together, and brought from rms to mean distance with their ratio at σ = ∞ (by
+//! quadrature).
 //!
 //! **Limits.** The ratio changes by some percent with σ: the distance that results is reported with
 //! the run, not promised.
 
-use super::fit::{expected_distance, fit_rms, without_distance};
+use nalgebra::DVector;
+
+use super::fit::{expected_distance, without_distance};
 use super::{Pair, Side};
-use crate::sampling::Gaussian;
 
 /// The share of the range of distances that the recommended σ uses up.
 const SHARE: f64 = 0.25;
@@ -65,34 +67,65 @@ pub fn recommended_tolerance(pair: &Pair, sides: [&Side; 2], noise: Option<f64>)
     Tolerance { sigma: (low * high).sqrt(), nearest, farthest, noise }
 }
 
-/// E d(σ) of one side.
-struct Curve<'a> {
-    side: &'a Side,
+/// E d(σ) of one side, under the rms fit.
+///
+/// With P = I + AᵀA = LLᵀ and L⁻¹(RᵀR/n)L⁻ᵀ = V S Vᵀ, the fit falls apart in the coordinates VᵀLᵀa: precision
+/// 1 + s/σ², mean −(p + g/σ²)/(1 + s/σ²) with p = VᵀL⁻¹Aᵀa₀ and g = VᵀL⁻¹Rᵀr₀/n. One decomposition serves
+/// every σ.
+struct Curve {
     farthest: f64,
     /// Mean distance over root mean square distance.
     ratio: f64,
+    /// ‖r₀‖²/n.
+    constant: f64,
+    /// (s, g, p) of every direction.
+    directions: Vec<[f64; 3]>,
 }
 
-impl<'a> Curve<'a> {
-    fn new(side: &'a Side) -> Option<Self> {
-        let widest = without_distance(side)?;
-        let farthest = expected_distance(side, &widest);
-        let rms = root_mean_square(side, &widest);
-        Some(Self { side, farthest, ratio: if rms > 0.0 { farthest / rms } else { 1.0 } })
+impl Curve {
+    fn new(side: &Side) -> Option<Self> {
+        let points = side.point_count() as f64;
+        let lower = side.plausibility_precision().cholesky()?.unpack();
+        let half = lower.solve_lower_triangular(&(side.gram() / points))?;
+        let whole = lower.solve_lower_triangular(&half.transpose())?;
+        let eigen = ((&whole + whole.transpose()) * 0.5).symmetric_eigen();
+        let turned = |vector: &DVector<f64>| {
+            Some(eigen.eigenvectors.tr_mul(&lower.solve_lower_triangular(vector)?))
+        };
+        let slope = turned(&(side.gram_shift() / points))?;
+        let shift = turned(&side.plausibility_shift())?;
+        let directions = eigen
+            .eigenvalues
+            .iter()
+            .zip(slope.iter().zip(shift.iter()))
+            .map(|(s, (g, p))| [s.max(0.0), *g, *p])
+            .collect();
+        let mut curve = Self {
+            farthest: expected_distance(side, &without_distance(side)?),
+            ratio: 1.0,
+            constant: side.gram_constant() / points,
+            directions,
+        };
+        let rms = curve.root_mean_square(f64::INFINITY);
+        if rms > 0.0 {
+            curve.ratio = curve.farthest / rms;
+        }
+        Some(curve)
     }
 
     fn at(&self, sigma: f64) -> f64 {
-        fit_rms(self.side, sigma)
-            .map_or(self.farthest, |fit| self.ratio * root_mean_square(self.side, &fit))
+        self.ratio * self.root_mean_square(sigma)
     }
-}
 
-/// √(E Σ_v ‖r_v‖² / n) = √((‖r₀‖² + 2 gᵀμ + μᵀGμ + tr GΣ)/n).
-fn root_mean_square(side: &Side, gaussian: &Gaussian) -> f64 {
-    let mean = gaussian.mean();
-    let square = side.gram_constant()
-        + 2.0 * side.gram_shift().dot(mean)
-        + mean.dot(&(side.gram() * mean))
-        + (side.gram() * gaussian.covariance()).trace();
-    (square.max(0.0) / side.point_count() as f64).sqrt()
+    /// √(E Σ_v ‖r_v‖² / n).
+    fn root_mean_square(&self, sigma: f64) -> f64 {
+        let weight = 1.0 / (sigma * sigma);
+        let mut square = self.constant;
+        for [s, g, p] in &self.directions {
+            let precision = 1.0 + s * weight;
+            let mean = -(p + g * weight) / precision;
+            square += 2.0 * g * mean + s * (mean * mean + 1.0 / precision);
+        }
+        square.max(0.0).sqrt()
+    }
 }

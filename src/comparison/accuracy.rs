@@ -16,6 +16,7 @@ use nalgebra::DMatrix;
 
 use super::inference::Estimate;
 use crate::compare::{Joint, Moments};
+use crate::model::product;
 use crate::parallel;
 use crate::report::Accuracy;
 
@@ -37,6 +38,7 @@ pub(super) fn accuracy(
     let (vectors, values) = pooled.principal_components();
     let most = values.len().min(MOST_MODES);
     let vectors = vectors.columns(0, most).into_owned();
+    let across = vectors.transpose();
     let lifted: Vec<Moments> =
         estimates.iter().map(|(side, estimate)| joint.lift(*side, &estimate.total)).collect();
     let mut variance = DMatrix::<f64>::zeros(most, most);
@@ -48,7 +50,7 @@ pub(super) fn accuracy(
                 Some(other) => Moments::pooled(&moved, other).covariance,
                 None => moved.covariance,
             };
-            vectors.tr_mul(&(covariance * &vectors))
+            product(&across, &product(&covariance, &vectors))
         });
         let mean =
             turned.iter().fold(DMatrix::zeros(most, most), |sum, one| sum + one) / count as f64;

@@ -196,7 +196,7 @@ impl Comparison {
 
     /// Largest |Δ log p| between single and double precision over a few draws of each side.
     fn density_error(&self) -> f64 {
-        const DRAWS: usize = 8;
+        const DRAWS: usize = 4;
         let sigma = self.sigma();
         let mut largest = 0.0_f64;
         for (inference, side) in self.inferences.iter().zip(&self.sides) {

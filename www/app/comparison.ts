@@ -39,6 +39,8 @@ import { belief } from "./words";
 const SETTLE_MS = 500;
 /** How often the picture is refined while running. */
 const REFINE_MS = 1500;
+/** Runs shorter than this show their result and no guess before it: drawing one would only hold them up. */
+const FIRST_GUESS_MS = 800;
 
 type Held = NonNullable<typeof held.value>;
 
@@ -175,7 +177,8 @@ function refiner(running: Held): (progress: Progress, now: number) => void {
   let asked = Number.NEGATIVE_INFINITY;
   let asking = false;
   return (progress, now) => {
-    if (!progress.hasIntersection || asking || now - asked < REFINE_MS) return;
+    if (!progress.hasIntersection || asking) return;
+    if (now < FIRST_GUESS_MS || now - asked < REFINE_MS) return;
     const wanted: Region[] = asked < 0 ? ["intersection", "a", "b"] : ["intersection"];
     asking = true;
     asked = now;
