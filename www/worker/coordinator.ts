@@ -38,7 +38,7 @@ const BUSY_WITH: Record<Question["t"], string> = {
   export: "writing the file",
 };
 
-const POST_EVERY_MS = 90;
+const POST_EVERY_MS = 250;
 
 export class Coordinator {
   #engine: Engine;
