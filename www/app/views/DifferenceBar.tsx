@@ -2,7 +2,7 @@ import { batch } from "@preact/signals";
 import { number, percent } from "../format";
 import { MOST_EXAGGERATION } from "../link";
 import { DIFFERENCES } from "../settings";
-import { change, exaggeration, outOfDate, picture, result, settings, view } from "../state";
+import { change, exaggeration, picture, result, settings, view } from "../state";
 import { DEFINITIONS, type DifferencePicture, exclusive, nearlyTheModel } from "../words";
 import { Phrase } from "./Phrase";
 
@@ -32,7 +32,7 @@ function choose(name: DifferencePicture): void {
 export function DifferenceBar() {
   const shown = shownNow();
   const report = result.value?.report;
-  const same = report && !outOfDate.value ? nearlyTheModel(report) : null;
+  const same = report ? nearlyTheModel(report) : null;
   return (
     <div class="difference-bar">
       {same && shown === "soft" && (
