@@ -176,15 +176,19 @@ function finish(done: Held, text: string, cancelled: boolean): void {
 function refiner(running: Held): (progress: Progress, now: number) => void {
   let asked = Number.NEGATIVE_INFINITY;
   let asking = false;
+  let wait = REFINE_MS;
   return (progress, now) => {
     if (!progress.hasIntersection || asking) return;
-    if (now < FIRST_GUESS_MS || now - asked < REFINE_MS) return;
+    if (now < FIRST_GUESS_MS || now - asked < wait) return;
     const wanted: Region[] = asked < 0 ? ["intersection", "a", "b"] : ["intersection"];
     asking = true;
     asked = now;
     held.value = running;
+    const begun = performance.now();
     showRegions(wanted).finally(() => {
       asking = false;
+      // Shapes of a large model take the engine seconds: no more than a tenth of a run goes into them.
+      wait = Math.max(REFINE_MS, 10 * (performance.now() - begun));
     });
   };
 }
