@@ -87,6 +87,7 @@ impl fmt::Display for PairError {
         let word = |kind: &Kind| match kind {
             Kind::Shape => "shapes",
             Kind::Color => "colours",
+            Kind::Displacement => "displacements",
         };
         match self {
             Self::Dimension { a, b } => {

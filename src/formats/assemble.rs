@@ -91,16 +91,7 @@ pub(super) fn assemble(ingredients: Ingredients) -> Result<Assembled, Fault> {
             column.iter_mut().zip(&rows).for_each(|(value, row)| *value *= row);
         }
     }
-    let (mut drawn, problems) = match &cells {
-        Some(array) if mean_values.len().is_multiple_of(dimension) => {
-            cells::read(array, habit, mean_values.len() / dimension)?
-        }
-        _ => (Cells::None, Vec::new()),
-    };
-    notes.extend(problems);
-    if kind == Kind::Shape {
-        notes.extend(cells::turn_outwards(&mut drawn, &mean_values, dimension));
-    }
+    let drawn = drawn(cells.as_ref(), habit, kind, &mean_values, dimension, &mut notes)?;
     let (model, check) =
         LinearModel::from_scaled_basis(dimension, DVector::from_vec(mean_values), scaled)
             .map_err(Fault::Model)?;
@@ -116,6 +107,44 @@ pub(super) fn assemble(ingredients: Ingredients) -> Result<Assembled, Fault> {
     }
     let model = model.with_kind(kind).with_cells(drawn).map_err(Fault::Model)?;
     Ok(Assembled { model, check, notes })
+}
+
+/// A mean shape and how it is drawn, without modes.
+pub(super) fn mesh_of(
+    mean: Named,
+    points: Option<Array>,
+    cells: Option<Array>,
+    habit: Habit,
+) -> Result<(Vec<f64>, Cells), Fault> {
+    let mut notes = Vec::new();
+    let (mean, stated) = mean_vector(mean, &mut notes)?;
+    let dimension = stated
+        .or_else(|| points.and_then(|points| dimension_of_points(points, &mean)))
+        .unwrap_or_else(|| dimension_of_cells(cells.as_ref(), mean.len()));
+    let cells = drawn(cells.as_ref(), habit, Kind::Shape, &mean, dimension, &mut notes)?;
+    Ok((mean, cells))
+}
+
+/// The cells, 0-based and, of a shape, wound outwards.
+fn drawn(
+    cells: Option<&Array>,
+    habit: Habit,
+    kind: Kind,
+    mean: &[f64],
+    dimension: usize,
+    notes: &mut Vec<String>,
+) -> Result<Cells, Fault> {
+    let (mut drawn, problems) = match cells {
+        Some(array) if mean.len().is_multiple_of(dimension) => {
+            cells::read(array, habit, mean.len() / dimension)?
+        }
+        _ => (Cells::None, Vec::new()),
+    };
+    notes.extend(problems);
+    if kind == Kind::Shape {
+        notes.extend(cells::turn_outwards(&mut drawn, mean, dimension));
+    }
+    Ok(drawn)
 }
 
 /// The mean, interleaved, and the dimension when its shape tells it.

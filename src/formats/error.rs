@@ -128,11 +128,6 @@ pub enum Fault {
         /// The file's word for it.
         kind: String,
     },
-    /// An expression model without the shape model to which it is added.
-    Displacement {
-        /// Name of the part.
-        part: String,
-    },
     /// An array that is too large for the file it claims to be in, or for the memory.
     Size {
         /// Name of the array.
@@ -148,6 +143,23 @@ pub enum Fault {
         what: String,
         /// What the reader said.
         reason: String,
+    },
+    /// The browser or the disk does not hand out the bytes.
+    Unreadable {
+        /// What they say.
+        reason: String,
+    },
+    /// There is no part of that name.
+    NoPart {
+        /// The part asked for.
+        part: String,
+        /// The parts there are.
+        parts: Vec<String>,
+    },
+    /// A file that makes no model on its own.
+    Alone {
+        /// What it is.
+        format: &'static str,
     },
     /// The numbers make no model.
     Model(ModelError),
@@ -184,9 +196,11 @@ impl FormatError {
             Fault::NegativeVariances { .. } | Fault::SingularValues { .. } => "variance",
             Fault::NotNumbers { .. } => "npyobj",
             Fault::NotMesh { .. } => "notmesh",
-            Fault::Displacement { .. } => "displacement",
             Fault::Size { .. } => "size",
             Fault::Damaged { .. } => "damaged",
+            Fault::Unreadable { .. } => "unreadable",
+            Fault::NoPart { .. } => "unknown-part",
+            Fault::Alone { .. } => "companion",
             Fault::Model(error) => error.code(),
             Fault::Write { .. } => "write",
         }
@@ -235,13 +249,17 @@ impl FormatError {
             }
             Fault::NotNumbers { .. } => "Save it as an array of numbers with `numpy.savez`.",
             Fault::NotMesh { .. } => "Load a model of points or of a mesh.",
-            Fault::Displacement { .. } => {
-                "Load a file that also holds the shape model it belongs to."
-            }
             Fault::Size { .. } => {
                 "Check that the file is not damaged, or save fewer modes and load that."
             }
             Fault::Damaged { .. } => "Download the file or export the model again.",
+            Fault::Unreadable { .. } => {
+                "If the file was moved or changed, choose it again."
+            }
+            Fault::NoPart { .. } => "Choose one of the parts that the file has.",
+            Fault::Alone { .. } => {
+                "Drop it together with the other files of its set: a population needs at least three shapes."
+            }
             Fault::Model(error) => error.hint(),
             Fault::Write { .. } => "Export the model in the other format.",
         }
@@ -343,10 +361,6 @@ impl fmt::Display for Fault {
             Self::NotMesh { kind } => {
                 write!(f, "This is a model of type {kind}: it has no points to compare.")
             }
-            Self::Displacement { part } => write!(
-                f,
-                "{part} holds displacements only, and no shape model to add them to was found."
-            ),
             Self::Size { what, claimed, limit } => write!(
                 f,
                 "{what} claims {}; at most {} are read from this file.",
@@ -354,6 +368,11 @@ impl fmt::Display for Fault {
                 quantity_of_bytes(*limit)
             ),
             Self::Damaged { what, reason } => write!(f, "{what} cannot be read: {reason}."),
+            Self::Unreadable { reason } => write!(f, "The file cannot be read: {reason}."),
+            Self::NoPart { part, parts } => {
+                write!(f, "There is no part “{part}”, only {}.", parts.join(", "))
+            }
+            Self::Alone { format } => write!(f, "One {format} alone makes no model."),
             Self::Model(error) => write!(f, "{error}"),
             Self::Write { reason } => write!(f, "The model cannot be written: {reason}."),
         }

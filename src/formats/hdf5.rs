@@ -11,11 +11,13 @@
 
 use hdf5_pure::{
     AttrValue, DType, Dataset, Datatype, DatatypeByteOrder, Error, File, FormatError as Low,
-    Layout, VlenStringReadOptions,
+    Layout, Source, VlenStringReadOptions,
 };
+use std::sync::Arc;
 
 use super::array::{Array, Data, count_of, half_to_single, largest_array, trimmed};
 use super::error::{Fault, shape_text};
+use super::input::{Input, Storage};
 
 /// Longest text read from an attribute or a dataset, in bytes.
 const LONGEST_TEXT: usize = 1 << 20;
@@ -27,21 +29,36 @@ pub(super) struct Tree {
     length: usize,
 }
 
-/// Where the HDF5 signature stands: at 0, 512, 1024, 2048 …; `None` when this is no HDF5 file.
-pub(super) fn signature_offset(bytes: &[u8]) -> Option<usize> {
-    const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
-    core::iter::once(0)
-        .chain(core::iter::successors(Some(512_usize), |offset| offset.checked_mul(2)))
-        .take_while(|offset| *offset < bytes.len())
-        .find(|&offset| bytes[offset..].starts_with(SIGNATURE))
+/// The bytes of an [`Input`], as the HDF5 reader wants them: only what is asked for is read.
+#[derive(Debug)]
+struct Stored(Arc<dyn Storage>);
+
+impl Source for Stored {
+    fn len(&self) -> u64 {
+        self.0.len()
+    }
+
+    fn read_at(&self, offset: u64, buffer: &mut [u8]) -> Result<(), Low> {
+        let count = buffer.len();
+        let end = usize::try_from(offset).ok().and_then(|offset| offset.checked_add(count));
+        let length = usize::try_from(self.len()).unwrap_or(usize::MAX);
+        match end {
+            Some(end) if end <= length => self.0.read_at(offset, buffer).map_err(Low::Source),
+            _ => Err(Low::UnexpectedEof {
+                expected: end.unwrap_or(usize::MAX),
+                available: length,
+            }),
+        }
+    }
 }
 
 impl Tree {
-    /// Opens a file held in memory.
-    pub(super) fn open(bytes: &[u8]) -> Result<Self, Fault> {
-        match File::from_bytes(bytes.to_vec()) {
-            Ok(file) => Ok(Self { file, length: bytes.len() }),
-            Err(error) => Err(match fault_of(&error, "The file", bytes.len()) {
+    /// Opens a file; its arrays are read when they are asked for.
+    pub(super) fn open(input: &Input) -> Result<Self, Fault> {
+        let length = usize::try_from(input.len()).unwrap_or(usize::MAX);
+        match File::from_source(Stored(input.storage())) {
+            Ok(file) => Ok(Self { file, length }),
+            Err(error) => Err(match fault_of(&error, "The file", length) {
                 Fault::Truncated { needed, present, .. } => {
                     Fault::Truncated { what: "it".to_owned(), needed, present }
                 }

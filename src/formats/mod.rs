@@ -1,8 +1,12 @@
 //! Model files: sniffed by content, read into [`LinearModel`]s, and written.
 //!
-//! One file per format. [`open`] looks at the first bytes, never at the name, and hands the bytes
-//! to the format that knows them. A format turns its file into arrays and says what they are;
-//! `assemble` makes a model of them, the same way for all.
+//! One file per format. [`open`] looks at the content, never at the name, and hands the files to the
+//! format that knows them. A format turns its files into arrays and says what they are; `assemble`
+//! makes a model of them, the same way for all.
+//!
+//! People drop one file, a model with its companions, or the many meshes of a population: [`groups`]
+//! says which of the files belong together, and [`open`] makes one model of one group. A file of several
+//! models is read part by part, since one part may have hundreds of megabytes.
 //!
 //! **Limits.** At most 1 GiB is read into one array, and no more than a file of its size may
 //! reasonably unpack to.
@@ -11,72 +15,106 @@ mod array;
 mod assemble;
 mod cells;
 mod error;
+mod group;
 mod hdf5;
+mod input;
 mod npy;
 mod npz;
 mod numpy_model;
 mod ply;
+mod sniff;
 mod statismo;
 mod statismo_export;
 
 pub use array::{Array, Data};
 pub use error::{Fault, FormatError};
+pub use group::{Group, groups};
+pub use input::{Input, Storage};
 pub use npz::{read_arrays, write_arrays};
 pub use numpy_model::write_model as write_npz;
 pub use ply::write_mesh as write_ply;
 pub use statismo_export::write_model as write_statismo;
 
 use crate::model::{BasisCheck, LinearModel};
+use sniff::{Content, sniff};
 
-/// A file that was read.
+/// How to read what can be read in more than one way.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Options {
+    /// The part wanted of a file of several models; the one to show first when left out.
+    pub part: Option<String>,
+    /// Whether shapes of a set are also brought to one size before a model is made of them.
+    pub scale: bool,
+}
+
+/// One model that was read from a file or from several.
 #[derive(Debug, Clone)]
 pub struct Opened {
     /// The format, in words: "statismo HDF5 0.9".
     pub format: String,
-    /// The models in it, the one to show first in front; at least one.
-    pub parts: Vec<Part>,
+    /// Names of all models in it, the one to show first in front; at least one.
+    pub parts: Vec<String>,
+    /// The model that was read.
+    pub part: Part,
 }
 
 /// One model of a file.
 #[derive(Debug, Clone)]
 pub struct Part {
-    /// "shape", "expression", "color", or a group's name.
+    /// "shape", "expression", "color", or a group's name; one of [`Opened::parts`].
     pub name: String,
     /// The model; its name is the file's, with `#part` when the file holds several.
     pub model: LinearModel,
     /// What the thin SVD found.
     pub check: BasisCheck,
+    /// Where the model comes from.
+    pub origin: Origin,
+    /// For every point its number in a larger mesh, where the file says so: a crop's own index map.
+    pub map: Option<Vec<u32>>,
     /// What the reader should know, each one sentence.
     pub notes: Vec<String>,
 }
 
-/// Reads a model file. `name` is only used to name the model and in errors.
+/// Where a model comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "camelCase", tag = "kind")]
+pub enum Origin {
+    /// It was in the file.
+    #[default]
+    File,
+    /// Made here from shapes in correspondence.
+    Shapes {
+        /// How many shapes.
+        count: usize,
+        /// Whether they were brought to one size.
+        scaled: bool,
+    },
+    /// Made here from a sampled population of a neutral shape and its displacements.
+    Blendshapes {
+        /// How many displacements.
+        count: usize,
+        /// How many shapes were sampled.
+        sampled: usize,
+    },
+}
+
+/// Reads one model from files that belong together: usually one, else a group of [`groups`].
 ///
 /// # Errors
 /// [`FormatError`], which names the file, what was expected, what was found and what to do next.
-pub fn open(name: &str, bytes: &[u8]) -> Result<Opened, FormatError> {
-    if hdf5::signature_offset(bytes).is_some() {
-        return statismo::read(name, bytes);
+pub fn open(inputs: &[Input], options: &Options) -> Result<Opened, FormatError> {
+    match inputs {
+        [] => Err(Fault::Empty.of("nothing")),
+        [input] => open_one(input, options),
+        several => group::open(several, options),
     }
-    if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06") {
-        return numpy_model::read(name, bytes);
-    }
-    Err(unknown(bytes).of(name))
 }
 
-/// What a file is that no format knows.
-fn unknown(bytes: &[u8]) -> Fault {
-    const MOST_BYTES: usize = 8;
-    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(1024)]).to_lowercase();
-    let start = start.trim_start_matches('\u{feff}').trim_start();
-    if bytes.is_empty() {
-        Fault::Empty
-    } else if start.starts_with("<!doctype") || start.starts_with("<html") {
-        Fault::WebPage
-    } else if start.starts_with("version https://git-lfs") {
-        let size = start.lines().find_map(|line| line.strip_prefix("size ")?.trim().parse().ok());
-        Fault::LfsPointer { size }
-    } else {
-        Fault::Unknown { start: bytes[..bytes.len().min(MOST_BYTES)].to_vec() }
+/// Reads a file that stands alone.
+fn open_one(input: &Input, options: &Options) -> Result<Opened, FormatError> {
+    match sniff(input)? {
+        Content::Hdf5 => statismo::read(input, options),
+        Content::Zip => numpy_model::read(input, options),
+        other => Err(Fault::Alone { format: other.name() }.of(&input.name)),
     }
 }

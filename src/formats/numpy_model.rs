@@ -22,7 +22,8 @@ use super::assemble::{Ingredients, Named, Scaling, assemble, not_numbers};
 use super::cells::Habit;
 use super::error::Fault;
 use super::npz::{Archive, write_arrays};
-use super::{FormatError, Opened, Part};
+use super::input::Input;
+use super::{FormatError, Opened, Options, Origin, Part};
 use crate::model::{Cells, Kind, LinearModel, Unit};
 
 const MEANS: &[&str] = &[
@@ -65,9 +66,10 @@ const FACES: &[&str] = &["faces", "f", "tri", "triangles", "cells", "trilist", "
 const MOST_NAMES: usize = 20;
 
 /// Reads the model of an archive.
-pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Opened, FormatError> {
-    let part = read_part(file, bytes).map_err(|fault| fault.of(file))?;
-    Ok(Opened { format: "NumPy archive".to_owned(), parts: vec![part] })
+pub(super) fn read(input: &Input, _options: &Options) -> Result<Opened, FormatError> {
+    let bytes = input.bytes()?;
+    let part = read_part(input.file_name(), &bytes).map_err(|fault| fault.of(&input.name))?;
+    Ok(Opened { format: "NumPy archive".to_owned(), parts: vec![part.name.clone()], part })
 }
 
 fn read_part(file: &str, bytes: &[u8]) -> Result<Part, Fault> {
@@ -92,6 +94,7 @@ fn read_part(file: &str, bytes: &[u8]) -> Result<Part, Fault> {
     let cells = one_of(&mut archive, FACES)?.map(|faces| faces.array);
     let kind = match text(&mut archive, "kind")?.as_deref() {
         Some("color") => Kind::Color,
+        Some("displacement") => Kind::Displacement,
         _ => Kind::Shape,
     };
     let unit = text(&mut archive, "unit")?.and_then(|unit| Unit::from_symbol(&unit));
@@ -113,7 +116,8 @@ fn read_part(file: &str, bytes: &[u8]) -> Result<Part, Fault> {
         .with_unit(unit.unwrap_or_default())
         .with_name(name.unwrap_or_else(|| file.to_owned()));
     let name = if kind == Kind::Color { "color" } else { "shape" };
-    Ok(Part { name: name.to_owned(), model, check: assembled.check, notes })
+    let origin = Origin::File;
+    Ok(Part { name: name.to_owned(), model, check: assembled.check, origin, map: None, notes })
 }
 
 /// The first array that has one of the names; an error only when the one there is unreadable.
@@ -195,6 +199,7 @@ pub fn write_model(model: &LinearModel) -> Result<Vec<u8>, FormatError> {
     let kind = match model.kind() {
         Kind::Shape => "shape",
         Kind::Color => "color",
+        Kind::Displacement => "displacement",
     };
     let mut arrays = vec![
         ("mean", mean),

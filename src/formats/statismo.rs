@@ -29,12 +29,13 @@
 use nalgebra::DVector;
 
 use super::array::Array;
-use super::assemble::{Ingredients, Named, Scaling, assemble, not_numbers};
+use super::assemble::{Ingredients, Named, Scaling, assemble, mesh_of, not_numbers};
 use super::cells::Habit;
 use super::error::{Fault, short};
 use super::hdf5::Tree;
-use super::{FormatError, Opened, Part};
-use crate::model::{Cells, Kind, LinearModel, Unit};
+use super::input::Input;
+use super::{FormatError, Opened, Options, Origin, Part};
+use crate::model::{Cells, Kind, Unit};
 
 /// Names listed when there is no model.
 const MOST_NAMES: usize = 20;
@@ -55,68 +56,59 @@ enum Role {
     Color,
 }
 
-/// A part as it stands in the file.
+/// What the other parts of a file lie on: its shape part, without the modes.
 #[derive(Debug)]
-struct Found {
-    place: Place,
-    role: Role,
-    version: String,
+struct Base {
+    mean: DVector<f64>,
     unit: Unit,
-    ingredients: Ingredients,
-    notes: Vec<String>,
+    cells: Cells,
 }
 
-/// Reads all models of a file.
-pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Opened, FormatError> {
-    let tree = Tree::open(bytes).map_err(|fault| fault.of(file))?;
-    let places = places(&tree);
-    if places.is_empty() {
-        return Err(tree
-            .cut_off()
-            .unwrap_or_else(|| Fault::NoModel {
-                format: "HDF5 file",
-                contents: tree.contents(MOST_NAMES),
-            })
-            .of(file));
-    }
-    // Everything is read before anything is computed, so that the copy of the file is gone by then.
-    let found: Vec<_> =
-        places.into_iter().map(|place| (place.name.clone(), find(&tree, place))).collect();
-    let cut_off = tree.cut_off();
-    drop(tree);
-    let several = found.len() > 1;
-    let mut parts: Vec<Part> = Vec::new();
-    let mut version = None;
-    let mut left_out = Vec::new();
-    let mut first_fault = None;
-    for (part_name, found) in found {
-        let name = if several { format!("{file}#{part_name}") } else { file.to_owned() };
-        let part = found.and_then(|found| {
-            let stated = found.version.clone();
-            let part = finish(found, parts.first().map(|part| &part.model))?;
-            version.get_or_insert(stated);
-            Ok(part)
-        });
-        match part {
-            Ok(mut part) => {
-                part.model = part.model.with_name(name);
-                parts.push(part);
-            }
-            Err(fault) => {
-                left_out.push(format!("The part {part_name} was left out: {fault}"));
-                first_fault.get_or_insert(fault);
+/// Reads one model of a file: the part wanted, or the first that can be read.
+pub(super) fn read(input: &Input, options: &Options) -> Result<Opened, FormatError> {
+    let file = input.file_name();
+    let read = || -> Result<Opened, Fault> {
+        let tree = Tree::open(input)?;
+        let places = places(&tree);
+        if places.is_empty() {
+            return Err(tree.cut_off().unwrap_or_else(|| no_model(&tree)));
+        }
+        let parts: Vec<String> = places.iter().map(|place| place.name.clone()).collect();
+        let wanted = match &options.part {
+            None => 0..places.len(),
+            Some(part) => match parts.iter().position(|name| name == part) {
+                Some(index) => index..index + 1,
+                None => return Err(Fault::NoPart { part: part.clone(), parts }),
+            },
+        };
+        let mut left_out = Vec::new();
+        let mut first_fault = None;
+        for index in wanted {
+            let name = &parts[index];
+            match read_part(&tree, &places, index) {
+                Ok((mut part, version)) => {
+                    part.model = part.model.with_name(if parts.len() > 1 {
+                        format!("{file}#{name}")
+                    } else {
+                        file.to_owned()
+                    });
+                    part.notes.extend(tree.cut_off().map(|fault| fault.to_string()));
+                    part.notes.extend(left_out);
+                    return Ok(Opened { format: format!("statismo HDF5 {version}"), parts, part });
+                }
+                Err(fault) => {
+                    left_out.push(format!("The part {name} was left out: {fault}"));
+                    first_fault.get_or_insert(fault);
+                }
             }
         }
-    }
-    match (parts.first_mut(), first_fault) {
-        (None, Some(fault)) => return Err(fault.of(file)),
-        (Some(first), _) => {
-            first.notes.extend(cut_off.map(|fault| fault.to_string()));
-            first.notes.extend(left_out);
-        }
-        (None, None) => {}
-    }
-    Ok(Opened { format: format!("statismo HDF5 {}", version.unwrap_or_default()), parts })
+        Err(first_fault.unwrap_or_else(|| no_model(&tree)))
+    };
+    read().map_err(|fault| fault.of(&input.name))
+}
+
+fn no_model(tree: &Tree) -> Fault {
+    Fault::NoModel { format: "HDF5 file", contents: tree.contents(MOST_NAMES) }
 }
 
 /// The models of a file: those of the catalog, or those at the usual paths, or in any group.
@@ -176,18 +168,50 @@ fn role_of(tree: &Tree, place: &Place) -> Role {
     }
 }
 
-/// Reads the arrays of the model at `place`.
-fn find(tree: &Tree, place: Place) -> Result<Found, Fault> {
+/// Reads the model at one of the `places`, and the version that it states.
+fn read_part(tree: &Tree, places: &[Place], index: usize) -> Result<(Part, String), Fault> {
+    let place = &places[index];
     let at = |path: &str| format!("{}/{path}", place.path).trim_start_matches('/').to_owned();
-    let kind = tree.attribute(&at("representer"), "datasetType").unwrap_or_default();
-    if matches!(kind.as_str(), "IMAGE" | "VECTOR" | "CUSTOM") {
-        return Err(Fault::NotMesh { kind });
+    let dataset_type = tree.attribute(&at("representer"), "datasetType").unwrap_or_default();
+    if matches!(dataset_type.as_str(), "IMAGE" | "VECTOR" | "CUSTOM") {
+        return Err(Fault::NotMesh { kind: dataset_type });
     }
     let mut notes = Vec::new();
-    let (version, orthonormal) = version(tree, &place, &mut notes)?;
-    let role = role_of(tree, &place);
+    let (version, orthonormal) = version(tree, place, &mut notes)?;
+    let role = role_of(tree, place);
     let mean = required(tree, &at("model/mean"))?;
-    let basis = required(tree, &at("model/pcaBasis"))?;
+    let length = mean.array.data.len();
+    let drawing = drawing(tree, place, &mut notes);
+    let mut unit = unit_of(tree, &at("representer/length-unit"));
+    let mut kind = Kind::Shape;
+    let mut cells = drawing.cells;
+    let (mut displaced_from, mut borrowed) = (None, None);
+    if role != Role::Shape {
+        let base = base_of(tree, places, length);
+        match (role, &base) {
+            (Role::Color, _) => (kind, unit) = (Kind::Color, Unit::Unknown),
+            (_, Some(base)) => {
+                displaced_from = displaced(&mean.array, &base.mean);
+                unit = base.unit;
+            }
+            (_, None) => {
+                kind = Kind::Displacement;
+                notes.push(format!(
+                    "The part {} holds displacements without the shape model that they belong to.",
+                    place.name
+                ));
+            }
+        }
+        // All parts lie on one mesh; that of the shape part has been turned the right way round.
+        borrowed = base.map(|base| base.cells).filter(|cells| *cells != Cells::None);
+        if borrowed.is_some() {
+            cells = None;
+        }
+    }
+    if let Some(noise) = tree.number(&at("model/noiseVariance")).filter(|noise| *noise > 0.0) {
+        let noise = short(noise);
+        notes.push(format!("The file's noise variance of {noise} is not part of the model."));
+    }
     let scaling = match tree.array(&at("model/pcaVariance"))? {
         Some(array) => {
             let variances =
@@ -196,61 +220,58 @@ fn find(tree: &Tree, place: Place) -> Result<Found, Fault> {
         }
         None => Scaling::Unstated,
     };
-    // Cells are only for drawing: what of them cannot be read is said, and points are shown.
-    let cells = first_array(tree, &at("representer"), ["cells", "reference-mesh/triangle-list"])
-        .unwrap_or_else(|fault| {
-            notes.push(format!("The faces could not be read, points are shown instead. {fault}"));
-            None
-        });
-    if cells.is_none() && tree.has_array(&at("representer/reference")) {
-        notes.push(
-            "The mesh is embedded as a VTK file, which is not read; points are shown instead."
-                .to_owned(),
-        );
-    }
-    let places = ["points", "reference-mesh/vertex-coordinates"];
-    let points = first_array(tree, &at("representer"), places).ok().flatten();
-    if let Some(noise) = tree.number(&at("model/noiseVariance")).filter(|noise| *noise > 0.0) {
-        let noise = short(noise);
-        notes.push(format!("The file's noise variance of {noise} is not part of the model."));
-    }
-    let unit = unit_of(tree, &at("representer/length-unit"));
-    let kind = if role == Role::Color { Kind::Color } else { Kind::Shape };
-    let habit = Habit::CornersFirst;
-    let ingredients =
-        Ingredients { mean, basis, scaling, points, cells, habit, base: None, rows: None, kind };
-    Ok(Found { place, role, version, unit, ingredients, notes })
-}
-
-/// Makes a part of what was found; `shape` is the file's shape model, once it is there.
-fn finish(found: Found, shape: Option<&LinearModel>) -> Result<Part, Fault> {
-    let Found { place, role, mut unit, mut ingredients, mut notes, .. } = found;
-    let mut borrowed = None;
-    if role != Role::Shape {
-        let length = ingredients.mean.array.data.len();
-        let shape = shape.filter(|shape| shape.mean().len() == length);
-        if role == Role::Expression {
-            let Some(shape) = shape else {
-                return Err(Fault::Displacement { part: place.name });
-            };
-            ingredients.base = displaced(&ingredients.mean.array, shape);
-            unit = shape.unit();
-        } else {
-            unit = Unit::Unknown;
-        }
-        // All parts lie on one mesh; that of the shape part has been turned the right way round.
-        borrowed = shape.map(LinearModel::cells).filter(|cells| **cells != Cells::None).cloned();
-        if borrowed.is_some() {
-            ingredients.cells = None;
-        }
-    }
-    let assembled = assemble(ingredients)?;
+    let assembled = assemble(Ingredients {
+        mean,
+        basis: required(tree, &at("model/pcaBasis"))?,
+        scaling,
+        points: drawing.points,
+        cells,
+        habit: Habit::CornersFirst,
+        base: displaced_from,
+        rows: None,
+        kind,
+    })?;
     let mut model = assembled.model.with_unit(unit);
     if let Some(cells) = borrowed {
         model = model.with_cells(cells).map_err(Fault::Model)?;
     }
     notes.extend(assembled.notes);
-    Ok(Part { name: place.name, model, check: assembled.check, notes })
+    let (name, check, origin) = (place.name.clone(), assembled.check, Origin::File);
+    Ok((Part { name, model, check, origin, map: None, notes }, version))
+}
+
+/// What a representer says of drawing: only that, so what cannot be read is said, and points are shown.
+struct Drawing {
+    points: Option<Array>,
+    cells: Option<Array>,
+}
+
+fn drawing(tree: &Tree, place: &Place, notes: &mut Vec<String>) -> Drawing {
+    let representer = format!("{}/representer", place.path).trim_start_matches('/').to_owned();
+    let cells = first_array(tree, &representer, ["cells", "reference-mesh/triangle-list"])
+        .unwrap_or_else(|fault| {
+            notes.push(format!("The faces could not be read, points are shown instead. {fault}"));
+            None
+        });
+    if cells.is_none() && tree.has_array(&format!("{representer}/reference")) {
+        notes.push(
+            "The mesh is embedded as a VTK file, which is not read; points are shown instead."
+                .to_owned(),
+        );
+    }
+    let names = ["points", "reference-mesh/vertex-coordinates"];
+    Drawing { points: first_array(tree, &representer, names).ok().flatten(), cells }
+}
+
+/// The file's shape part, where it has as many points: what expressions and colours lie on.
+fn base_of(tree: &Tree, places: &[Place], length: usize) -> Option<Base> {
+    let place = places.iter().find(|place| role_of(tree, place) == Role::Shape)?;
+    let mean = required(tree, &format!("{}/model/mean", place.path)).ok()?;
+    let drawing = drawing(tree, place, &mut Vec::new());
+    let unit = unit_of(tree, &format!("{}/representer/length-unit", place.path));
+    let (mean, cells) =
+        mesh_of(mean, drawing.points, drawing.cells, Habit::CornersFirst).ok()?;
+    (mean.len() == length).then(|| Base { mean: DVector::from_vec(mean), unit, cells })
 }
 
 /// The version in words, and whether its modes are orthonormal.
@@ -287,14 +308,14 @@ fn version(tree: &Tree, place: &Place, notes: &mut Vec<String>) -> Result<(Strin
 fn required(tree: &Tree, path: &str) -> Result<Named, Fault> {
     match tree.array(path)? {
         Some(array) => Ok(Named { name: path.to_owned(), array }),
-        None => Err(Fault::NoModel { format: "HDF5 file", contents: tree.contents(MOST_NAMES) }),
+        None => Err(no_model(tree)),
     }
 }
 
 /// The shape mean to add to an expression's mean; `None` when that is already a whole shape.
-fn displaced(mean: &Array, shape: &LinearModel) -> Option<DVector<f64>> {
+fn displaced(mean: &Array, shape: &DVector<f64>) -> Option<DVector<f64>> {
     let squares: f64 = mean.clone().into_f64()?.iter().map(|value| value * value).sum();
-    (squares.sqrt() < 0.5 * shape.mean().norm()).then(|| shape.mean().clone())
+    (squares.sqrt() < 0.5 * shape.norm()).then(|| shape.clone())
 }
 
 /// The first of the arrays that is there.

@@ -55,6 +55,7 @@ fn file_of(model: &LinearModel) -> Result<Vec<u8>, Fault> {
     let name = match model.kind() {
         Kind::Shape => "itkStandardMeshRepresenter",
         Kind::Color => "gravis::MeshColorRepresenter",
+        Kind::Displacement => "gravis::MeshExpressionRepresenter",
     };
     for (key, value) in [
         ("name", name),

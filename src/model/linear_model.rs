@@ -20,6 +20,8 @@ pub enum Kind {
     Shape,
     /// Red, green and blue at each point.
     Color,
+    /// Displacements that belong to a mean shape which is not known yet.
+    Displacement,
 }
 
 /// The unit of length in which a shape model is written.

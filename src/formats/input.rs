@@ -1,0 +1,128 @@
+//! Files as they were dropped: a name and bytes, in memory or read from where they are on demand.
+//!
+//! A model of 300 MB needs only some of its bytes in memory at once. [`Storage`] is the seam: the
+//! command line reads a file on disk, the page a file that the browser holds, tests a list of bytes.
+
+use core::fmt;
+use std::sync::Arc;
+
+use super::FormatError;
+use super::error::Fault;
+
+/// Bytes that can be read from any place.
+pub trait Storage: fmt::Debug + Send + Sync {
+    /// Number of bytes.
+    fn len(&self) -> u64;
+
+    /// Fills `buffer` with the bytes from `offset` on.
+    ///
+    /// # Errors
+    /// A few words that say why the bytes cannot be had.
+    fn read_at(&self, offset: u64, buffer: &mut [u8]) -> Result<(), String>;
+
+    /// Whether there are no bytes.
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
+/// One file of a drop.
+#[derive(Debug, Clone)]
+pub struct Input {
+    /// The name, with the folders in which it was dropped: "female/017.ply".
+    pub name: String,
+    storage: Arc<dyn Storage>,
+}
+
+impl Input {
+    /// A file somewhere else.
+    pub fn new(name: impl Into<String>, storage: Arc<dyn Storage>) -> Self {
+        Self { name: name.into(), storage }
+    }
+
+    /// A file in memory.
+    pub fn of_bytes(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Self {
+        Self::new(name, Arc::new(Memory(bytes.into())))
+    }
+
+    /// The name without folders.
+    pub fn file_name(&self) -> &str {
+        self.name.rsplit('/').next().unwrap_or(&self.name)
+    }
+
+    /// Number of bytes.
+    pub fn len(&self) -> u64 {
+        self.storage.len()
+    }
+
+    /// Whether there are no bytes.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The first `most` bytes, or all if there are fewer.
+    ///
+    /// # Errors
+    /// [`Fault::Unreadable`].
+    pub(super) fn start(&self, most: usize) -> Result<Vec<u8>, FormatError> {
+        let length = usize::try_from(self.len()).unwrap_or(usize::MAX).min(most);
+        self.range(0, length)
+    }
+
+    /// All bytes.
+    ///
+    /// # Errors
+    /// [`Fault::Unreadable`], and [`Fault::Size`] beyond what one array may have.
+    pub(super) fn bytes(&self) -> Result<Vec<u8>, FormatError> {
+        const LIMIT: u64 = 1 << 30;
+        let claimed = self.len();
+        match usize::try_from(claimed) {
+            Ok(length) if claimed <= LIMIT => self.range(0, length),
+            _ => {
+                let what = "It".to_owned();
+                Err(Fault::Size { what, claimed, limit: LIMIT }.of(&self.name))
+            }
+        }
+    }
+
+    /// `length` bytes from `offset` on.
+    fn range(&self, offset: u64, length: usize) -> Result<Vec<u8>, FormatError> {
+        let mut bytes = Vec::new();
+        bytes.try_reserve_exact(length).map_err(|_| {
+            let (what, claimed) = ("It".to_owned(), length as u64);
+            Fault::Size { what, claimed, limit: claimed / 2 }.of(&self.name)
+        })?;
+        bytes.resize(length, 0);
+        self.storage
+            .read_at(offset, &mut bytes)
+            .map_err(|reason| Fault::Unreadable { reason }.of(&self.name))?;
+        Ok(bytes)
+    }
+
+    /// Where the bytes are.
+    pub(super) fn storage(&self) -> Arc<dyn Storage> {
+        Arc::clone(&self.storage)
+    }
+}
+
+/// Bytes in memory.
+struct Memory(Vec<u8>);
+
+impl fmt::Debug for Memory {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} bytes in memory", self.0.len())
+    }
+}
+
+impl Storage for Memory {
+    fn len(&self) -> u64 {
+        self.0.len() as u64
+    }
+
+    fn read_at(&self, offset: u64, buffer: &mut [u8]) -> Result<(), String> {
+        let start = usize::try_from(offset).map_err(|_| "it ends before".to_owned())?;
+        let bytes = start.checked_add(buffer.len()).and_then(|end| self.0.get(start..end));
+        buffer.copy_from_slice(bytes.ok_or("it ends before")?);
+        Ok(())
+    }
+}
