@@ -8,7 +8,7 @@ use super::input::Input;
 use super::{FormatError, Opened, Options};
 
 /// Files that make one model.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
 pub struct Group {
     /// What to call it: the file's name, or the folder's.
     pub name: String,
