@@ -71,12 +71,14 @@ test("aborting a run cancels it and still resolves with what was drawn", async (
 test("a model that nobody waits for any more is closed", async () => {
   const { client, worker } = begin();
   const controller = new AbortController();
-  const opening = client.open(controller.signal, "x.h5", new ArrayBuffer(1));
+  const files = [{ name: "x.h5", blob: new Blob(["x"]) }];
+  const opening = client.open(controller.signal, files, null, false, () => {});
   const { id } = worker().last();
   controller.abort();
-  const part = { model: 5, part: "shape", report: {} };
-  worker().say({ t: "opened", id, format: "f", parts: [part] } as unknown as FromEngine);
   await assert.rejects(opening, { name: "AbortError" });
+  const opened = { format: "f", parts: ["shape"], model: 5, part: "shape", report: {} };
+  worker().say({ t: "opened", id, ...opened } as unknown as FromEngine);
+  await Promise.resolve();
   assert.deepEqual(worker().last(), { t: "close", model: 5 });
   client.dispose();
 });

@@ -54,7 +54,14 @@ test("beside a model in space, one in the plane is not drawn as if it were in sp
     vertexSd: new Float32Array(3),
   });
   const geometry = { a: model(3), b: model(2) };
-  const scene: Scene = { geometry, shapes: {}, mode: "mean", dark: false, fadeRim: false };
+  const scene: Scene = {
+    geometry,
+    compared: null,
+    shapes: {},
+    mode: "mean",
+    dark: false,
+    fadeRim: false,
+  };
   const drawn = contentsOf(scene, ["a", "b"]).map(({ region }) => region);
   assert.deepEqual(drawn, ["a"]);
 });
