@@ -83,6 +83,20 @@ test("a model that nobody waits for any more is closed", async () => {
   client.dispose();
 });
 
+test("how far a file is read is told to whoever opens it", async () => {
+  const { client, worker } = begin();
+  const told: [number, number][] = [];
+  const files = [{ name: "x.h5", blob: new Blob(["x"]) }];
+  const opening = client.open(never(), files, "color", false, (...read) => told.push(read));
+  const { id } = worker().last();
+  worker().say({ t: "reading", id, bytes: 10, of: 40 });
+  worker().say({ t: "reading", id: id + 1, bytes: 20, of: 40 });
+  worker().say({ t: "opened", id, part: "color", model: 2 } as unknown as FromEngine);
+  assert.equal((await opening).part, "color");
+  assert.deepEqual(told, [[10, 40]]);
+  client.dispose();
+});
+
 test("after a panic every promise rejects and a new worker starts", async () => {
   const { client, worker, workers, events } = begin();
   const asked = client.region(never(), "b", 1, "1");

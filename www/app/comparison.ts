@@ -68,7 +68,11 @@ export function watchChoices(first: Stored | null): void {
     }
     // Two that cannot be compared are not tried: beside the models it says why, and what helps.
     const pair = inspected.value;
-    if (pair?.key !== pairKey.value || pair?.inspection.problem) return;
+    if (pair?.key !== pairKey.value) return;
+    if (pair?.inspection.problem) {
+      giveUp();
+      return;
+    }
     timer = setTimeout(() => void start(), SETTLE_MS);
   });
   onEngineRestart(() => {
@@ -169,6 +173,13 @@ export function cancel(): void {
 function forgetRun(): void {
   runController = null;
   run.value = null;
+}
+
+/** Ends a run of models that are no longer compared; what it drew is not waited for. */
+function giveUp(): void {
+  const controller = runController;
+  forgetRun();
+  controller?.abort();
 }
 
 function finish(done: Held, text: string, cancelled: boolean): void {

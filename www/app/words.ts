@@ -505,7 +505,7 @@ export function pairLine(found: Inspection, unit: string): string {
 export function alignmentWords(found: Inspection, unit: string): string | null {
   const { before, rigid, similarity } = found.meanDistance;
   const parts: string[] = [];
-  if (before !== null) parts.push(`${length(before, unit)} as they stand`);
+  if (before !== null) parts.push(`${length(before, unit)} apart as they stand`);
   if (rigid !== null) parts.push(`${length(rigid, unit)} aligned rigidly`);
   if (similarity !== null) parts.push(`${length(similarity, unit)} with scale`);
   return parts.length === 0 ? null : parts.join(", ");

@@ -26,8 +26,10 @@ export function App() {
         <div class="rail models">
           <ModelCard side="a" />
           <ModelCard side="b" />
-          {demo.value && <p class="privacy">{demo.value.note}</p>}
-          <p class="privacy">Drop files or folders anywhere. Your files stay on this computer.</p>
+          <p class="privacy">
+            {demo.value && `${demo.value.note} `}
+            Drop files or folders anywhere. Your files stay on this computer.
+          </p>
           <PairCard />
           <RunPanel />
           <SettingsPanel />

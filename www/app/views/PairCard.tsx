@@ -30,7 +30,6 @@ export function PairCard() {
       class="pair"
       aria-label="Comparable?"
       data-stale={inspected.value?.key !== pairKey.value}
-      data-problem={problem !== null}
     >
       {problem && (
         <div class="notice" role="alert" data-code={problem.code}>
@@ -136,7 +135,7 @@ function Facts({ found }: { found: Inspection }) {
       {apart && (
         <>
           <dt>means</dt>
-          <dd>{apart} apart</dd>
+          <dd>{apart}</dd>
         </>
       )}
     </dl>
@@ -175,7 +174,8 @@ function Controls({ found }: { found: Inspection }) {
         value={prepare.subsample === null ? "" : String(prepare.subsample)}
         standard=""
         placeholder="all"
-        suffix="points, evenly spread"
+        suffix="points"
+        help="Fewer points are compared faster; they are spread evenly over the shape."
         parse={(text) => (text.trim() === "" ? null : parseCount(text, ...SUBSAMPLE))}
         onChange={(subsample) => change({ prepare: { subsample } })}
         wrong="a whole number, or nothing for all"
