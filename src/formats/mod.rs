@@ -21,19 +21,17 @@ mod input;
 mod npy;
 mod npz;
 mod numpy_model;
-mod ply;
 mod sniff;
 mod statismo;
-mod statismo_export;
+mod tree;
+mod write;
 
 pub use array::{Array, Data};
 pub use error::{Fault, FormatError};
 pub use group::{Group, groups};
 pub use input::{Input, Storage};
 pub use npz::{read_arrays, write_arrays};
-pub use numpy_model::write_model as write_npz;
-pub use ply::write_mesh as write_ply;
-pub use statismo_export::write_model as write_statismo;
+pub use write::{write_npz, write_ply, write_statismo};
 
 use crate::model::{BasisCheck, LinearModel};
 use sniff::{Content, sniff};
