@@ -5,7 +5,7 @@
 
 use super::error::Fault;
 use super::input::Input;
-use super::{FormatError, Opened, Options};
+use super::{FormatError, Opened, Options, companions};
 
 /// Files that make one model.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
@@ -29,6 +29,9 @@ pub fn groups(inputs: &[Input]) -> Result<Vec<Group>, FormatError> {
 }
 
 /// Makes one model of several files.
-pub(super) fn open(inputs: &[Input], _options: &Options) -> Result<Opened, FormatError> {
+pub(super) fn open(inputs: &[Input], options: &Options) -> Result<Opened, FormatError> {
+    if let Some(opened) = companions::open(inputs, options) {
+        return opened;
+    }
     Err(Fault::Alone { format: "file" }.of(&inputs[0].name))
 }
