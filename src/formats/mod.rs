@@ -13,15 +13,19 @@
 
 mod array;
 mod assemble;
+mod blendshapes;
 mod cells;
+mod container;
 mod error;
 mod group;
 mod hdf5;
 mod input;
+mod mesh;
 mod npy;
 mod npz;
 mod numpy_model;
 mod ply;
+mod population;
 mod sniff;
 mod statismo;
 mod statismo_export;
@@ -103,18 +107,25 @@ pub enum Origin {
 /// # Errors
 /// [`FormatError`], which names the file, what was expected, what was found and what to do next.
 pub fn open(inputs: &[Input], options: &Options) -> Result<Opened, FormatError> {
+    open_within(inputs, options, 0)
+}
+
+/// The same, inside `depth` archives.
+fn open_within(inputs: &[Input], options: &Options, depth: u8) -> Result<Opened, FormatError> {
     match inputs {
         [] => Err(Fault::Empty.of("nothing")),
-        [input] => open_one(input, options),
-        several => group::open(several, options),
+        [input] => open_one(input, options, depth),
+        several => group::open(several, options, depth),
     }
 }
 
 /// Reads a file that stands alone.
-fn open_one(input: &Input, options: &Options) -> Result<Opened, FormatError> {
+fn open_one(input: &Input, options: &Options, depth: u8) -> Result<Opened, FormatError> {
     match sniff(input)? {
         Content::Hdf5 => statismo::read(input, options),
-        Content::Zip => numpy_model::read(input, options),
+        Content::Zip => container::open_zip(input, options, depth),
+        Content::Gzip => container::open_gzip(input, options, depth),
+        Content::Tps => population::read(core::slice::from_ref(input), options),
         other => Err(Fault::Alone { format: other.name() }.of(&input.name)),
     }
 }

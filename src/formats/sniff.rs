@@ -195,6 +195,12 @@ fn text_of(start: &[u8], length: u64) -> Option<Content> {
     if text.contains("shapeModel") || text.contains("clmtrackr") || text.contains("pModel") {
         return Some(Content::Clmtrackr);
     }
+    // The points of face alignment (`.pts`), and columns that say what they are.
+    let first_line = lines().next().unwrap_or_default().to_lowercase();
+    let is_pts = first_line.starts_with("version:") && text.contains("n_points:");
+    if is_pts || matches!(first_line.replace([' ', ';', '\t'], ",").as_str(), "x,y" | "x,y,z") {
+        return Some(Content::Numbers);
+    }
     let is_number = |word: &str| word.parse::<f64>().is_ok();
     let complete = if length > LOOKED_AT as u64 { lines().count().saturating_sub(1) } else { usize::MAX };
     let numeric = |line: &str| {
