@@ -161,6 +161,25 @@ pub enum Fault {
         /// What it is.
         format: &'static str,
     },
+    /// Modes of two kinds multiplied with one another: no linear model.
+    Bilinear {
+        /// Name of the array that shows it.
+        what: String,
+    },
+    /// An object of a Python class that is not an array.
+    PickleClass {
+        /// What needs it.
+        what: String,
+        /// The class, with its module.
+        class: String,
+    },
+    /// A pickle without the full stop at its end.
+    TruncatedPickle,
+    /// A single array without a name.
+    OneArray {
+        /// Its sides.
+        shape: Vec<u64>,
+    },
     /// The numbers make no model.
     Model(ModelError),
     /// The model cannot be written in this format.
@@ -201,6 +220,10 @@ impl FormatError {
             Fault::Unreadable { .. } => "unreadable",
             Fault::NoPart { .. } => "unknown-part",
             Fault::Alone { .. } => "companion",
+            Fault::Bilinear { .. } => "bilinear",
+            Fault::PickleClass { .. } => "pickle-class",
+            Fault::TruncatedPickle => "trunc",
+            Fault::OneArray { .. } => "nomodel",
             Fault::Model(error) => error.code(),
             Fault::Write { .. } => "write",
         }
@@ -259,6 +282,21 @@ impl FormatError {
             Fault::NoPart { .. } => "Choose one of the parts that the file has.",
             Fault::Alone { .. } => {
                 "Drop it together with the other files of its set: a population needs at least three shapes."
+            }
+            Fault::Bilinear { .. } => {
+                "Fix the expression or the identity, and save what is left as `mean` and `basis` with \
+                 `numpy.savez`."
+            }
+            Fault::PickleClass { .. } => {
+                "Save its arrays as plain numbers where that class is installed:\n\
+                 import numpy, pickle\n\
+                 model = pickle.load(open('model.pkl', 'rb'), encoding='latin1')\n\
+                 numpy.savez('model.npz', **{name: numpy.array(model[name]) for name in \
+                 ('v_template', 'shapedirs', 'f')})"
+            }
+            Fault::TruncatedPickle => "Download or copy the file again.",
+            Fault::OneArray { .. } => {
+                "Save mean and basis together: `numpy.savez('model.npz', mean=mean, basis=basis)`."
             }
             Fault::Model(error) => error.hint(),
             Fault::Write { .. } => "Export the model in the other format.",
@@ -373,6 +411,25 @@ impl fmt::Display for Fault {
                 write!(f, "There is no part “{part}”, only {}.", parts.join(", "))
             }
             Self::Alone { format } => write!(f, "One {format} alone makes no model."),
+            Self::Bilinear { what } => write!(
+                f,
+                "This is a bilinear model ({what}): identity and expression multiply one another, \
+                 and only linear models can be compared."
+            ),
+            Self::PickleClass { what, class } => write!(
+                f,
+                "{what} needs the Python class {class}; numbers were expected, and code in files is \
+                 never run."
+            ),
+            Self::TruncatedPickle => write!(
+                f,
+                "The file is cut off: a pickle ends with a full stop, this one does not."
+            ),
+            Self::OneArray { shape } => write!(
+                f,
+                "This is a single array ({}); a model needs a mean and a basis.",
+                shape_text(shape)
+            ),
             Self::Model(error) => write!(f, "{error}"),
             Self::Write { reason } => write!(f, "The model cannot be written: {reason}."),
         }

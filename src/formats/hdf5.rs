@@ -209,12 +209,27 @@ impl Tree {
 
     /// Names and shapes of the arrays of the file, at most `most`.
     pub(super) fn contents(&self, most: usize) -> Vec<String> {
+        let described = |(path, shape): (String, Result<Vec<u64>, Fault>)| match shape {
+            Ok(shape) => format!("{path} ({})", shape_text(&shape)),
+            Err(_) => path,
+        };
+        self.arrays(most).into_iter().map(described).collect()
+    }
+
+    /// Paths and sides of the arrays of the file, at most `most`.
+    pub(super) fn arrays(&self, most: usize) -> Vec<(String, Result<Vec<u64>, Fault>)> {
         let mut found = Vec::new();
         self.collect("", 0, most, &mut found);
         found
     }
 
-    fn collect(&self, path: &str, depth: usize, most: usize, found: &mut Vec<String>) {
+    fn collect(
+        &self,
+        path: &str,
+        depth: usize,
+        most: usize,
+        found: &mut Vec<(String, Result<Vec<u64>, Fault>)>,
+    ) {
         const DEEPEST: usize = 6;
         if depth > DEEPEST || found.len() >= most {
             return;
@@ -231,10 +246,8 @@ impl Tree {
             }
             let full = inside(&name);
             let shape = self.file.dataset(&full).and_then(|dataset| dataset.shape());
-            found.push(match shape {
-                Ok(shape) => format!("{full} ({})", shape_text(&shape)),
-                Err(_) => full,
-            });
+            let shape = shape.map_err(|error| fault_of(&error, &full, self.length));
+            found.push((full, shape));
         }
         for name in self.groups(path) {
             self.collect(&inside(&name), depth + 1, most, found);

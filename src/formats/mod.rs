@@ -18,9 +18,16 @@ mod error;
 mod group;
 mod hdf5;
 mod input;
+mod mat;
+mod mat4;
+mod mat5;
+mod mat73;
+mod named;
 mod npy;
 mod npz;
 mod numpy_model;
+mod pickle;
+mod pickle_arrays;
 mod ply;
 mod sniff;
 mod statismo;
@@ -113,8 +120,17 @@ pub fn open(inputs: &[Input], options: &Options) -> Result<Opened, FormatError> 
 /// Reads a file that stands alone.
 fn open_one(input: &Input, options: &Options) -> Result<Opened, FormatError> {
     match sniff(input)? {
-        Content::Hdf5 => statismo::read(input, options),
+        Content::Hdf5 => match statismo::read(input, options) {
+            Err(FormatError { fault: fault @ Fault::NoModel { .. }, .. }) => {
+                mat73::read(input, options, fault)
+            }
+            read => read,
+        },
+        Content::Mat5 => mat::read(input, options, mat5::index),
+        Content::Mat4 => mat::read(input, options, mat4::index),
         Content::Zip => numpy_model::read(input, options),
+        Content::Npy => numpy_model::read_npy(input, options),
+        Content::Pickle => pickle::read(input, options),
         other => Err(Fault::Alone { format: other.name() }.of(&input.name)),
     }
 }
