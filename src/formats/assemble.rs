@@ -231,11 +231,11 @@ fn columns(basis: Named, length: usize) -> Result<DMatrix<f64>, Fault> {
     let (modes, by_mode) = match *array.shape.as_slice() {
         [rows, modes] if rows == length => (modes, false),
         [modes, columns] if columns == length => (modes, true),
-        // Points have 2 or 3 coordinates: 3 modes of 12 points are no 3 points of 12 coordinates.
-        [points, dimension @ 2..=3, modes] if points.checked_mul(dimension) == Some(length) => {
+        // Points have few coordinates: 3 modes of 12 points are no 3 points of 12 coordinates.
+        [points, dimension @ 1..=3, modes] if points.checked_mul(dimension) == Some(length) => {
             (modes, false)
         }
-        [modes, points, dimension @ 2..=3] if points.checked_mul(dimension) == Some(length) => {
+        [modes, points, dimension @ 1..=3] if points.checked_mul(dimension) == Some(length) => {
             (modes, true)
         }
         [count] if length > 0 && count.is_multiple_of(length) => (count / length, false),

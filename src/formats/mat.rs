@@ -14,7 +14,7 @@ use flate2::read::ZlibDecoder;
 use super::array::{Array, Data, largest_array};
 use super::error::Fault;
 use super::input::{Input, Reader};
-use super::named::{self, Table};
+use super::named::{self, NamedArrays};
 use super::npy::{self, Header};
 use super::{FormatError, Opened, Options};
 
@@ -114,7 +114,7 @@ struct MatFile<'a> {
     limit: u64,
 }
 
-impl Table for MatFile<'_> {
+impl NamedArrays for MatFile<'_> {
     fn container(&self) -> &'static str {
         CONTAINER
     }

@@ -8,9 +8,10 @@
 
 use super::array::Array;
 use super::error::Fault;
-use super::hdf5::Tree;
+use super::hdf5::Hdf5;
 use super::input::Input;
-use super::named::{self, Table};
+use super::named::{self, NamedArrays};
+use super::tree::Tree;
 use super::{FormatError, Opened, Options, mat, npy};
 
 /// Reads a model; `no_model` is the fault when there is none in a file that is not MATLAB's.
@@ -21,7 +22,7 @@ pub(super) fn read(
 ) -> Result<Opened, FormatError> {
     let read = || -> Result<Opened, Fault> {
         let matlab = input.start(19).is_ok_and(|start| start == b"MATLAB 7.3 MAT-file");
-        let mut table = Hdf5Table::open(input, matlab)?;
+        let mut table = Hdf5Arrays::open(input, matlab)?;
         match named::read(&mut table, input.file_name(), options) {
             Err(Fault::NoModel { .. }) if !matlab => Err(no_model),
             read => read,
@@ -30,58 +31,62 @@ pub(super) fn read(
     read().map_err(|fault| fault.of(&input.name))
 }
 
-struct Hdf5Table {
-    tree: Tree,
-    /// Name, path, and sides of each array.
-    arrays: Vec<(String, String, Result<Vec<u64>, Fault>)>,
+struct Hdf5Arrays {
+    tree: Hdf5,
+    arrays: Vec<Entry>,
     matlab: bool,
 }
 
-impl Hdf5Table {
+/// One array.
+struct Entry {
+    name: String,
+    path: String,
+    shape: Result<Vec<u64>, Fault>,
+}
+
+impl Hdf5Arrays {
     fn open(input: &Input, matlab: bool) -> Result<Self, Fault> {
         /// Arrays looked at.
         const MOST: usize = 1000;
-        let tree = Tree::open(input)?;
-        let mut arrays: Vec<_> = tree
+        let tree = Hdf5::open(input)?;
+        let mut arrays: Vec<Entry> = tree
             .arrays(MOST)
             .into_iter()
             .filter(|(path, _)| !path.starts_with('#'))
-            .map(|(path, shape)| (path.replace('/', "."), path, shape))
+            .map(|(path, shape)| Entry { name: path.replace('/', "."), path, shape })
             .collect();
-        arrays.sort_by(|one, other| one.0.cmp(&other.0));
+        arrays.sort_by(|one, other| one.name.cmp(&other.name));
         if matlab {
-            for (_, _, shape) in &mut arrays {
-                if let Ok(shape) = shape {
-                    shape.reverse();
-                }
+            for shape in arrays.iter_mut().filter_map(|entry| entry.shape.as_mut().ok()) {
+                shape.reverse();
             }
         }
         Ok(Self { tree, arrays, matlab })
     }
 
-    fn find(&self, name: &str) -> Option<&(String, String, Result<Vec<u64>, Fault>)> {
-        let index = self.arrays.binary_search_by(|(own, ..)| own.as_str().cmp(name)).ok()?;
+    fn find(&self, name: &str) -> Option<&Entry> {
+        let index = self.arrays.binary_search_by(|entry| entry.name.as_str().cmp(name)).ok()?;
         self.arrays.get(index)
     }
 }
 
-impl Table for Hdf5Table {
+impl NamedArrays for Hdf5Arrays {
     fn container(&self) -> &'static str {
         if self.matlab { mat::CONTAINER } else { "HDF5 file" }
     }
 
     fn names(&self) -> Vec<String> {
-        self.arrays.iter().map(|(name, ..)| name.clone()).collect()
+        self.arrays.iter().map(|entry| entry.name.clone()).collect()
     }
 
     fn shape(&self, name: &str) -> Option<Result<Vec<u64>, Fault>> {
-        Some(self.find(name)?.2.clone())
+        Some(self.find(name)?.shape.clone())
     }
 
     fn read(&mut self, name: &str) -> Result<Array, Fault> {
         let absent = || super::assemble::not_numbers(name, "nothing");
-        let (_, path, _) = self.find(name).ok_or_else(absent)?;
-        let array = self.tree.array(path)?.ok_or_else(absent)?;
+        let entry = self.find(name).ok_or_else(absent)?;
+        let array = self.tree.array(&entry.path)?.ok_or_else(absent)?;
         Ok(if self.matlab { npy::transposed(array) } else { array })
     }
 

@@ -13,36 +13,53 @@
 
 mod array;
 mod assemble;
+mod blendshapes;
+mod bytes;
 mod cells;
+mod clmtrackr;
+mod companions;
+mod components;
+mod container;
+mod deep3d;
+mod eos;
 mod error;
 mod group;
 mod hdf5;
+mod hdf5_json;
 mod input;
+mod json;
 mod mat;
 mod mat4;
 mod mat5;
 mod mat73;
+mod mesh;
 mod named;
 mod npy;
 mod npz;
 mod numpy_model;
 mod pickle;
 mod pickle_arrays;
-mod ply;
+mod plain_json;
+mod point_pca;
+mod population;
+mod shapeworks;
 mod sniff;
 mod statismo;
-mod statismo_export;
+mod surrey;
+mod table;
+mod tree;
+mod write;
 
 pub use array::{Array, Data};
 pub use error::{Fault, FormatError};
 pub use group::{Group, groups};
 pub use input::{Input, Storage};
 pub use npz::{read_arrays, write_arrays};
-pub use numpy_model::write_model as write_npz;
-pub use ply::write_mesh as write_ply;
-pub use statismo_export::write_model as write_statismo;
+pub use write::{write_npz, write_ply, write_statismo};
 
 use crate::model::{BasisCheck, LinearModel};
+use hdf5_json::Hdf5Json;
+use json::Document;
 use sniff::{Content, sniff};
 
 /// How to read what can be read in more than one way.
@@ -110,15 +127,20 @@ pub enum Origin {
 /// # Errors
 /// [`FormatError`], which names the file, what was expected, what was found and what to do next.
 pub fn open(inputs: &[Input], options: &Options) -> Result<Opened, FormatError> {
+    open_within(inputs, options, 0)
+}
+
+/// The same, inside `depth` archives.
+fn open_within(inputs: &[Input], options: &Options, depth: u8) -> Result<Opened, FormatError> {
     match inputs {
         [] => Err(Fault::Empty.of("nothing")),
-        [input] => open_one(input, options),
-        several => group::open(several, options),
+        [input] => open_one(input, options, depth),
+        several => group::open(several, options, depth),
     }
 }
 
 /// Reads a file that stands alone.
-fn open_one(input: &Input, options: &Options) -> Result<Opened, FormatError> {
+fn open_one(input: &Input, options: &Options, depth: u8) -> Result<Opened, FormatError> {
     match sniff(input)? {
         Content::Hdf5 => match statismo::read(input, options) {
             Err(FormatError { fault: fault @ Fault::NoModel { .. }, .. }) => {
@@ -128,9 +150,44 @@ fn open_one(input: &Input, options: &Options) -> Result<Opened, FormatError> {
         },
         Content::Mat5 => mat::read(input, options, mat5::index),
         Content::Mat4 => mat::read(input, options, mat4::index),
-        Content::Zip => numpy_model::read(input, options),
         Content::Npy => numpy_model::read_npy(input, options),
         Content::Pickle => pickle::read(input, options),
+        Content::Json => open_json(input, options),
+        Content::Clmtrackr => clmtrackr::read(input, options),
+        Content::Eos => eos::read(input, options),
+        Content::Scm => surrey::read(input, options),
+        Content::PointPca => point_pca::read(input, options),
+        Content::Deep3d => Err(deep3d::alone().of(&input.name)),
+        Content::Zip => container::open_zip(input, options, depth),
+        Content::Gzip => container::open_gzip(input, options, depth),
+        Content::Tps => population::read(core::slice::from_ref(input), options),
         other => Err(Fault::Alone { format: other.name() }.of(&input.name)),
     }
+}
+
+/// Reads a JSON document; its members say of which format it is.
+fn open_json(input: &Input, options: &Options) -> Result<Opened, FormatError> {
+    let read = || -> Result<Opened, Fault> {
+        let document = Document::open(input)?;
+        if plain_json::knows(&document) {
+            plain_json::read(&document, input, options)
+        } else if shapeworks::knows(&document) {
+            shapeworks::read(&document, input, &[], options)
+        } else if clmtrackr::knows(&document) {
+            clmtrackr::read_json(&document, input, options)
+        } else if Hdf5Json::knows(&document) {
+            let tree = Hdf5Json::new(document)?;
+            statismo::read_tree(&tree, input, options).map_err(|error| error.fault)
+        } else {
+            Err(no_json_model(&document))
+        }
+    };
+    read().map_err(|fault| fault.of(&input.name))
+}
+
+/// The fault of a document without a model.
+fn no_json_model(document: &Document<'_>) -> Fault {
+    const MOST_NAMES: usize = 20;
+    let contents = document.names(&[]).take(MOST_NAMES).map(str::to_owned).collect();
+    Fault::NoModel { format: "JSON file", contents }
 }

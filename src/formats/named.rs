@@ -1,7 +1,7 @@
 //! Models as arrays under names, whatever the container: NumPy archives and dictionaries, MATLAB
 //! files, Python pickles, HDF5 trees.
 //!
-//! A container is a [`Table`]: names, the sides of what stands under them, and arrays that are read
+//! A container gives [`NamedArrays`]: names, the sides of what stands under them, and arrays that are read
 //! when they are asked for. A field in a group is a dotted name, `shp.mu`. Three steps recognise a
 //! model, first at the top, then in groups:
 //!
@@ -71,7 +71,7 @@ const MOST_GROUPS: usize = 100;
 const DEEPEST_GROUP: usize = 8;
 
 /// Arrays under names, read when they are asked for.
-pub(super) trait Table {
+pub(super) trait NamedArrays {
     /// What holds them: "NumPy archive".
     fn container(&self) -> &'static str;
 
@@ -335,7 +335,11 @@ const DEVIATIONS: &[&str] = &["std", "sigma", "sd", "standard_deviations", "shap
 const FACES: &[&str] = &["faces", "f", "tri", "triangles", "cells", "trilist", "tl"];
 
 /// Reads one model of a table: the part wanted, or the first that can be read.
-pub(super) fn read(table: &mut dyn Table, file: &str, options: &Options) -> Result<Opened, Fault> {
+pub(super) fn read(
+    table: &mut dyn NamedArrays,
+    file: &str,
+    options: &Options,
+) -> Result<Opened, Fault> {
     let layouts = layouts(table)?;
     let mut places = Vec::new();
     for layout in &layouts {
@@ -389,7 +393,7 @@ pub(super) fn read(table: &mut dyn Table, file: &str, options: &Options) -> Resu
 }
 
 /// The models of a table: at its top, else in its groups, those nearest to the top.
-fn layouts(table: &mut dyn Table) -> Result<Vec<Layout>, Fault> {
+fn layouts(table: &mut dyn NamedArrays) -> Result<Vec<Layout>, Fault> {
     if let Some(layout) = layout_in(table, "")? {
         return Ok(vec![layout]);
     }
@@ -419,7 +423,7 @@ fn layouts(table: &mut dyn Table) -> Result<Vec<Layout>, Fault> {
 }
 
 /// The model whose arrays have names that start with `prefix`.
-fn layout_in(table: &mut dyn Table, prefix: &str) -> Result<Option<Layout>, Fault> {
+fn layout_in(table: &mut dyn NamedArrays, prefix: &str) -> Result<Option<Layout>, Fault> {
     let has = |name: &str| table.shape(&format!("{prefix}{name}")).is_some();
     if has("shape_bm_core") {
         return Err(Fault::Bilinear { what: format!("{prefix}shape_bm_core") });
@@ -480,7 +484,7 @@ fn layout_in(table: &mut dyn Table, prefix: &str) -> Result<Option<Layout>, Faul
 }
 
 /// A model of SMPL's family, where joints or points say which.
-fn body_model(table: &dyn Table, prefix: &str) -> Option<Layout> {
+fn body_model(table: &dyn NamedArrays, prefix: &str) -> Option<Layout> {
     const IDENTITY: Recipe = Recipe::new("shape", &["v_template"], "shapedirs", Scale::Already);
     const SKELETAL: Recipe =
         Recipe::new("shape", &["skin_template_v"], "shapedirs", Scale::Already);
@@ -555,7 +559,7 @@ fn body_model(table: &dyn Table, prefix: &str) -> Option<Layout> {
     })
 }
 
-fn no_model(table: &dyn Table) -> Fault {
+fn no_model(table: &dyn NamedArrays) -> Fault {
     let described = |name: &String| match table.shape(name) {
         Some(Ok(shape)) => format!("{name} ({})", shape_text(&shape)),
         Some(Err(
@@ -573,7 +577,7 @@ fn no_model(table: &dyn Table) -> Fault {
 
 /// Reads one part, and the name that the file gives it.
 fn read_part(
-    table: &mut dyn Table,
+    table: &mut dyn NamedArrays,
     layout: &Layout,
     recipe: &Recipe,
 ) -> Result<(Part, Option<String>), Fault> {
@@ -693,7 +697,7 @@ fn darken(
 
 /// The arrays of one group.
 struct Source<'a> {
-    table: &'a mut dyn Table,
+    table: &'a mut dyn NamedArrays,
     prefix: &'a str,
 }
 

@@ -14,7 +14,7 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 use super::FormatError;
 use super::array::{Array, largest_array};
 use super::error::Fault;
-use super::named::Table;
+use super::named::NamedArrays;
 use super::npy::{self, Header, NpyError};
 
 /// An open archive: what its members hold, not yet unpacked.
@@ -51,7 +51,7 @@ impl<R: Read + Seek + Clone> Archive<R> {
     }
 }
 
-impl<R: Read + Seek> Table for Archive<R> {
+impl<R: Read + Seek> NamedArrays for Archive<R> {
     fn container(&self) -> &'static str {
         "NumPy archive"
     }

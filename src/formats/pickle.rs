@@ -153,7 +153,9 @@ impl<'a> Machine<'a> {
                     let damaged =
                         |reason: String| Fault::Damaged { what: "The pickle".to_owned(), reason };
                     return Err(match stop {
-                        Stop::End => Fault::TruncatedPickle,
+                        Stop::End => Fault::CutOff {
+                            detail: "a pickle ends with a full stop, this one does not".to_owned(),
+                        },
                         Stop::Short { needed, present } => {
                             Fault::Truncated { what: "an array".to_owned(), needed, present }
                         }
@@ -337,7 +339,7 @@ impl<'a> Machine<'a> {
                 self.pop()?;
                 self.push(Value::Opaque)?;
             }
-            0x82 | 0x83 | 0x84 => {
+            0x82..=0x84 => {
                 self.skip(1 << (instruction - 0x82))?;
                 self.push(Value::Opaque)?;
             }

@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 
 use super::array::{Array, Data, count_of, largest_array, trimmed};
 use super::error::Fault;
-use super::named::Table;
+use super::named::NamedArrays;
 use super::npy::{self, Header};
 use super::pickle::{Coding, Heap, Id, Span, Value};
 
@@ -464,7 +464,7 @@ impl<'a> Objects<'a> {
     }
 }
 
-impl Table for Objects<'_> {
+impl NamedArrays for Objects<'_> {
     fn container(&self) -> &'static str {
         self.container
     }

@@ -51,6 +51,8 @@ pub(super) enum Content {
     Scm,
     /// Point numbers, mean, basis and variances one after the other (point.pca).
     PointPca,
+    /// An expression basis of Deep3D, which lacks its standard deviations.
+    Deep3d,
 }
 
 impl Content {
@@ -74,6 +76,7 @@ impl Content {
             Self::Eos => "eos model",
             Self::Scm => "Surrey model",
             Self::PointPca => "point.pca model",
+            Self::Deep3d => "Deep3D expression basis",
         }
     }
 }
@@ -193,7 +196,10 @@ fn text_of(start: &[u8], length: u64) -> Option<Content> {
     }
     let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty());
     let upper = |line: &str| line.to_ascii_uppercase();
-    if lines().take(20).any(|line| upper(line).starts_with("LM=") || upper(line).starts_with("LM3=")) {
+    if lines()
+        .take(20)
+        .any(|line| upper(line).starts_with("LM=") || upper(line).starts_with("LM3="))
+    {
         return Some(Content::Tps);
     }
     let first_word = |line: &str| line.split_whitespace().next().unwrap_or_default().to_owned();
@@ -202,7 +208,17 @@ fn text_of(start: &[u8], length: u64) -> Option<Content> {
             line.starts_with('#')
                 || matches!(
                     first_word(line).as_str(),
-                    "v" | "vn" | "vt" | "vp" | "f" | "l" | "o" | "g" | "s" | "p" | "mtllib" | "usemtl"
+                    "v" | "vn"
+                        | "vt"
+                        | "vp"
+                        | "f"
+                        | "l"
+                        | "o"
+                        | "g"
+                        | "s"
+                        | "p"
+                        | "mtllib"
+                        | "usemtl"
                 )
                 || (length > LOOKED_AT as u64 && text.ends_with(line))
         })
@@ -212,8 +228,15 @@ fn text_of(start: &[u8], length: u64) -> Option<Content> {
     if text.contains("shapeModel") || text.contains("clmtrackr") || text.contains("pModel") {
         return Some(Content::Clmtrackr);
     }
+    // The points of face alignment (`.pts`), and columns that say what they are.
+    let first_line = lines().next().unwrap_or_default().to_lowercase();
+    let is_pts = first_line.starts_with("version:") && text.contains("n_points:");
+    if is_pts || matches!(first_line.replace([' ', ';', '\t'], ",").as_str(), "x,y" | "x,y,z") {
+        return Some(Content::Numbers);
+    }
     let is_number = |word: &str| word.parse::<f64>().is_ok();
-    let complete = if length > LOOKED_AT as u64 { lines().count().saturating_sub(1) } else { usize::MAX };
+    let complete =
+        if length > LOOKED_AT as u64 { lines().count().saturating_sub(1) } else { usize::MAX };
     let numeric = |line: &str| {
         line.starts_with('#')
             || line.split([' ', '\t', ',', ';']).filter(|word| !word.is_empty()).all(is_number)
@@ -223,8 +246,9 @@ fn text_of(start: &[u8], length: u64) -> Option<Content> {
         && lines().next().is_some_and(|line| {
             line.rsplit_once([' ', '\t', ',', ';']).is_some_and(|(whole, _)| numeric(whole))
         });
-    (one_cut_line || complete > 0 && lines().next().is_some() && lines().take(complete).all(numeric))
-        .then_some(Content::Numbers)
+    (one_cut_line
+        || complete > 0 && lines().next().is_some() && lines().take(complete).all(numeric))
+    .then_some(Content::Numbers)
 }
 
 /// Formats without a magic number, whose sizes must fit one another.
@@ -258,7 +282,7 @@ fn chain_of_sizes(start: &[u8], length: u64) -> Option<Content> {
     let fits = |rows: u64, columns: u64| {
         rows > 0 && rows.is_multiple_of(3) && columns == 1 && 4 * rows < length
     };
-    if (0..=4).contains(&first) && fits(second, third) || fits(first, second) {
+    if first < 16 && fits(second, third) || fits(first, second) {
         return Some(Content::Eos);
     }
     // eos: a bare list of blendshapes, with 64-bit counts.
@@ -281,7 +305,15 @@ fn chain_of_sizes(start: &[u8], length: u64) -> Option<Content> {
     if first > 0 && second > 0 && u128::from(length) == 8 + 8 * doubles {
         return Some(Content::PointPca);
     }
-    None
+    // Deep3D: q, then q + 1 times the numbers of a shape, of 4 bytes and of plausible size.
+    let plausible = |number: u64| {
+        let number = f32::from_bits(u32::try_from(number).unwrap_or(0));
+        number == 0.0 || (1e-20..1e9).contains(&number.abs())
+    };
+    let fits = (1..=1000).contains(&first) && (length - 4).is_multiple_of(12 * (first + 1));
+    let words = (start.len() / 4).min(100);
+    (fits && words > 3 && (1..words).all(|word| at(4 * word).is_some_and(plausible)))
+        .then_some(Content::Deep3d)
 }
 
 fn integer(bytes: &[u8], offset: usize) -> Option<u32> {
