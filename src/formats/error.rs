@@ -193,6 +193,39 @@ pub enum Fault {
         /// What they are.
         kinds: Vec<&'static str>,
     },
+    /// A model whose other files are missing.
+    Companion {
+        /// What is missing.
+        what: String,
+        /// The file or files that hold it.
+        expected: String,
+    },
+    /// NaN or the like where JSON has only numbers.
+    JsonNumber {
+        /// Where.
+        path: String,
+        /// What stands there.
+        found: String,
+    },
+    /// Text that ends too early.
+    TextEnds {
+        /// In what it ends.
+        what: String,
+    },
+    /// A version of another format that is not known.
+    OtherVersion {
+        /// The format.
+        format: &'static str,
+        /// The version of the file.
+        version: f64,
+        /// Which are known.
+        known: &'static str,
+    },
+    /// Blendshapes without the face that they displace.
+    NoFace {
+        /// How many.
+        count: usize,
+    },
     /// The numbers make no model.
     Model(ModelError),
     /// The model cannot be written in this format.
@@ -232,7 +265,6 @@ impl FormatError {
             Fault::Damaged { .. } => "damaged",
             Fault::Unreadable { .. } => "unreadable",
             Fault::NoPart { .. } => "unknown-part",
-            Fault::Alone { .. } => "companion",
             Fault::CutOff { .. } => "trunc",
             Fault::Strips => "strips",
             Fault::Correspondence { .. } => "corr",
@@ -241,6 +273,11 @@ impl FormatError {
             Fault::Nested => "nested",
             Fault::Spreadsheet => "spreadsheet",
             Fault::Mixed { .. } => "mixed",
+            Fault::Alone { .. } | Fault::Companion { .. } => "companion",
+            Fault::JsonNumber { .. } => "jsonnan",
+            Fault::TextEnds { .. } => "trunc",
+            Fault::OtherVersion { .. } => "version",
+            Fault::NoFace { .. } => "displacement",
             Fault::Model(error) => error.code(),
             Fault::Write { .. } => "write",
         }
@@ -249,9 +286,10 @@ impl FormatError {
     /// What to do next.
     pub fn hint(&self) -> &'static str {
         match &self.fault {
-            Fault::Empty | Fault::Truncated { .. } | Fault::TruncatedArchive => {
-                "Download or copy the file again."
-            }
+            Fault::Empty
+            | Fault::Truncated { .. }
+            | Fault::TruncatedArchive
+            | Fault::TextEnds { .. } => "Download or copy the file again.",
             Fault::WebPage => {
                 "Download the file itself: the page may need a login, or hold the direct link."
             }
@@ -314,6 +352,12 @@ impl FormatError {
             Fault::Mixed { .. } => {
                 "Drop the files of one model at a time, or the shapes of each set in a folder."
             }
+            Fault::Companion { .. } => "Choose or drop all files of the model together.",
+            Fault::JsonNumber { .. } => {
+                "Remove the NaN or infinite values, or load the file from which this one was converted."
+            }
+            Fault::OtherVersion { .. } => "Save the model in a version that is known.",
+            Fault::NoFace { .. } => "Load the whole model of which they are a part.",
             Fault::Model(error) => error.hint(),
             Fault::Write { .. } => "Export the model in the other format.",
         }
@@ -449,6 +493,21 @@ impl fmt::Display for Fault {
             Self::Mixed { kinds } => {
                 write!(f, "These files make no model together: {}.", kinds.join(", "))
             }
+            Self::Companion { what, expected } => {
+                write!(f, "The {what} are not in this file; they are expected in {expected}.")
+            }
+            Self::JsonNumber { path, found } => {
+                write!(f, "{found} at {path}: JSON has no such number.")
+            }
+            Self::TextEnds { what } => write!(f, "The file is cut off: it ends within {what}."),
+            Self::OtherVersion { format, version, known } => {
+                write!(f, "{format} version {version} is not known ({known}).")
+            }
+            Self::NoFace { count } => write!(
+                f,
+                "It holds {} without the face that they displace.",
+                counted(*count, "blendshape", "blendshapes")
+            ),
             Self::Model(error) => write!(f, "{error}"),
             Self::Write { reason } => write!(f, "The model cannot be written: {reason}."),
         }

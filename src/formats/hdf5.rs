@@ -18,13 +18,14 @@ use std::sync::Arc;
 use super::array::{Array, Data, count_of, half_to_single, largest_array, trimmed};
 use super::error::{Fault, shape_text};
 use super::input::{Input, Storage};
+use super::tree::Tree;
 
 /// Longest text read from an attribute or a dataset, in bytes.
 const LONGEST_TEXT: usize = 1 << 20;
 
 /// An open file.
 #[derive(Debug)]
-pub(super) struct Tree {
+pub(super) struct Hdf5 {
     file: File,
     length: usize,
 }
@@ -52,7 +53,7 @@ impl Source for Stored {
     }
 }
 
-impl Tree {
+impl Hdf5 {
     /// Opens a file; its arrays are read when they are asked for.
     pub(super) fn open(input: &Input) -> Result<Self, Fault> {
         let length = usize::try_from(input.len()).unwrap_or(usize::MAX);
@@ -65,28 +66,6 @@ impl Tree {
                 other => other,
             }),
         }
-    }
-
-    /// The array at `path`; `None` when there is none.
-    pub(super) fn array(&self, path: &str) -> Result<Option<Array>, Fault> {
-        let what = path.trim_matches('/');
-        let fault = |error: &Error| fault_of(error, what, self.length);
-        let dataset = match self.file.dataset(what) {
-            Ok(dataset) => dataset,
-            Err(error) if is_absent(&error) => return Ok(None),
-            Err(error) => return Err(self.cut_off().unwrap_or_else(|| fault(&error))),
-        };
-        let sides = dataset.shape().map_err(|error| fault(&error))?;
-        let count = self.checked_count(&dataset, what, &sides)?;
-        let data = self.values(&dataset, what)?;
-        if data.len() != count {
-            return Err(Fault::Damaged {
-                what: what.to_owned(),
-                reason: format!("{count} values were announced and {} are there", data.len()),
-            });
-        }
-        let shape = sides.iter().filter_map(|&side| usize::try_from(side).ok()).collect();
-        Ok(Some(Array { shape, data }))
     }
 
     /// The number of values that a dataset claims, once it is sure that the file can hold them.
@@ -172,48 +151,6 @@ impl Tree {
         })
     }
 
-    /// One number at `path`, a scalar or the first of a list.
-    pub(super) fn number(&self, path: &str) -> Option<f64> {
-        self.array(path).ok().flatten()?.first_number()
-    }
-
-    /// One text at `path`, a scalar or the first of a list.
-    pub(super) fn text(&self, path: &str) -> Option<String> {
-        self.array(path).ok().flatten()?.first_text()
-    }
-
-    /// A text attribute of a group.
-    pub(super) fn attribute(&self, group: &str, name: &str) -> Option<String> {
-        let group = self.file.group(group.trim_matches('/')).ok()?;
-        let attributes = group.attrs().ok()?;
-        attributes.get(name).and_then(AttrValue::as_strings)?.first().map(|text| trimmed(text))
-    }
-
-    /// Whether there is a dataset at `path`, even if it turns out to be damaged. In a file that is
-    /// cut off only what can be opened counts: there every path fails in some way.
-    pub(super) fn has_array(&self, path: &str) -> bool {
-        match self.file.dataset(path.trim_matches('/')) {
-            Ok(_) => true,
-            Err(error) => !is_absent(&error) && self.cut_off().is_none(),
-        }
-    }
-
-    /// Names of the groups in a group; empty when they cannot be listed.
-    pub(super) fn groups(&self, path: &str) -> Vec<String> {
-        let path = path.trim_matches('/');
-        let group = if path.is_empty() { Ok(self.file.root()) } else { self.file.group(path) };
-        let mut names = group.and_then(|group| group.groups()).unwrap_or_default();
-        names.sort();
-        names
-    }
-
-    /// Names and shapes of the arrays of the file, at most `most`.
-    pub(super) fn contents(&self, most: usize) -> Vec<String> {
-        let mut found = Vec::new();
-        self.collect("", 0, most, &mut found);
-        found
-    }
-
     fn collect(&self, path: &str, depth: usize, most: usize, found: &mut Vec<String>) {
         const DEEPEST: usize = 6;
         if depth > DEEPEST || found.len() >= most {
@@ -240,9 +177,63 @@ impl Tree {
             self.collect(&inside(&name), depth + 1, most, found);
         }
     }
+}
 
-    /// The fault of a file that is shorter than its own header says, if it is.
-    pub(super) fn cut_off(&self) -> Option<Fault> {
+impl Tree for Hdf5 {
+    fn format(&self) -> &'static str {
+        "HDF5 file"
+    }
+
+    fn array(&self, path: &str) -> Result<Option<Array>, Fault> {
+        let what = path.trim_matches('/');
+        let fault = |error: &Error| fault_of(error, what, self.length);
+        let dataset = match self.file.dataset(what) {
+            Ok(dataset) => dataset,
+            Err(error) if is_absent(&error) => return Ok(None),
+            Err(error) => return Err(self.cut_off().unwrap_or_else(|| fault(&error))),
+        };
+        let sides = dataset.shape().map_err(|error| fault(&error))?;
+        let count = self.checked_count(&dataset, what, &sides)?;
+        let data = self.values(&dataset, what)?;
+        if data.len() != count {
+            return Err(Fault::Damaged {
+                what: what.to_owned(),
+                reason: format!("{count} values were announced and {} are there", data.len()),
+            });
+        }
+        let shape = sides.iter().filter_map(|&side| usize::try_from(side).ok()).collect();
+        Ok(Some(Array { shape, data }))
+    }
+
+    // In a file that is cut off only what can be opened counts: there every path fails in some way.
+    fn has_array(&self, path: &str) -> bool {
+        match self.file.dataset(path.trim_matches('/')) {
+            Ok(_) => true,
+            Err(error) => !is_absent(&error) && self.cut_off().is_none(),
+        }
+    }
+
+    fn attribute(&self, group: &str, name: &str) -> Option<String> {
+        let group = self.file.group(group.trim_matches('/')).ok()?;
+        let attributes = group.attrs().ok()?;
+        attributes.get(name).and_then(AttrValue::as_strings)?.first().map(|text| trimmed(text))
+    }
+
+    fn groups(&self, path: &str) -> Vec<String> {
+        let path = path.trim_matches('/');
+        let group = if path.is_empty() { Ok(self.file.root()) } else { self.file.group(path) };
+        let mut names = group.and_then(|group| group.groups()).unwrap_or_default();
+        names.sort();
+        names
+    }
+
+    fn contents(&self, most: usize) -> Vec<String> {
+        let mut found = Vec::new();
+        self.collect("", 0, most, &mut found);
+        found
+    }
+
+    fn cut_off(&self) -> Option<Fault> {
         let needed = self.file.superblock().eof_address;
         let present = self.length as u64;
         (needed > present).then(|| Fault::Truncated { what: "it".to_owned(), needed, present })

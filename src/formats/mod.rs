@@ -14,32 +14,45 @@
 mod array;
 mod assemble;
 mod blendshapes;
+mod bytes;
 mod cells;
+mod clmtrackr;
+mod companions;
+mod components;
 mod container;
+mod deep3d;
+mod eos;
 mod error;
 mod group;
 mod hdf5;
+mod hdf5_json;
 mod input;
+mod json;
 mod mesh;
 mod npy;
 mod npz;
 mod numpy_model;
-mod ply;
+mod plain_json;
+mod point_pca;
 mod population;
+mod shapeworks;
 mod sniff;
 mod statismo;
-mod statismo_export;
+mod surrey;
+mod table;
+mod tree;
+mod write;
 
 pub use array::{Array, Data};
 pub use error::{Fault, FormatError};
 pub use group::{Group, groups};
 pub use input::{Input, Storage};
 pub use npz::{read_arrays, write_arrays};
-pub use numpy_model::write_model as write_npz;
-pub use ply::write_mesh as write_ply;
-pub use statismo_export::write_model as write_statismo;
+pub use write::{write_npz, write_ply, write_statismo};
 
 use crate::model::{BasisCheck, LinearModel};
+use hdf5_json::Hdf5Json;
+use json::Document;
 use sniff::{Content, sniff};
 
 /// How to read what can be read in more than one way.
@@ -126,6 +139,39 @@ fn open_one(input: &Input, options: &Options, depth: u8) -> Result<Opened, Forma
         Content::Zip => container::open_zip(input, options, depth),
         Content::Gzip => container::open_gzip(input, options, depth),
         Content::Tps => population::read(core::slice::from_ref(input), options),
+        Content::Json => open_json(input, options),
+        Content::Clmtrackr => clmtrackr::read(input, options),
+        Content::Eos => eos::read(input, options),
+        Content::Scm => surrey::read(input, options),
+        Content::PointPca => point_pca::read(input, options),
+        Content::Deep3d => Err(deep3d::alone().of(&input.name)),
         other => Err(Fault::Alone { format: other.name() }.of(&input.name)),
     }
+}
+
+/// Reads a JSON document; its members say of which format it is.
+fn open_json(input: &Input, options: &Options) -> Result<Opened, FormatError> {
+    let read = || -> Result<Opened, Fault> {
+        let document = Document::open(input)?;
+        if plain_json::knows(&document) {
+            plain_json::read(&document, input, options)
+        } else if shapeworks::knows(&document) {
+            shapeworks::read(&document, input, &[], options)
+        } else if clmtrackr::knows(&document) {
+            clmtrackr::read_json(&document, input, options)
+        } else if Hdf5Json::knows(&document) {
+            let tree = Hdf5Json::new(document)?;
+            statismo::read_tree(&tree, input, options).map_err(|error| error.fault)
+        } else {
+            Err(no_json_model(&document))
+        }
+    };
+    read().map_err(|fault| fault.of(&input.name))
+}
+
+/// The fault of a document without a model.
+fn no_json_model(document: &Document<'_>) -> Fault {
+    const MOST_NAMES: usize = 20;
+    let contents = document.names(&[]).take(MOST_NAMES).map(str::to_owned).collect();
+    Fault::NoModel { format: "JSON file", contents }
 }

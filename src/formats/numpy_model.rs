@@ -21,10 +21,10 @@ use super::array::{Array, Data};
 use super::assemble::{Ingredients, Named, Scaling, assemble, not_numbers};
 use super::cells::Habit;
 use super::error::Fault;
-use super::npz::{Archive, write_arrays};
 use super::input::Input;
+use super::npz::Archive;
 use super::{FormatError, Opened, Options, Origin, Part};
-use crate::model::{Cells, Kind, LinearModel, Unit};
+use crate::model::{Kind, Unit};
 
 const MEANS: &[&str] = &[
     "mean",
@@ -180,44 +180,4 @@ fn text(archive: &mut Archive<'_>, name: &str) -> Result<Option<String>, Fault> 
         return Ok(None);
     }
     Ok(archive.array(name)?.and_then(|array| array.first_text()))
-}
-
-/// Writes a model as a NumPy archive: `mean` (n × d), orthonormal `basis` (D × q), `eigenvalues` (q),
-/// `faces` (m × k), `unit`, `name` and `kind`, numbers in double precision.
-///
-/// # Errors
-/// None at present; the signature is that of every writer.
-pub fn write_model(model: &LinearModel) -> Result<Vec<u8>, FormatError> {
-    let (length, modes) = (model.mean().len(), model.mode_count());
-    let mut basis = Vec::with_capacity(length * modes);
-    for row in 0..length {
-        basis.extend(model.basis().row(row).iter());
-    }
-    let variances = model.standard_deviations().iter().map(|value| value * value).collect();
-    let shape = vec![model.point_count(), model.dimension()];
-    let mean = Array { shape, data: Data::F64(model.mean().as_slice().to_vec()) };
-    let kind = match model.kind() {
-        Kind::Shape => "shape",
-        Kind::Color => "color",
-        Kind::Displacement => "displacement",
-    };
-    let mut arrays = vec![
-        ("mean", mean),
-        ("basis", Array { shape: vec![length, modes], data: Data::F64(basis) }),
-        ("eigenvalues", Array::list(variances)),
-        ("unit", Array::text(model.unit().symbol())),
-        ("name", Array::text(model.name())),
-        ("kind", Array::text(kind)),
-    ];
-    match model.cells() {
-        Cells::None => {}
-        Cells::Segments(segments) => arrays.push(("faces", faces(segments))),
-        Cells::Triangles(triangles) => arrays.push(("faces", faces(triangles))),
-    }
-    Ok(write_arrays(&arrays))
-}
-
-fn faces<const K: usize>(cells: &[[u32; K]]) -> Array {
-    let indices = cells.iter().flatten().map(|&index| i64::from(index)).collect();
-    Array { shape: vec![cells.len(), K], data: Data::I64(indices) }
 }

@@ -51,6 +51,8 @@ pub(super) enum Content {
     Scm,
     /// Point numbers, mean, basis and variances one after the other (point.pca).
     PointPca,
+    /// An expression basis of Deep3D, which lacks its standard deviations.
+    Deep3d,
 }
 
 impl Content {
@@ -74,6 +76,7 @@ impl Content {
             Self::Eos => "eos model",
             Self::Scm => "Surrey model",
             Self::PointPca => "point.pca model",
+            Self::Deep3d => "Deep3D expression basis",
         }
     }
 }
@@ -220,11 +223,16 @@ fn text_of(start: &[u8], length: u64) -> Option<Content> {
 fn chain_of_sizes(start: &[u8], length: u64) -> Option<Content> {
     let at = |offset: usize| integer(start, offset).map(u64::from);
     let [first, second, third] = [at(0)?, at(4)?, at(8)?];
+    // point.pca: D, q, then D·q + D + q numbers of 8 bytes.
+    let doubles = u128::from(first) * u128::from(second) + u128::from(first + second);
+    if first > 0 && second > 0 && u128::from(length) == 8 + 8 * doubles {
+        return Some(Content::PointPca);
+    }
     // eos: version, rows D and the single column of the mean; or a bare PCA model without version.
     let fits = |rows: u64, columns: u64| {
         rows > 0 && rows.is_multiple_of(3) && columns == 1 && 4 * rows < length
     };
-    if (0..=4).contains(&first) && fits(second, third) || fits(first, second) {
+    if first < 16 && fits(second, third) || fits(first, second) {
         return Some(Content::Eos);
     }
     // eos: a bare list of blendshapes, with 64-bit counts.
@@ -241,11 +249,6 @@ fn chain_of_sizes(start: &[u8], length: u64) -> Option<Content> {
         if corners {
             return Some(Content::Scm);
         }
-    }
-    // point.pca: D, q, then D·q + D + q numbers of 8 bytes.
-    let doubles = u128::from(first) * u128::from(second) + u128::from(first + second);
-    if first > 0 && second > 0 && u128::from(length) == 8 + 8 * doubles {
-        return Some(Content::PointPca);
     }
     // MAT v4: type, rows, columns, whether complex, length of the name, then the name and its NUL.
     let [complex, name_length] = [at(12)?, at(16)?];
@@ -269,7 +272,15 @@ fn chain_of_sizes(start: &[u8], length: u64) -> Option<Content> {
     {
         return Some(Content::Mat4);
     }
-    None
+    // Deep3D: q, then q + 1 times the numbers of a shape, of 4 bytes and of plausible size.
+    let plausible = |number: u64| {
+        let number = f32::from_bits(u32::try_from(number).unwrap_or(0));
+        number == 0.0 || (1e-20..1e9).contains(&number.abs())
+    };
+    let fits = (1..=1000).contains(&first) && (length - 4).is_multiple_of(12 * (first + 1));
+    let words = (start.len() / 4).min(100);
+    (fits && words > 3 && (1..words).all(|word| at(4 * word).is_some_and(plausible)))
+        .then_some(Content::Deep3d)
 }
 
 fn integer(bytes: &[u8], offset: usize) -> Option<u32> {

@@ -1,6 +1,6 @@
 //! statismo and Scalismo HDF5 models, and the Basel face models in the same layout.
 //!
-//! A model is a tree below `/` or below a group:
+//! A model is a tree below `/` or below a group, in HDF5 or in its written-out form, HDF5-JSON:
 //!
 //! | path | holds |
 //! |---|---|
@@ -32,8 +32,9 @@ use super::array::Array;
 use super::assemble::{Ingredients, Named, Scaling, assemble, mesh_of, not_numbers};
 use super::cells::Habit;
 use super::error::{Fault, short};
-use super::hdf5::Tree;
+use super::hdf5::Hdf5;
 use super::input::Input;
+use super::tree::Tree;
 use super::{FormatError, Opened, Options, Origin, Part};
 use crate::model::{Cells, Kind, Unit};
 
@@ -64,14 +65,23 @@ struct Base {
     cells: Cells,
 }
 
-/// Reads one model of a file: the part wanted, or the first that can be read.
+/// Reads one model of an HDF5 file: the part wanted, or the first that can be read.
 pub(super) fn read(input: &Input, options: &Options) -> Result<Opened, FormatError> {
+    let tree = Hdf5::open(input).map_err(|fault| fault.of(&input.name))?;
+    read_tree(&tree, input, options)
+}
+
+/// Reads one model of the tree in a file.
+pub(super) fn read_tree(
+    tree: &dyn Tree,
+    input: &Input,
+    options: &Options,
+) -> Result<Opened, FormatError> {
     let file = input.file_name();
     let read = || -> Result<Opened, Fault> {
-        let tree = Tree::open(input)?;
-        let places = places(&tree);
+        let places = places(tree);
         if places.is_empty() {
-            return Err(tree.cut_off().unwrap_or_else(|| no_model(&tree)));
+            return Err(tree.cut_off().unwrap_or_else(|| no_model(tree)));
         }
         let parts: Vec<String> = places.iter().map(|place| place.name.clone()).collect();
         let wanted = match &options.part {
@@ -85,7 +95,7 @@ pub(super) fn read(input: &Input, options: &Options) -> Result<Opened, FormatErr
         let mut first_fault = None;
         for index in wanted {
             let name = &parts[index];
-            match read_part(&tree, &places, index) {
+            match read_part(tree, &places, index) {
                 Ok((mut part, version)) => {
                     part.model = part.model.with_name(if parts.len() > 1 {
                         format!("{file}#{name}")
@@ -94,7 +104,12 @@ pub(super) fn read(input: &Input, options: &Options) -> Result<Opened, FormatErr
                     });
                     part.notes.extend(tree.cut_off().map(|fault| fault.to_string()));
                     part.notes.extend(left_out);
-                    return Ok(Opened { format: format!("statismo HDF5 {version}"), parts, part });
+                    let format = tree.format().trim_end_matches(" file");
+                    return Ok(Opened {
+                        format: format!("statismo {format} {version}"),
+                        parts,
+                        part,
+                    });
                 }
                 Err(fault) => {
                     left_out.push(format!("The part {name} was left out: {fault}"));
@@ -102,17 +117,17 @@ pub(super) fn read(input: &Input, options: &Options) -> Result<Opened, FormatErr
                 }
             }
         }
-        Err(first_fault.unwrap_or_else(|| no_model(&tree)))
+        Err(first_fault.unwrap_or_else(|| no_model(tree)))
     };
     read().map_err(|fault| fault.of(&input.name))
 }
 
-fn no_model(tree: &Tree) -> Fault {
-    Fault::NoModel { format: "HDF5 file", contents: tree.contents(MOST_NAMES) }
+fn no_model(tree: &dyn Tree) -> Fault {
+    Fault::NoModel { format: tree.format(), contents: tree.contents(MOST_NAMES) }
 }
 
 /// The models of a file: those of the catalog, or those at the usual paths, or in any group.
-fn places(tree: &Tree) -> Vec<Place> {
+fn places(tree: &dyn Tree) -> Vec<Place> {
     let holds_model = |path: &str| {
         tree.has_array(&format!("{path}/model/mean"))
             && tree.has_array(&format!("{path}/model/pcaBasis"))
@@ -147,7 +162,7 @@ fn places(tree: &Tree) -> Vec<Place> {
     places
 }
 
-fn role_of(tree: &Tree, place: &Place) -> Role {
+fn role_of(tree: &dyn Tree, place: &Place) -> Role {
     let representer = format!("{}/representer", place.path);
     let words = format!(
         "{} {}",
@@ -169,7 +184,7 @@ fn role_of(tree: &Tree, place: &Place) -> Role {
 }
 
 /// Reads the model at one of the `places`, and the version that it states.
-fn read_part(tree: &Tree, places: &[Place], index: usize) -> Result<(Part, String), Fault> {
+fn read_part(tree: &dyn Tree, places: &[Place], index: usize) -> Result<(Part, String), Fault> {
     let place = &places[index];
     let at = |path: &str| format!("{}/{path}", place.path).trim_start_matches('/').to_owned();
     let dataset_type = tree.attribute(&at("representer"), "datasetType").unwrap_or_default();
@@ -246,7 +261,7 @@ struct Drawing {
     cells: Option<Array>,
 }
 
-fn drawing(tree: &Tree, place: &Place, notes: &mut Vec<String>) -> Drawing {
+fn drawing(tree: &dyn Tree, place: &Place, notes: &mut Vec<String>) -> Drawing {
     let representer = format!("{}/representer", place.path).trim_start_matches('/').to_owned();
     let cells = first_array(tree, &representer, ["cells", "reference-mesh/triangle-list"])
         .unwrap_or_else(|fault| {
@@ -264,18 +279,21 @@ fn drawing(tree: &Tree, place: &Place, notes: &mut Vec<String>) -> Drawing {
 }
 
 /// The file's shape part, where it has as many points: what expressions and colours lie on.
-fn base_of(tree: &Tree, places: &[Place], length: usize) -> Option<Base> {
+fn base_of(tree: &dyn Tree, places: &[Place], length: usize) -> Option<Base> {
     let place = places.iter().find(|place| role_of(tree, place) == Role::Shape)?;
     let mean = required(tree, &format!("{}/model/mean", place.path)).ok()?;
     let drawing = drawing(tree, place, &mut Vec::new());
     let unit = unit_of(tree, &format!("{}/representer/length-unit", place.path));
-    let (mean, cells) =
-        mesh_of(mean, drawing.points, drawing.cells, Habit::CornersFirst).ok()?;
+    let (mean, cells) = mesh_of(mean, drawing.points, drawing.cells, Habit::CornersFirst).ok()?;
     (mean.len() == length).then(|| Base { mean: DVector::from_vec(mean), unit, cells })
 }
 
 /// The version in words, and whether its modes are orthonormal.
-fn version(tree: &Tree, place: &Place, notes: &mut Vec<String>) -> Result<(String, bool), Fault> {
+fn version(
+    tree: &dyn Tree,
+    place: &Place,
+    notes: &mut Vec<String>,
+) -> Result<(String, bool), Fault> {
     let number = |group: &str, name: &str| -> Result<Option<i64>, Fault> {
         let found = tree.array(&format!("{group}/version/{name}"))?;
         Ok(found.and_then(|array| array.to_integers()?.first().copied()))
@@ -305,7 +323,7 @@ fn version(tree: &Tree, place: &Place, notes: &mut Vec<String>) -> Result<(Strin
     }
 }
 
-fn required(tree: &Tree, path: &str) -> Result<Named, Fault> {
+fn required(tree: &dyn Tree, path: &str) -> Result<Named, Fault> {
     match tree.array(path)? {
         Some(array) => Ok(Named { name: path.to_owned(), array }),
         None => Err(no_model(tree)),
@@ -319,7 +337,7 @@ fn displaced(mean: &Array, shape: &DVector<f64>) -> Option<DVector<f64>> {
 }
 
 /// The first of the arrays that is there.
-fn first_array(tree: &Tree, group: &str, names: [&str; 2]) -> Result<Option<Array>, Fault> {
+fn first_array(tree: &dyn Tree, group: &str, names: [&str; 2]) -> Result<Option<Array>, Fault> {
     match tree.array(&format!("{group}/{}", names[0]))? {
         Some(array) => Ok(Some(array)),
         None => tree.array(&format!("{group}/{}", names[1])),
@@ -327,7 +345,7 @@ fn first_array(tree: &Tree, group: &str, names: [&str; 2]) -> Result<Option<Arra
 }
 
 /// `length-unit` is the unit in metres, or its symbol.
-fn unit_of(tree: &Tree, path: &str) -> Unit {
+fn unit_of(tree: &dyn Tree, path: &str) -> Unit {
     if let Some(symbol) = tree.text(path) {
         return Unit::from_symbol(&symbol).unwrap_or_default();
     }

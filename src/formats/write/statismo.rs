@@ -9,8 +9,8 @@
 
 use hdf5_pure::{AttrValue, DatasetBuilder, FileBuilder, GroupBuilder, LibVer};
 
-use super::FormatError;
-use super::error::{Fault, short};
+use super::super::FormatError;
+use super::super::error::{Fault, short};
 use crate::model::{Cells, Kind, LinearModel, Unit};
 
 /// Writes `model` as statismo HDF5, version 0.9.

@@ -1,0 +1,339 @@
+//! The smaller formats: eos, Surrey, clmtrackr, ShapeWorks, HDF5-JSON, our own JSON, point.pca, Deep3D.
+//! Every file of `tests/fixtures/small` against the numbers that its writer noted, and the broken ones
+//! against the sentences that they must give.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use proptest::prelude::*;
+use serde::Deserialize;
+use shapevenn::formats::{self, FormatError, Input, Opened, Options};
+use shapevenn::model::{Cells, Kind, LinearModel, Unit};
+
+/// What `make_small.py` noted about files that belong together.
+#[derive(Deserialize)]
+struct Expected {
+    files: Vec<String>,
+    parts: Vec<ExpectedPart>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct ExpectedPart {
+    format: String,
+    part: String,
+    kind: Kind,
+    unit: Unit,
+    dimension: usize,
+    points: usize,
+    modes: usize,
+    cells: usize,
+    mean: Vec<f64>,
+    variances: Vec<f64>,
+    covariance_of_probe: Vec<f64>,
+    notes: Vec<String>,
+    tolerance: f64,
+}
+
+/// One row of the corpus.
+#[derive(Deserialize)]
+struct Row {
+    file: String,
+    origin: String,
+    format: Option<String>,
+    error: Option<Failure>,
+}
+
+#[derive(Deserialize, PartialEq, Debug)]
+struct Failure {
+    code: String,
+    message: String,
+    hint: String,
+}
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/small")
+}
+
+fn fixture(name: &str) -> Vec<u8> {
+    std::fs::read(folder().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+fn json<T: for<'a> Deserialize<'a>>(path: &Path) -> T {
+    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path:?}: {error}"));
+    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{path:?}: {error}"))
+}
+
+fn expected() -> BTreeMap<String, Expected> {
+    json(&folder().join("expected.json"))
+}
+
+fn read(files: &[(&str, &[u8])], part: Option<&str>) -> Result<Opened, FormatError> {
+    let options = Options { part: part.map(str::to_owned), ..Options::default() };
+    let inputs: Vec<Input> =
+        files.iter().map(|&(name, bytes)| Input::of_bytes(name, bytes)).collect();
+    formats::open(&inputs, &options)
+}
+
+fn open(names: &[String], part: Option<&str>) -> Result<Opened, FormatError> {
+    let files: Vec<(&str, Vec<u8>)> =
+        names.iter().map(|name| (name.as_str(), fixture(name))).collect();
+    let files: Vec<(&str, &[u8])> =
+        files.iter().map(|(name, bytes)| (*name, bytes.as_slice())).collect();
+    read(&files, part)
+}
+
+fn cell_count(cells: &Cells) -> usize {
+    match cells {
+        Cells::None => 0,
+        Cells::Segments(segments) => segments.len(),
+        Cells::Triangles(triangles) => triangles.len(),
+    }
+}
+
+/// C·v for the fixed vector v of `make_fixtures.py`.
+fn covariance_of_probe(model: &LinearModel) -> Vec<f64> {
+    let length = model.mean().len();
+    let probe = nalgebra::DVector::from_fn(length, |place, _| (7 * place % 11) as f64 - 5.0);
+    let scaled = model.scaled_basis();
+    (&scaled * scaled.tr_mul(&probe)).as_slice().to_vec()
+}
+
+fn assert_close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
+    assert_eq!(found.len(), expected.len(), "{what}: length");
+    let size = expected.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
+    for (place, (found, expected)) in found.iter().zip(expected).enumerate() {
+        assert!(
+            (found - expected).abs() <= tolerance * size,
+            "{what}: {found} at {place}, {expected} was written"
+        );
+    }
+}
+
+#[test]
+fn every_file_gives_the_numbers_that_were_written() {
+    let all = expected();
+    assert!(all.len() > 30, "all variants are there");
+    for (name, Expected { files, parts }) in &all {
+        let names: Vec<&String> = parts.iter().map(|part| &part.part).collect();
+        for (index, expected) in parts.iter().enumerate() {
+            // The first part is read unless another is wanted.
+            let wanted = (index > 0).then_some(expected.part.as_str());
+            let opened = open(files, wanted).unwrap_or_else(|error| panic!("{error}"));
+            let what = format!("{name}#{}", expected.part);
+            let listed: Vec<&String> = opened.parts.iter().collect();
+            assert_eq!(listed, names, "{what}: parts");
+            let (part, model) = (&opened.part, &opened.part.model);
+            assert_eq!(opened.format, expected.format, "{what}: format");
+            assert_eq!(part.name, expected.part, "{what}: part");
+            assert_eq!(model.kind(), expected.kind, "{what}: kind");
+            assert_eq!(model.unit(), expected.unit, "{what}: unit");
+            assert_eq!(model.dimension(), expected.dimension, "{what}: dimension");
+            assert_eq!(model.point_count(), expected.points, "{what}: points");
+            assert_eq!(model.mode_count(), expected.modes, "{what}: modes");
+            assert_eq!(cell_count(model.cells()), expected.cells, "{what}: cells");
+            assert_close(model.mean().as_slice(), &expected.mean, expected.tolerance, &what);
+            let variances: Vec<f64> =
+                model.standard_deviations().iter().map(|value| value * value).collect();
+            assert_close(&variances, &expected.variances, expected.tolerance, &what);
+            let product = covariance_of_probe(model);
+            assert_close(&product, &expected.covariance_of_probe, expected.tolerance, &what);
+            assert_eq!(part.notes.len(), expected.notes.len(), "{what}: {:?}", part.notes);
+            for (note, words) in part.notes.iter().zip(&expected.notes) {
+                assert!(note.contains(words), "{what}: “{note}” does not say “{words}”");
+                assert!(note.ends_with('.'), "{what}: “{note}” is a sentence");
+            }
+        }
+        let unknown = open(files, Some("nothing")).unwrap_err();
+        assert_eq!(unknown.code(), "unknown-part", "{name} has no part of that name");
+    }
+}
+
+#[test]
+fn the_name_is_the_files_with_the_part_where_there_are_several() {
+    let name = |file: &str, part: Option<&str>| {
+        open(&[file.to_owned()], part).unwrap().part.model.name().to_owned()
+    };
+    assert_eq!(name("whole.bin", Some("color")), "whole.bin#color", "several");
+    assert_eq!(name("pca.bin", None), "pca.bin", "one");
+    assert_eq!(name("plain.json", None), "Twelve", "the file's own");
+}
+
+#[test]
+fn all_parts_are_drawn_with_the_faces_of_the_shape() {
+    let cells =
+        |part| open(&["whole.bin".to_owned()], Some(part)).unwrap().part.model.cells().clone();
+    let Cells::Triangles(triangles) = cells("shape") else { panic!("triangles") };
+    assert_eq!(triangles[0], [0, 11, 5], "as written");
+    assert_eq!(cells("shape"), cells("expression"), "expression");
+    assert_eq!(cells("shape"), cells("color"), "colour");
+}
+
+#[test]
+fn broken_files_give_the_exact_sentence() {
+    let rows: Vec<Row> =
+        json(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus/small.json"));
+    let mut missing: Vec<String> = std::fs::read_dir(folder())
+        .unwrap()
+        .map(|entry| entry.unwrap())
+        .filter(|entry| entry.file_type().unwrap().is_file())
+        .map(|entry| entry.file_name().into_string().unwrap())
+        .filter(|name| name != "expected.json")
+        .collect();
+    let good = expected();
+    missing.retain(|name| !good.contains_key(name));
+    for Row { file, origin, format, error } in rows {
+        assert!(!origin.is_empty(), "{file}: a case has an origin");
+        match (open(&[file.clone()], None), format, error) {
+            (Ok(opened), Some(format), None) => assert_eq!(opened.format, format, "{file}"),
+            (Err(error), None, Some(expected)) => {
+                let found = Failure {
+                    code: error.code().to_owned(),
+                    message: error.to_string(),
+                    hint: error.hint().to_owned(),
+                };
+                assert_eq!(found, expected, "{file}");
+            }
+            (Ok(_), ..) => panic!("{file} should not have been read"),
+            (Err(error), ..) => panic!("{error}"),
+        }
+        missing.retain(|name| *name != file);
+    }
+    assert!(missing.is_empty(), "not in the corpus: {missing:?}");
+}
+
+#[test]
+fn the_parts_of_a_model_that_can_be_read_do_not_need_the_others() {
+    let file = ["blendshapes.bin".to_owned()];
+    let opened = open(&file, None).unwrap();
+    assert_eq!(opened.parts, ["shape", "expression", "color"], "all are listed");
+    assert_eq!(opened.part.name, "shape", "the shape is read");
+    assert_eq!(open(&file, Some("color")).unwrap().part.name, "color", "so is the colour");
+}
+
+#[test]
+fn companions_are_found_by_what_they_hold_and_checked() {
+    let analysis = fixture("short-analysis.json");
+    let mean = fixture("shapeworks/mean_shape_0.pts");
+    let error = read(&[("short-analysis.json", &analysis), ("m.pts", &mean)], None).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "short-analysis.json: The mean has 36 numbers, and there are 5 modes, but eigen_vectors has \
+         177 numbers: they do not fit.",
+        "sizes"
+    );
+    let analysis = fixture("analysis.json");
+    let ragged = b"1 2 3\n4 5\n";
+    let error =
+        read(&[("analysis.json", &analysis), ("mean_shape_0.pts", ragged)], None).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "analysis.json: the mean cannot be read: line 2 has 2 numbers, the lines before it 3.",
+        "lines"
+    );
+    let elsewhere = [("a/analysis.json", &analysis[..]), ("b/mean_shape_0.pts", &mean)];
+    assert!(read(&elsewhere, None).is_err(), "companions lie in one folder");
+}
+
+#[test]
+fn files_that_end_anywhere_give_a_sentence() {
+    let mut tried = 0;
+    for (name, Expected { files, .. }) in expected() {
+        let [file] = files.as_slice() else { continue };
+        let bytes = fixture(file);
+        let step = bytes.len() / 60 + 1;
+        for length in (0..bytes.len()).step_by(step) {
+            tried += 1;
+            let Err(error) = read(&[(file, &bytes[..length])], None) else {
+                // A .js may be cut after its model; an .scm after its shape.
+                assert!(name.ends_with(".js") || name.ends_with(".scm"), "{name} cut at {length}");
+                continue;
+            };
+            assert!(!error.hint().is_empty(), "{error}");
+        }
+    }
+    assert!(tried > 1000, "{tried} cuts");
+}
+
+/// Starts that lead to each parser.
+const STARTS: [&[u8]; 10] = [
+    b"{\"shapeModel\":{\"meanShape\":[[1,2]],",
+    b"{\"root\":\"a\",\"groups\":{\"a\":{\"links\":[",
+    b"{\"format\":\"shapevenn-model\",\"version\":1,",
+    b"{\"eigen_vectors\":[1],\"modes\":[",
+    b"var pModel = { \"shapeModel\" : {",
+    b"\x04\0\0\0\x03\0\0\0\x01\0\0\0",
+    b"\x03\0\0\0\x01\0\0\0",
+    b"\x01\0\0\0\0\0\0\0\x02\0\0\0\0\0\0\0ab\x03\0\0\0\x01\0\0\0",
+    b"\x03\0\0\0\x01\0\0\0\0\0\0\0\x01\0\0\0\x02\0\0\0",
+    b"\x01\0\0\0\x01\0\0\0",
+];
+
+/// Small valid files of each kind, to be damaged.
+const VICTIMS: [&str; 9] = [
+    "whole.bin",
+    "pca.bin",
+    "only-blendshapes.bin",
+    "surrey.scm",
+    "faces.js",
+    "faces.json",
+    "body.pca",
+    "scalismo.h5.json",
+    "plain.json",
+];
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..Default::default() })]
+
+    #[test]
+    fn arbitrary_bytes_never_panic(
+        start in prop::sample::select(STARTS.to_vec()),
+        rest in prop::collection::vec(any::<u8>(), 0..2000),
+    ) {
+        let _ = read(&[("arbitrary", &[start, &rest].concat())], None);
+    }
+
+    #[test]
+    fn arbitrary_json_never_panics(
+        start in prop::sample::select(STARTS[..5].to_vec()),
+        rest in "[\\[\\]{},:\"a-dN0-9.e -]{0,300}",
+    ) {
+        let _ = read(&[("arbitrary", &[start, rest.as_bytes()].concat())], None);
+    }
+
+    #[test]
+    fn damaged_files_never_panic(
+        which in 0..VICTIMS.len(),
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..6),
+        length in prop::option::weighted(0.2, any::<prop::sample::Index>()),
+    ) {
+        let mut bytes = fixture(VICTIMS[which]);
+        for (place, value) in changes {
+            let place = place.index(bytes.len());
+            bytes[place] = value;
+        }
+        if let Some(length) = length {
+            bytes.truncate(length.index(bytes.len()));
+        }
+        let _ = read(&[(VICTIMS[which], &bytes)], None);
+    }
+
+    #[test]
+    fn damaged_companions_never_panic(
+        which in 0..2_usize,
+        in_main in any::<bool>(),
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..4),
+    ) {
+        let [main, other] = [
+            ["shapeworks/analysis.json", "shapeworks/mean_shape_0.pts"],
+            ["deep3d/Exp_Pca.bin", "deep3d/std_exp.txt"],
+        ][which];
+        let mut files = [fixture(main), fixture(other)];
+        for (place, value) in changes {
+            let file = &mut files[usize::from(!in_main)];
+            let place = place.index(file.len());
+            file[place] = value;
+        }
+        let _ = read(&[(main, &files[0]), (other, &files[1])], None);
+    }
+}
