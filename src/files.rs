@@ -239,8 +239,7 @@ pub fn write(
     what: &Download,
 ) -> Result<Written, Error> {
     const BINARY: &str = "application/octet-stream";
-    let intersection =
-        |comparison: &Comparison| comparison.intersection().ok_or(Error::NothingYet);
+    let intersection = |comparison: &Comparison| comparison.intersection().ok_or(Error::NothingYet);
     let written = |name: &str, mime: &'static str, bytes: Vec<u8>| Written {
         name: name.to_owned(),
         mime,

@@ -270,7 +270,10 @@ fn a_part_of_a_file_is_named_behind_a_hash() {
     let refused = shapevenn(&["compare", &part("shape"), &part("nose")]);
     let complaint = text(&refused.stderr);
     assert_eq!(refused.status.code(), Some(2), "{complaint}");
-    assert!(complaint.contains("There is no part “nose”, only shape, expression, color."), "{complaint}");
+    assert!(
+        complaint.contains("There is no part “nose”, only shape, expression, color."),
+        "{complaint}"
+    );
     assert!(complaint.contains("Choose one of the parts that the file has."), "{complaint}");
 }
 

@@ -3,7 +3,9 @@
 
 use nalgebra::{DMatrix, DVector};
 use serde_json::json;
-use shapevenn::compare::{Pair, PairError, PointSelection, Preparation, SelectionError, SidePreparation};
+use shapevenn::compare::{
+    Pair, PairError, PointSelection, Preparation, SelectionError, SidePreparation,
+};
 use shapevenn::comparison::{Agreement, Comparison, Settings, guessed_unit, inspect};
 use shapevenn::model::{Alignment, Cells, Kind, LinearModel, Unit};
 use shapevenn::report::{ModelReport, Seconds};
@@ -14,9 +16,8 @@ fn tube(rings: u32, size: f64, modes: usize, seed: f64) -> LinearModel {
     let count = (rings * ROUND) as usize;
     let angle = |k: usize| std::f64::consts::TAU * (k % 12) as f64 / 12.0;
     let height = |k: usize| (k / 12) as f64 / f64::from(rings);
-    let at = |k: usize| {
-        [angle(k).cos() * 0.3 * size, angle(k).sin() * 0.4 * size, height(k) * size]
-    };
+    let at =
+        |k: usize| [angle(k).cos() * 0.3 * size, angle(k).sin() * 0.4 * size, height(k) * size];
     let mean = DVector::from_vec((0..count).flat_map(at).collect());
     let basis = DMatrix::from_fn(3 * count, modes, |row, mode| {
         let (k, frequency) = (row / 3, (mode + 1) as f64);
@@ -84,7 +85,11 @@ fn a_region_is_the_model_of_its_points() {
         assert_eq!(found.point_count(), 25, "25 points");
     }
     let Cells::Triangles(triangles) = prepared.a().cells() else { panic!("triangles") };
-    assert_eq!(triangles.len(), 25, "one ring of quads between the two rings, and one with point 40");
+    assert_eq!(
+        triangles.len(),
+        25,
+        "one ring of quads between the two rings, and one with point 40"
+    );
 }
 
 #[test]
@@ -182,7 +187,10 @@ fn a_run_on_some_of_the_points_says_nearly_the_same() {
     assert!(part.models.a.cells > 300, "on a mesh of {} triangles", part.models.a.cells);
     let [expected, found] = [&whole, &part].map(|report| report.intersection.mean_distance.mean);
     // Of 720 points every third: means over points differ by their spread over the square root of 240.
-    assert!((found / expected - 1.0).abs() < 0.1, "d {found} on a third of the points, {expected} on all");
+    assert!(
+        (found / expected - 1.0).abs() < 0.1,
+        "d {found} on a third of the points, {expected} on all"
+    );
     let [expected, found] = [&whole, &part].map(|report| report.overlap.variance_of_a_in_b);
     assert!((found - expected).abs() < 0.05, "share {found}, {expected} on all points");
 }

@@ -18,7 +18,7 @@ use core::fmt;
 use nalgebra::{DMatrix, DVector};
 
 use super::operator::{Operator, Plausibilities, Rows, with_rows};
-use super::preparation::{Prepared, Preparation, SelectionError};
+use super::preparation::{Preparation, Prepared, SelectionError};
 use super::{DistanceKernel, Joint};
 use crate::lanes::{Real, dot};
 use crate::model::{Alignment, Kind, LinearModel, ModelError, Similarity};
@@ -123,7 +123,9 @@ impl fmt::Display for PairError {
                 thousands(*b)
             ),
             Self::Selection(error) => error.fmt(f),
-            Self::Rest { model, error } => write!(f, "At the chosen points {model} is no model: {error}"),
+            Self::Rest { model, error } => {
+                write!(f, "At the chosen points {model} is no model: {error}")
+            }
         }
     }
 }

@@ -22,9 +22,7 @@ use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::pair::{PairError, thousands};
-use crate::model::{
-    Alignment, Kind, LinearModel, Similarity, Unit, align_to, evenly_spread,
-};
+use crate::model::{Alignment, Kind, LinearModel, Similarity, Unit, align_to, evenly_spread};
 
 /// What is done to two models before they are compared.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
@@ -151,12 +149,9 @@ impl fmt::Display for SelectionError {
                 write!(f, "Point {} of {model} is listed twice.", thousands(*point as usize))
             }
             Self::NoMap => write!(f, "Neither model brings a map of its points into the other."),
-            Self::Lengths { a, b } => write!(
-                f,
-                "{} points of A are listed and {} of B.",
-                thousands(*a),
-                thousands(*b)
-            ),
+            Self::Lengths { a, b } => {
+                write!(f, "{} points of A are listed and {} of B.", thousands(*a), thousands(*b))
+            }
         }
     }
 }

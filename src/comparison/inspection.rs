@@ -326,7 +326,9 @@ impl Inspector<'_> {
             id: "rebase",
             label: format!("Put {letter} on the mean of {other}"),
             sentence: if needed {
-                format!("{letter} holds displacements only: they can be added to the mean of {other}.")
+                format!(
+                    "{letter} holds displacements only: they can be added to the mean of {other}."
+                )
             } else {
                 format!(
                     "{letter} is a model of expressions: on the mean of {other} only what they do counts, not whose face they are on."
@@ -367,7 +369,11 @@ impl Inspector<'_> {
             let times = scale.unwrap_or(raw);
             format!(
                 "By their sizes A is likely in {a} and B in {b}: B is {} times as large in numbers.",
-                if (0.1..1000.0).contains(&times) { format!("{times:.1}") } else { format!("{times:.1e}") }
+                if (0.1..1000.0).contains(&times) {
+                    format!("{times:.1}")
+                } else {
+                    format!("{times:.1e}")
+                }
             )
         };
         Some(Remedy {
@@ -383,8 +389,9 @@ impl Inspector<'_> {
 
     fn alignment_remedies(&self, distance: &MeanDistance) -> Vec<Remedy> {
         let shapes = self.a.kind() != Kind::Color && self.b.kind() != Kind::Color;
-        let MeanDistance { now: Some(now), rigid: Some(rigid), similarity: Some(similarity), .. } =
-            *distance
+        let MeanDistance {
+            now: Some(now), rigid: Some(rigid), similarity: Some(similarity), ..
+        } = *distance
         else {
             return Vec::new();
         };
@@ -398,10 +405,7 @@ impl Inspector<'_> {
             remedies.push(Remedy {
                 id: "align",
                 label: "Align B to A".to_owned(),
-                sentence: format!(
-                    "A rigid motion brings the means {} apart.",
-                    from_to(rigid)
-                ),
+                sentence: format!("A rigid motion brings the means {} apart.", from_to(rigid)),
                 settings: json!({ "align": "rigid" }),
                 recommended: rigid < RECOMMENDED * now,
             });
@@ -439,7 +443,10 @@ impl Inspector<'_> {
             side.modes.is_none() && side.variance.is_none()
         };
         let most = self.a.mode_count().max(self.b.mode_count());
-        if self.settings.modes.is_none() && uncut(&prepare.a) && uncut(&prepare.b) && most > MANY_MODES
+        if self.settings.modes.is_none()
+            && uncut(&prepare.a)
+            && uncut(&prepare.b)
+            && most > MANY_MODES
         {
             remedies.push(Remedy {
                 id: "modes",
@@ -467,49 +474,111 @@ impl Inspector<'_> {
         match &prepare.points {
             None => {}
             Some(PointSelection::Region { .. }) => {
-                add("region", "A region".to_owned(), "Only a region of the points is compared.", json!({ "prepare": { "points": null } }));
+                add(
+                    "region",
+                    "A region".to_owned(),
+                    "Only a region of the points is compared.",
+                    json!({ "prepare": { "points": null } }),
+                );
             }
             Some(PointSelection::Map) => {
-                add("map", "The crop's own map".to_owned(), "Points correspond by the crop's own map.", json!({ "prepare": { "points": null } }));
+                add(
+                    "map",
+                    "The crop's own map".to_owned(),
+                    "Points correspond by the crop's own map.",
+                    json!({ "prepare": { "points": null } }),
+                );
             }
             Some(PointSelection::List { .. }) => {
-                add("list", "A list of pairs".to_owned(), "Points correspond by a list of pairs.", json!({ "prepare": { "points": null } }));
+                add(
+                    "list",
+                    "A list of pairs".to_owned(),
+                    "Points correspond by a list of pairs.",
+                    json!({ "prepare": { "points": null } }),
+                );
             }
         }
         if prepare.convert {
-            let units = [prepare.a.unit.unwrap_or(self.a.unit()), prepare.b.unit.unwrap_or(self.b.unit())];
+            let units =
+                [prepare.a.unit.unwrap_or(self.a.unit()), prepare.b.unit.unwrap_or(self.b.unit())];
             let [a, b] = units.map(Unit::symbol);
-            add("unit", format!("B from {b} to {a}"), "B is scaled into the unit of A.", json!({ "prepare": {
+            add(
+                "unit",
+                format!("B from {b} to {a}"),
+                "B is scaled into the unit of A.",
+                json!({ "prepare": {
                 "a": { "unit": null }, "b": { "unit": null }, "convert": false,
-            } }));
+            } }),
+            );
         } else {
             for (side, letter, given) in [("a", "A", prepare.a.unit), ("b", "B", prepare.b.unit)] {
                 if let Some(unit) = given {
-                    add("declared", format!("{letter} in {}", unit.symbol()), "The unit was declared, since the file does not state it.", json!({ "prepare": { side: { "unit": null } } }));
+                    add(
+                        "declared",
+                        format!("{letter} in {}", unit.symbol()),
+                        "The unit was declared, since the file does not state it.",
+                        json!({ "prepare": { side: { "unit": null } } }),
+                    );
                 }
             }
         }
-        for (side, letter, other, given) in [("a", "A", "B", prepare.a), ("b", "B", "A", prepare.b)] {
+        for (side, letter, other, given) in [("a", "A", "B", prepare.a), ("b", "B", "A", prepare.b)]
+        {
             if given.rebase {
-                add("rebase", format!("{letter} on the mean of {other}"), "The modes of one model lie on the mean of the other.", json!({ "prepare": { side: { "rebase": false } } }));
+                add(
+                    "rebase",
+                    format!("{letter} on the mean of {other}"),
+                    "The modes of one model lie on the mean of the other.",
+                    json!({ "prepare": { side: { "rebase": false } } }),
+                );
             }
             let cut = json!({ "prepare": { side: { "modes": null, "variance": null } } });
             match (given.modes, given.variance) {
-                (Some(modes), _) => add("modes", format!("{modes} modes of {letter}"), "Only the first modes are used.", cut),
-                (None, Some(share)) => add("modes", format!("{:.3} % of {letter}'s variance", 100.0 * share).replace(".000", ""), "Only as many modes are used as hold this share.", cut),
+                (Some(modes), _) => add(
+                    "modes",
+                    format!("{modes} modes of {letter}"),
+                    "Only the first modes are used.",
+                    cut,
+                ),
+                (None, Some(share)) => add(
+                    "modes",
+                    format!("{:.3} % of {letter}'s variance", 100.0 * share).replace(".000", ""),
+                    "Only as many modes are used as hold this share.",
+                    cut,
+                ),
                 (None, None) => {}
             }
         }
         match align {
             Alignment::None => {}
-            Alignment::Rigid => add("align", "B aligned to A".to_owned(), "B was moved rigidly onto A.", json!({ "align": "none" })),
-            Alignment::Similarity => add("align-scale", "B aligned with scale".to_owned(), "B was moved onto A and brought to its size.", json!({ "align": "none" })),
+            Alignment::Rigid => add(
+                "align",
+                "B aligned to A".to_owned(),
+                "B was moved rigidly onto A.",
+                json!({ "align": "none" }),
+            ),
+            Alignment::Similarity => add(
+                "align-scale",
+                "B aligned with scale".to_owned(),
+                "B was moved onto A and brought to its size.",
+                json!({ "align": "none" }),
+            ),
         }
         if let Some(modes) = self.settings.modes {
-            add("modes", format!("{modes} modes of both"), "Only the first modes are used.", json!({ "modes": null }));
+            add(
+                "modes",
+                format!("{modes} modes of both"),
+                "Only the first modes are used.",
+                json!({ "modes": null }),
+            );
         }
         if let Some(points) = prepare.subsample {
-            add("subsample", format!("{points} points"), "Evenly spread points stand for all of them.", json!({ "prepare": { "subsample": null } }));
+            add(
+                "subsample",
+                format!("{points} points"),
+                "Evenly spread points stand for all of them.",
+                json!({ "prepare": { "subsample": null } }),
+            );
         }
         applied
     }

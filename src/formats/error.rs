@@ -161,38 +161,6 @@ pub enum Fault {
         /// What it is.
         format: &'static str,
     },
-    // Meshes, populations and archives.
-    /// The file ends before what it announces, in words.
-    CutOff {
-        /// What is missing.
-        detail: String,
-    },
-    /// Faces stored as triangle strips.
-    Strips,
-    /// A shape that does not correspond to the first of its set.
-    Correspondence {
-        /// How it differs, a whole sentence without the full stop.
-        difference: String,
-    },
-    /// Shapes that do not vary.
-    SameShapes {
-        /// How many.
-        count: usize,
-    },
-    /// An archive that unpacks to more than a file of its size may.
-    Unpacks {
-        /// Most bytes that are taken from it.
-        limit: u64,
-    },
-    /// Archives within archives.
-    Nested,
-    /// A spreadsheet.
-    Spreadsheet,
-    /// Files that make no model together.
-    Mixed {
-        /// What they are.
-        kinds: Vec<&'static str>,
-    },
     /// A model whose other files are missing.
     Companion {
         /// What is missing.
@@ -225,6 +193,38 @@ pub enum Fault {
     NoFace {
         /// How many.
         count: usize,
+    },
+    // Meshes, populations and archives.
+    /// The file ends before what it announces, in words.
+    CutOff {
+        /// What is missing.
+        detail: String,
+    },
+    /// Faces stored as triangle strips.
+    Strips,
+    /// A shape that does not correspond to the first of its set.
+    Correspondence {
+        /// How it differs, a whole sentence without the full stop.
+        difference: String,
+    },
+    /// Shapes that do not vary.
+    SameShapes {
+        /// How many.
+        count: usize,
+    },
+    /// An archive that unpacks to more than a file of its size may.
+    Unpacks {
+        /// Most bytes that are taken from it.
+        limit: u64,
+    },
+    /// Archives within archives.
+    Nested,
+    /// A spreadsheet.
+    Spreadsheet,
+    /// Files that make no model together.
+    Mixed {
+        /// What they are.
+        kinds: Vec<&'static str>,
     },
     /// The numbers make no model.
     Model(ModelError),
@@ -265,6 +265,11 @@ impl FormatError {
             Fault::Damaged { .. } => "damaged",
             Fault::Unreadable { .. } => "unreadable",
             Fault::NoPart { .. } => "unknown-part",
+            Fault::Alone { .. } | Fault::Companion { .. } => "companion",
+            Fault::JsonNumber { .. } => "jsonnan",
+            Fault::TextEnds { .. } => "trunc",
+            Fault::OtherVersion { .. } => "version",
+            Fault::NoFace { .. } => "displacement",
             Fault::CutOff { .. } => "trunc",
             Fault::Strips => "strips",
             Fault::Correspondence { .. } => "corr",
@@ -273,11 +278,6 @@ impl FormatError {
             Fault::Nested => "nested",
             Fault::Spreadsheet => "spreadsheet",
             Fault::Mixed { .. } => "mixed",
-            Fault::Alone { .. } | Fault::Companion { .. } => "companion",
-            Fault::JsonNumber { .. } => "jsonnan",
-            Fault::TextEnds { .. } => "trunc",
-            Fault::OtherVersion { .. } => "version",
-            Fault::NoFace { .. } => "displacement",
             Fault::Model(error) => error.code(),
             Fault::Write { .. } => "write",
         }
@@ -336,6 +336,12 @@ impl FormatError {
             Fault::Alone { .. } => {
                 "Drop it together with the other files of its set: a population needs at least three shapes."
             }
+            Fault::Companion { .. } => "Choose or drop all files of the model together.",
+            Fault::JsonNumber { .. } => {
+                "Remove the NaN or infinite values, or load the file from which this one was converted."
+            }
+            Fault::OtherVersion { .. } => "Save the model in a version that is known.",
+            Fault::NoFace { .. } => "Load the whole model of which they are a part.",
             Fault::CutOff { .. } => "Download or copy the file again.",
             Fault::Strips => "Save the mesh with single triangles.",
             Fault::Correspondence { .. } => {
@@ -352,12 +358,6 @@ impl FormatError {
             Fault::Mixed { .. } => {
                 "Drop the files of one model at a time, or the shapes of each set in a folder."
             }
-            Fault::Companion { .. } => "Choose or drop all files of the model together.",
-            Fault::JsonNumber { .. } => {
-                "Remove the NaN or infinite values, or load the file from which this one was converted."
-            }
-            Fault::OtherVersion { .. } => "Save the model in a version that is known.",
-            Fault::NoFace { .. } => "Load the whole model of which they are a part.",
             Fault::Model(error) => error.hint(),
             Fault::Write { .. } => "Export the model in the other format.",
         }
@@ -471,6 +471,21 @@ impl fmt::Display for Fault {
                 write!(f, "There is no part “{part}”, only {}.", parts.join(", "))
             }
             Self::Alone { format } => write!(f, "One {format} alone makes no model."),
+            Self::Companion { what, expected } => {
+                write!(f, "The {what} are not in this file; they are expected in {expected}.")
+            }
+            Self::JsonNumber { path, found } => {
+                write!(f, "{found} at {path}: JSON has no such number.")
+            }
+            Self::TextEnds { what } => write!(f, "The file is cut off: it ends within {what}."),
+            Self::OtherVersion { format, version, known } => {
+                write!(f, "{format} version {version} is not known ({known}).")
+            }
+            Self::NoFace { count } => write!(
+                f,
+                "It holds {} without the face that they displace.",
+                counted(*count, "blendshape", "blendshapes")
+            ),
             Self::CutOff { detail } => write!(f, "The file is cut off: {detail}."),
             Self::Strips => {
                 write!(f, "The faces are stored as triangle strips, which cannot be read.")
@@ -493,21 +508,6 @@ impl fmt::Display for Fault {
             Self::Mixed { kinds } => {
                 write!(f, "These files make no model together: {}.", kinds.join(", "))
             }
-            Self::Companion { what, expected } => {
-                write!(f, "The {what} are not in this file; they are expected in {expected}.")
-            }
-            Self::JsonNumber { path, found } => {
-                write!(f, "{found} at {path}: JSON has no such number.")
-            }
-            Self::TextEnds { what } => write!(f, "The file is cut off: it ends within {what}."),
-            Self::OtherVersion { format, version, known } => {
-                write!(f, "{format} version {version} is not known ({known}).")
-            }
-            Self::NoFace { count } => write!(
-                f,
-                "It holds {} without the face that they displace.",
-                counted(*count, "blendshape", "blendshapes")
-            ),
             Self::Model(error) => write!(f, "{error}"),
             Self::Write { reason } => write!(f, "The model cannot be written: {reason}."),
         }

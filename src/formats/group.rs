@@ -3,8 +3,7 @@
 //! | files | make |
 //! |---|---|
 //! | what systems leave behind (`.DS_Store`, `__MACOSX`, …) | nothing |
-//! | a neutral mesh and displaced ones | blendshapes |
-//! | files that [`companions`] knows | one model of that format |
+//! | files that one of [`TOGETHER`] claims | one model of that format |
 //! | meshes, landmarks or points of one kind in a folder | one population, named after the folder |
 //! | one shape in each of several folders side by side | one population |
 //! | a mesh beside the only model, or beside one whose name begins alike | the model with its faces |
@@ -24,14 +23,19 @@ use super::sniff::Content;
 use super::{FormatError, Opened, Options, blendshapes, companions, open_one, population};
 use crate::model::Cells;
 
-/// Formats of several files, asked one after the other before anything else is tried: the first files
-/// that make one model, two or more of them. Each is asked again about the rest.
-const CLAIMS: [Claim; 2] = [
-    |inputs| companions::together(inputs).into_iter().find(|files| files.len() > 1),
-    |inputs| Some(blendshapes::companions(inputs)).filter(|files| files.len() > 1),
-];
+/// A format whose model may lie in several files.
+struct Together {
+    /// Which files make one model; empty when none do. Called again on the rest.
+    companions: fn(&[Input]) -> Vec<usize>,
+    /// Reads the model of exactly these files; `None` when they are something else.
+    read: fn(&[Input], &Options) -> Option<Result<Opened, FormatError>>,
+}
 
-type Claim = fn(&[Input]) -> Option<Vec<usize>>;
+/// Formats of several files, asked in this order before anything else is tried.
+const TOGETHER: &[Together] = &[
+    Together { companions: companions::first, read: companions::open },
+    Together { companions: blendshapes::companions, read: blendshapes::read },
+];
 
 /// Files that make one model.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
@@ -51,11 +55,15 @@ pub fn groups(inputs: &[Input]) -> Result<Vec<Group>, FormatError> {
         (0..inputs.len()).filter(|&index| !is_junk(&inputs[index].name)).collect();
     sort_naturally(&mut rest, inputs);
     let mut groups = Vec::new();
-    for claim in CLAIMS {
-        while let Some(files) = claim(&of(inputs, &rest)) {
-            let files: Vec<usize> = files.into_iter().map(|place| rest[place]).collect();
-            rest.retain(|index| !files.contains(index));
-            groups.push(files);
+    for format in TOGETHER {
+        loop {
+            let candidates: Vec<Input> = rest.iter().map(|&index| inputs[index].clone()).collect();
+            let found = (format.companions)(&candidates);
+            if found.len() < 2 {
+                break;
+            }
+            groups.push(found.iter().filter_map(|&place| rest.get(place).copied()).collect());
+            rest = (0..rest.len()).filter(|at| !found.contains(at)).map(|at| rest[at]).collect();
         }
     }
     let contents = contents(inputs)?;
@@ -193,7 +201,10 @@ fn companion_meshes(
 fn named(inputs: &[Input], contents: &[Option<Content>], groups: Vec<Vec<usize>>) -> Vec<Group> {
     let mut named: Vec<Group> = groups
         .into_iter()
-        .map(|files| Group { name: name_of(&of(inputs, &files)), files })
+        .map(|files| {
+            let of_group: Vec<Input> = files.iter().map(|&index| inputs[index].clone()).collect();
+            Group { name: name_of(&of_group), files }
+        })
         .collect();
     let is_ambiguous = |groups: &[Group], index: usize| {
         groups.iter().filter(|group| group.name == groups[index].name).count() > 1
@@ -240,9 +251,10 @@ pub(super) fn open(inputs: &[Input], options: &Options, depth: u8) -> Result<Ope
     if let [input] = inputs.as_slice() {
         return open_one(input, options, depth);
     }
-    let opened = companions::open(&inputs, options).or_else(|| blendshapes::read(&inputs, options));
-    if let Some(opened) = opened {
-        return opened;
+    for format in TOGETHER {
+        if let Some(opened) = (format.read)(&inputs, options) {
+            return opened;
+        }
     }
     let contents = contents(&inputs)?;
     let model = |content: &Option<Content>| content.is_some_and(|content| !mesh::is_shape(content));
@@ -319,10 +331,6 @@ pub(super) fn stem(file_name: &str) -> &str {
 fn ending(name: &str) -> String {
     let name = name.strip_suffix(".gz").unwrap_or(name);
     name.rsplit_once('.').map_or(String::new(), |(_, ending)| ending.to_lowercase())
-}
-
-fn of(inputs: &[Input], files: &[usize]) -> Vec<Input> {
-    files.iter().map(|&index| inputs[index].clone()).collect()
 }
 
 fn sort_naturally(files: &mut [usize], inputs: &[Input]) {

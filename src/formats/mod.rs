@@ -136,15 +136,15 @@ fn open_within(inputs: &[Input], options: &Options, depth: u8) -> Result<Opened,
 fn open_one(input: &Input, options: &Options, depth: u8) -> Result<Opened, FormatError> {
     match sniff(input)? {
         Content::Hdf5 => statismo::read(input, options),
-        Content::Zip => container::open_zip(input, options, depth),
-        Content::Gzip => container::open_gzip(input, options, depth),
-        Content::Tps => population::read(core::slice::from_ref(input), options),
         Content::Json => open_json(input, options),
         Content::Clmtrackr => clmtrackr::read(input, options),
         Content::Eos => eos::read(input, options),
         Content::Scm => surrey::read(input, options),
         Content::PointPca => point_pca::read(input, options),
         Content::Deep3d => Err(deep3d::alone().of(&input.name)),
+        Content::Zip => container::open_zip(input, options, depth),
+        Content::Gzip => container::open_gzip(input, options, depth),
+        Content::Tps => population::read(core::slice::from_ref(input), options),
         other => Err(Fault::Alone { format: other.name() }.of(&input.name)),
     }
 }

@@ -19,7 +19,9 @@ impl LinearModel {
     pub fn restricted(&self, points: &[u32]) -> Result<Self, ModelError> {
         let cells = match self.cells() {
             Cells::None => Cells::None,
-            Cells::Segments(segments) => Cells::Segments(kept_cells(segments, &self.places(points))),
+            Cells::Segments(segments) => {
+                Cells::Segments(kept_cells(segments, &self.places(points)))
+            }
             Cells::Triangles(triangles) => {
                 Cells::Triangles(kept_cells(triangles, &self.places(points)))
             }
@@ -93,10 +95,10 @@ pub fn evenly_spread(positions: &[f64], dimension: usize, count: usize) -> Vec<u
     let mut distances: Vec<f64> = (0..total).map(|place| square_to(place, &centroid)).collect();
     let mut chosen = Vec::with_capacity(count);
     for round in 0..count {
-        let (farthest, _) = distances
-            .iter()
-            .enumerate()
-            .fold((0, -1.0), |best, (place, &square)| if square > best.1 { (place, square) } else { best });
+        let (farthest, _) =
+            distances.iter().enumerate().fold((0, -1.0), |best, (place, &square)| {
+                if square > best.1 { (place, square) } else { best }
+            });
         let from = positions[farthest * dimension..(farthest + 1) * dimension].to_vec();
         for (place, distance) in distances.iter_mut().enumerate() {
             let square = square_to(place, &from);
@@ -154,7 +156,15 @@ fn coarse_triangles(triangles: &[[u32; 3]], points: &[u32], total: usize) -> Vec
         .map(|triangle| triangle.map(|corner| owners[corner as usize]))
         .filter(|[a, b, c]| a != b && b != c && c != a && *a.max(b).max(c) != u32::MAX)
         // The same corner first, so that equal triangles are equal.
-        .map(|[a, b, c]| if a < b && a < c { [a, b, c] } else if b < c { [b, c, a] } else { [c, a, b] })
+        .map(|[a, b, c]| {
+            if a < b && a < c {
+                [a, b, c]
+            } else if b < c {
+                [b, c, a]
+            } else {
+                [c, a, b]
+            }
+        })
         .collect();
     coarse.sort_unstable();
     coarse.dedup();
@@ -220,8 +230,7 @@ mod tests {
         let part = model.restricted(&kept).unwrap();
         assert_eq!(
             part.cells(),
-            &Cells::Triangles(vec![[0, 1, 3], [0, 3, 2], [1, 4, 3].map(|k: u32| k)])
-                .clone(),
+            &Cells::Triangles(vec![[0, 1, 3], [0, 3, 2], [1, 4, 3].map(|k: u32| k)]).clone(),
             "three triangles have all corners there: {:?}",
             part.cells()
         );

@@ -237,8 +237,7 @@ fn info(named: &[String], json: bool) -> Result<(), Failure> {
 
 fn inspect(named: [&str; 2], prepare: &prepare::Arguments, json: bool) -> Result<(), Failure> {
     let settings = prepare.settings(Settings::default())?;
-    let [a, b] =
-        [sources::open(named[0], prepare.scale)?, sources::open(named[1], prepare.scale)?];
+    let [a, b] = [sources::open(named[0], prepare.scale)?, sources::open(named[1], prepare.scale)?];
     let found = comparison::inspect(&a.model, &b.model, &settings);
     if json {
         println!("{}", to_json(&found)?);
@@ -291,8 +290,8 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
     let (a, b) = (open(&arguments.a)?, open(&arguments.b)?);
     let mut seconds = Seconds { load: begun.elapsed().as_secs_f64(), ..Seconds::default() };
     let described = [a.report, b.report];
-    let mut run =
-        Comparison::new(&a.model, &b.model, described, settings(arguments)?).map_err(Error::from)?;
+    let mut run = Comparison::new(&a.model, &b.model, described, settings(arguments)?)
+        .map_err(Error::from)?;
     let bar = ProgressBar::new(1000).with_style(
         ProgressStyle::with_template("{msg:14} {bar:40} {percent:>3} %  {eta} left")
             .unwrap_or_else(|_| ProgressStyle::default_bar()),
@@ -334,8 +333,7 @@ fn sweep(
         return Err(Error::from(ComparisonError::from(SettingsError::Sigma { found })).into());
     }
     let settings = prepare.settings(Settings::default())?;
-    let [a, b] =
-        [sources::open(named[0], prepare.scale)?, sources::open(named[1], prepare.scale)?];
+    let [a, b] = [sources::open(named[0], prepare.scale)?, sources::open(named[1], prepare.scale)?];
     let mut run =
         Comparison::new(&a.model, &b.model, [a.report, b.report], settings).map_err(Error::from)?;
     while run.stage() == Stage::Prepare {

@@ -96,7 +96,8 @@ fn table2(arguments: &Arguments, screen: &Screen) -> Result<Table2, Failure> {
 }
 
 fn sigma(arguments: &Arguments, screen: &Screen) -> Result<Ablation, Failure> {
-    let [a, b]: [LinearModel; 2] = [sources::open(COMPARED[0], false)?.model, sources::open(COMPARED[1], false)?.model];
+    let [a, b]: [LinearModel; 2] =
+        [sources::open(COMPARED[0], false)?.model, sources::open(COMPARED[1], false)?.model];
     run(reproduce::sigma([&a, &b], plan(arguments, 3), screen))
 }
 
