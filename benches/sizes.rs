@@ -18,7 +18,7 @@ use std::time::Instant;
 use nalgebra::{DMatrix, DVector};
 use shapevenn::comparison::{Comparison, Settings, Stage};
 use shapevenn::files;
-use shapevenn::formats::{Array, write_arrays};
+use shapevenn::formats::{Array, Input, Options, write_arrays};
 use shapevenn::model::LinearModel;
 use shapevenn::report::ModelReport;
 use shapevenn::sampling::{Stream, fill_normal, stream};
@@ -129,7 +129,7 @@ fn measure(name: &str, folder: &Path) {
     let begun = Instant::now();
     let [a, b] = [0, 1].map(|side| {
         let bytes = std::fs::read(file(folder, name, side)).unwrap();
-        files::open(name, &bytes).unwrap().remove(0).model
+        files::open(&[Input::of_bytes(name, bytes)], &Options::default()).unwrap().model
     });
     let (modes, points) = ([&a, &b].map(LinearModel::mode_count), a.point_count());
     println!("\n{name}: {points} points, {} + {} modes, σ = {SIGMA}", modes[0], modes[1]);

@@ -4,8 +4,11 @@
  *
  * `npm run bench -- --sizes` instead compares pairs of the size of FLAME and BFM, natively (see
  * benches/sizes.rs) and once in Chromium with each build, with the peak of resident memory of the page's process.
+ *
+ * `npm run bench -- --opening` opens files of the size of BFM 2019 (.h5, 325 MB) and FLAME (.pkl, 77 MB) in
+ * Chromium, and each part of the former.
  */
-import { existsSync, mkdirSync, readFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, statSync } from "node:fs";
 import { cpus } from "node:os";
 import { join } from "node:path";
 import {
@@ -17,6 +20,7 @@ import {
   withPage,
 } from "../tests/browser/harness.mjs";
 import { build } from "./build.mjs";
+import { ensurePython } from "./setup.mjs";
 import { main, must, root } from "./steps/run.mjs";
 
 const RUNS = 5;
@@ -33,6 +37,7 @@ await main(async () => {
   await build();
   console.log(`${cpus()[0]?.model.trim()}, ${cpus().length} processors\n\nNatively`);
   if (process.argv.includes("--sizes")) return compareSizes();
+  if (process.argv.includes("--opening")) return openFiles();
   console.log((await must("cargo", bench, { hint })).trim());
   const folder = join(root, ".setup/bench");
   mkdirSync(folder, { recursive: true });
@@ -49,6 +54,35 @@ async function compareSizes() {
   await must("cargo", [...sizes, "--write", folder, ...LARGE], { hint });
   for (const build of ["threads", "serial"]) {
     for (const name of LARGE) await sizeInChromium(build, name, folder);
+  }
+  await closeBrowser();
+}
+
+/** From the choice of a file to its card: seconds, and memory beside the size of the file. */
+async function openFiles() {
+  const folder = join(root, ".setup/bench");
+  mkdirSync(folder, { recursive: true });
+  const python = await ensurePython();
+  await must(python, [join(root, "benches/opening_files.py"), folder], { hint });
+  for (const build of ["threads", "serial"]) {
+    for (const name of ["bfm-2019.h5", "flame.pkl"]) {
+      await withPage({}, async ({ url, page, browser }) => {
+        await page.goto(`${url}${build === "serial" ? "?serial" : ""}#v=1&sigma=${SIGMA}`);
+        await untilState(page, "done");
+        const card = page.getByRole("region", { name: "Model A" });
+        const opened = () => card.getByRole("heading", { name }).waitFor({ timeout: LONGEST });
+        const begun = performance.now();
+        await page.getByLabel("File for model A").setInputFiles(join(folder, name));
+        await opened();
+        const seconds = (performance.now() - begun) / 1000;
+        console.log(`\nIn Chromium, ${build}, ${name}`);
+        show("from the choice of the file to its card", "s", [seconds]);
+        const memory = await largestMemory(browser);
+        const { size } = statSync(join(folder, name));
+        show("peak of resident memory of the page", "MB", [memory / 1e6]);
+        show("beside the size of the file", "times", [memory / size]);
+      });
+    }
   }
   await closeBrowser();
 }

@@ -7,10 +7,12 @@ use core::fmt;
 
 use serde::Deserialize;
 
-use crate::comparison::{Comparison, ComparisonError, Region, Results, StoredArray};
+use crate::comparison::{
+    Comparison, ComparisonError, Picture, Region, Results, StoredArray, guessed_unit,
+};
 use crate::demos;
-use crate::formats::{self, Array, Data, FormatError};
-use crate::model::LinearModel;
+use crate::formats::{self, Array, Data, FormatError, Input, Options, Origin};
+use crate::model::{LinearModel, Unit};
 use crate::report::{ModelReport, Report, Seconds};
 
 /// What goes wrong with files and runs, with a code and a hint.
@@ -25,15 +27,6 @@ pub enum Error {
     Demo {
         /// The name asked for.
         name: String,
-    },
-    /// The file has no part of that name.
-    Part {
-        /// The file.
-        file: String,
-        /// The part asked for.
-        part: String,
-        /// The parts there are.
-        parts: Vec<String>,
     },
     /// The run has nothing of the kind yet.
     NothingYet,
@@ -51,7 +44,6 @@ impl Error {
             Self::Format(error) => error.code(),
             Self::Comparison(error) => error.code(),
             Self::Demo { .. } => "unknown-demo",
-            Self::Part { .. } => "unknown-part",
             Self::NothingYet => "nothing-yet",
             Self::StoredReport { .. } => "stored-report",
         }
@@ -63,7 +55,6 @@ impl Error {
             Self::Format(error) => error.hint().to_string(),
             Self::Comparison(error) => error.hint().to_owned(),
             Self::Demo { .. } => format!("Choose one of {}.", demos::names().join(", ")),
-            Self::Part { parts, .. } => format!("Choose one of {}.", parts.join(", ")),
             Self::NothingYet => "Wait until the run has drawn some.".to_owned(),
             Self::StoredReport { .. } => "Run the comparison again.".to_owned(),
         }
@@ -76,7 +67,6 @@ impl fmt::Display for Error {
             Self::Format(error) => error.fmt(f),
             Self::Comparison(error) => error.fmt(f),
             Self::Demo { name } => write!(f, "There is no demo model “{name}”."),
-            Self::Part { file, part, .. } => write!(f, "{file} has no part “{part}”."),
             Self::NothingYet => write!(f, "There are no shapes of this region yet."),
             Self::StoredReport { reason } => {
                 write!(f, "The stored report cannot be read: {reason}.")
@@ -99,73 +89,68 @@ impl From<ComparisonError> for Error {
     }
 }
 
-/// One model of a file, with what the report says of it.
+/// One model that was opened, with what the report says of it.
 #[derive(Debug, Clone)]
 pub struct Described {
+    /// Names of all models of the file, this one's among them.
+    pub parts: Vec<String>,
     /// "shape", "expression", "color", or a group's name.
     pub part: String,
+    /// Where the model comes from.
+    pub origin: Origin,
     /// The model.
     pub model: LinearModel,
     /// Its description.
     pub report: ModelReport,
 }
 
-/// Opens a file.
+/// Opens the model that files make together: usually one file, else a group of [`formats::groups`].
 ///
 /// # Errors
 /// [`Error::Format`].
-pub fn open(name: &str, bytes: &[u8]) -> Result<Vec<Described>, Error> {
-    Ok(describe(formats::open(name, bytes)?))
+pub fn open(inputs: &[Input], options: &Options) -> Result<Described, Error> {
+    let opened = formats::open(inputs, options)?;
+    let part = opened.part;
+    let model = match &part.map {
+        Some(map) => part.model.with_point_numbers(map),
+        None => part.model,
+    };
+    let report = ModelReport {
+        orthogonality: Some(part.check.orthogonality_error),
+        dropped_modes: Some(part.check.dropped_modes),
+        unit_guess: Some(&model)
+            .filter(|model| model.unit() == Unit::Unknown)
+            .and_then(guessed_unit),
+        ..ModelReport::new(&model, &opened.format, &part.notes)
+    };
+    Ok(Described { parts: opened.parts, part: part.name, origin: part.origin, model, report })
 }
 
 /// Opens a demo model; `bytes` is the packaged file where it is one.
 ///
 /// # Errors
 /// [`Error::Demo`], or [`Error::Format`] when the packaged file is damaged.
-pub fn open_demo(name: &str, bytes: Option<&[u8]>) -> Result<Vec<Described>, Error> {
+pub fn open_demo(name: &str, bytes: Option<&[u8]>) -> Result<Described, Error> {
     if let Some(model) = demos::generated(name) {
         let report = ModelReport::new(&model, "Made by Shapevenn", &[]);
-        return Ok(vec![Described { part: "shape".to_owned(), model, report }]);
+        let part = "shape".to_owned();
+        return Ok(Described {
+            parts: vec![part.clone()],
+            part,
+            origin: Origin::File,
+            model,
+            report,
+        });
     }
     let known = name.strip_prefix("heads-").is_some_and(|head| demos::HEADS.contains(&head));
     match bytes {
-        Some(bytes) if known => open(name, bytes),
+        Some(bytes) if known => open(&[Input::of_bytes(name, bytes)], &Options::default()),
         _ => Err(Error::Demo { name: name.to_owned() }),
     }
 }
 
-fn describe(opened: formats::Opened) -> Vec<Described> {
-    let format = opened.format;
-    opened
-        .parts
-        .into_iter()
-        .map(|part| Described {
-            report: ModelReport::new(&part.model, &format, &part.notes),
-            part: part.name,
-            model: part.model,
-        })
-        .collect()
-}
-
-/// The part called `part` of an opened file, or its first.
-///
-/// # Errors
-/// [`Error::Part`].
-pub fn choose(file: &str, models: Vec<Described>, part: Option<&str>) -> Result<Described, Error> {
-    let parts: Vec<String> = models.iter().map(|model| model.part.clone()).collect();
-    let index = match part {
-        None => Some(0),
-        Some(wanted) => parts.iter().position(|part| part == wanted),
-    };
-    index.and_then(|index| models.into_iter().nth(index)).ok_or_else(|| Error::Part {
-        file: file.to_owned(),
-        part: part.unwrap_or_default().to_owned(),
-        parts,
-    })
-}
-
 /// What can be taken away from a run.
-#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Download {
     /// The intersection model as statismo HDF5.
@@ -176,17 +161,61 @@ pub enum Download {
     DrawsNpz,
     /// The report.
     ReportJson,
-    /// The mean (index −1) or a sample of a region as a mesh.
-    Ply {
-        /// The region.
-        region: Region,
-        /// −1 for the mean, else a sample of the same seed and count.
-        index: i64,
-        /// Number of samples that the seed picks.
-        count: usize,
-        /// The seed, decimal.
-        seed: String,
-    },
+    /// A shape of a region as PLY.
+    Ply(ShownShape),
+}
+
+/// The mean or a sample of a region, exactly as it is shown.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct ShownShape {
+    /// The region.
+    pub region: Region,
+    /// −1 for the mean, else a sample of the same seed and count.
+    pub index: i64,
+    /// Number of samples that the seed picks.
+    pub count: usize,
+    /// The seed, decimal.
+    pub seed: String,
+    /// γ in x + γ r(a), of a difference.
+    #[serde(default)]
+    pub exaggeration: f64,
+    /// "exclusiveModes" for shapes along the exclusive modes of a difference instead of draws.
+    #[serde(default)]
+    pub picture: Option<String>,
+}
+
+impl ShownShape {
+    /// The mean of a region.
+    pub fn mean(region: Region) -> Self {
+        let (count, seed, exaggeration, picture) = (0, "0".to_owned(), 0.0, None);
+        Self { region, index: -1, count, seed, exaggeration, picture }
+    }
+
+    /// How a difference is shown.
+    pub fn picture_of(exaggeration: f64, picture: Option<&str>) -> Picture {
+        Picture { exaggeration, exclusive_modes: picture == Some("exclusiveModes") }
+    }
+
+    fn name(&self) -> String {
+        let which =
+            if self.index < 0 { "mean".to_owned() } else { format!("sample-{}", self.index + 1) };
+        format!("{}-{which}", self.region.name())
+    }
+
+    /// Points (d·n) and, of a mean, the per-vertex standard deviation (n).
+    fn points(&self, comparison: &mut Comparison) -> Result<(Vec<f32>, Option<Vec<f32>>), Error> {
+        let seed = self.seed.parse().unwrap_or(0);
+        let picture = Self::picture_of(self.exaggeration, self.picture.as_deref());
+        let shapes = comparison.shapes(self.region, self.count, seed, picture);
+        let shapes = shapes.ok_or(Error::NothingYet)?;
+        let Ok(index) = usize::try_from(self.index) else {
+            return Ok((shapes.mean, Some(shapes.vertex_sd)));
+        };
+        let length = shapes.mean.len();
+        let sample = shapes.samples.get(index * length..(index + 1) * length);
+        Ok((sample.ok_or(Error::NothingYet)?.to_vec(), None))
+    }
 }
 
 /// A file to be saved.
@@ -204,9 +233,13 @@ pub struct Written {
 ///
 /// # Errors
 /// [`Error::NothingYet`] while the run has not got it, [`Error::Format`] when it cannot be written.
-pub fn write(comparison: &Comparison, seconds: Seconds, what: &Download) -> Result<Written, Error> {
+pub fn write(
+    comparison: &mut Comparison,
+    seconds: Seconds,
+    what: &Download,
+) -> Result<Written, Error> {
     const BINARY: &str = "application/octet-stream";
-    let intersection = || comparison.intersection().ok_or(Error::NothingYet);
+    let intersection = |comparison: &Comparison| comparison.intersection().ok_or(Error::NothingYet);
     let written = |name: &str, mime: &'static str, bytes: Vec<u8>| Written {
         name: name.to_owned(),
         mime,
@@ -214,11 +247,11 @@ pub fn write(comparison: &Comparison, seconds: Seconds, what: &Download) -> Resu
     };
     Ok(match what {
         Download::IntersectionH5 => {
-            let bytes = formats::write_statismo(&intersection()?)?;
+            let bytes = formats::write_statismo(&intersection(comparison)?)?;
             written("intersection.h5", "application/x-hdf5", bytes)
         }
         Download::IntersectionNpz => {
-            written("intersection.npz", BINARY, formats::write_npz(&intersection()?)?)
+            written("intersection.npz", BINARY, formats::write_npz(&intersection(comparison)?)?)
         }
         Download::DrawsNpz => {
             comparison.report(seconds).ok_or(Error::NothingYet)?;
@@ -228,11 +261,12 @@ pub fn write(comparison: &Comparison, seconds: Seconds, what: &Download) -> Resu
             let report = comparison.report(seconds).ok_or(Error::NothingYet)?;
             written("report.json", "application/json", json(&report).into_bytes())
         }
-        Download::Ply { region, index, count, seed } => {
-            let bytes = write_shape(comparison, *region, *index, *count, seed)?;
-            let which =
-                if *index < 0 { "mean".to_owned() } else { format!("sample-{}", index + 1) };
-            written(&format!("{}-{which}.ply", region.name()), BINARY, bytes)
+        Download::Ply(shape) => {
+            let (points, map) = shape.points(comparison)?;
+            let model = comparison.pair().a();
+            let bytes =
+                formats::write_ply(&points, model.dimension(), model.cells(), map.as_deref());
+            written(&format!("{}.ply", shape.name()), BINARY, bytes)
         }
     })
 }
@@ -241,27 +275,6 @@ pub fn write(comparison: &Comparison, seconds: Seconds, what: &Download) -> Resu
 pub fn json(report: &Report) -> String {
     serde_json::to_string_pretty(report)
         .unwrap_or_else(|fault| unreachable!("a report is JSON: {fault}"))
-}
-
-fn write_shape(
-    comparison: &Comparison,
-    region: Region,
-    index: i64,
-    count: usize,
-    seed: &str,
-) -> Result<Vec<u8>, Error> {
-    let seed = seed.parse().unwrap_or(0);
-    let shapes = comparison.region(region, count, seed).ok_or(Error::NothingYet)?;
-    let model = comparison.pair().a();
-    let (points, map) = match usize::try_from(index) {
-        Err(_) => (&shapes.mean[..], Some(&shapes.vertex_sd[..])),
-        Ok(index) => {
-            let length = shapes.mean.len();
-            let range = index * length..(index + 1) * length;
-            (shapes.samples.get(range).ok_or(Error::NothingYet)?, None)
-        }
-    };
-    Ok(formats::write_ply(points, model.dimension(), model.cells(), map))
 }
 
 fn write_draws(results: &Results) -> Vec<u8> {

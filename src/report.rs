@@ -74,6 +74,15 @@ pub struct ModelReport {
     pub cells: usize,
     /// What reading the file brought to light, each a sentence.
     pub notes: Vec<String>,
+    /// Largest |cos| between two modes of the file; 0 where they were orthogonal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub orthogonality: Option<f64>,
+    /// Modes of the file that were dropped for lack of variance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dropped_modes: Option<usize>,
+    /// The unit that the extent of the mean shape suggests, where the file states none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unit_guess: Option<Unit>,
 }
 
 impl ModelReport {
@@ -98,6 +107,9 @@ impl ModelReport {
                 Cells::Triangles(triangles) => triangles.len(),
             },
             notes: notes.to_vec(),
+            orthogonality: None,
+            dropped_modes: None,
+            unit_guess: None,
         }
     }
 }

@@ -4,14 +4,20 @@
 //! memory die when it grows), errors as `{ code, message, hint }`. The worker owns the one
 //! [`Engine`] and measures time; nothing here knows a clock.
 
+mod blobs;
+
 use std::collections::BTreeMap;
 
-use js_sys::{Float32Array, Object, Reflect, Uint8Array, Uint32Array};
+use js_sys::{Array, Float32Array, Function, Object, Reflect, Uint8Array, Uint32Array};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
-use crate::comparison::{Comparison, Picture, Region, RegionShapes, Settings, ShapeSource, Stage};
-use crate::files::{self, Described, Download, Error};
+use crate::compare::{PairError, PointSelection};
+use crate::comparison::{
+    self, Comparison, ComparisonError, Region, RegionShapes, Settings, ShapeSource, Stage,
+};
+use crate::files::{self, Described, Download, Error, ShownShape};
+use crate::formats::{self, Options, Origin};
 use crate::model::{Cells, LinearModel};
 use crate::report::{ModelReport, Seconds};
 use crate::roofline::{self, Workload};
@@ -38,10 +44,15 @@ pub struct Engine {
 }
 
 #[derive(Serialize)]
-struct OpenedPart<'a> {
+#[serde(rename_all = "camelCase")]
+struct OpenedModel<'a> {
+    format: &'a str,
+    parts: &'a [String],
     model: u32,
     part: &'a str,
     report: &'a ModelReport,
+    origin: Origin,
+    has_map: bool,
 }
 
 /// Work with a known number of floating-point operations, for the benchmark that measures how near the
@@ -139,6 +150,27 @@ fn parsed<T: for<'de> serde::Deserialize<'de>>(value: JsValue, what: &str) -> Re
     })
 }
 
+fn geometry_of(model: &LinearModel) -> JsValue {
+    let (triangles, segments) = match model.cells() {
+        Cells::Triangles(triangles) => (indices(triangles), JsValue::NULL),
+        Cells::Segments(segments) => (JsValue::NULL, indices(segments)),
+        Cells::None => (JsValue::NULL, JsValue::NULL),
+    };
+    object(&[
+        ("dimension", plain(&model.dimension())),
+        ("kind", plain(&model.kind())),
+        ("mean", single(model.mean().as_slice())),
+        ("triangles", triangles),
+        ("segments", segments),
+        ("vertexSd", single(&model.vertex_standard_deviations())),
+    ])
+}
+
+fn settings_of(value: JsValue) -> Result<Settings, JsValue> {
+    Settings::parse(parsed(value, "settings")?)
+        .map_err(|error| fault("settings", error, "Reload the page."))
+}
+
 #[wasm_bindgen]
 impl Engine {
     /// An engine without models.
@@ -158,12 +190,32 @@ impl Engine {
         getrandom::u64().map_or_else(|_| "1".to_owned(), |seed| (seed >> 32).to_string())
     }
 
-    /// Opens a file: `{ format, parts: [{ model, part, report }] }`.
+    /// Which of the dropped files make a model together: `[{ name, files: [index] }]`. `files` is
+    /// an array of `{ name, blob }`.
     ///
     /// # Errors
     /// `{ code, message, hint }`.
-    pub fn open(&mut self, name: &str, bytes: &[u8]) -> Result<JsValue, JsValue> {
-        files::open(name, bytes).map(|parts| self.keep(parts)).map_err(thrown)
+    pub fn groups(files: &Array) -> Result<JsValue, JsValue> {
+        let groups = formats::groups(&blobs::inputs(files, None)?).map_err(thrown)?;
+        Ok(plain(&groups))
+    }
+
+    /// Opens the model that files make together: `{ format, parts, model, part, report, origin, hasMap }`.
+    /// `onRead(bytes, of)` is told of everything that is read from them.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }`.
+    pub fn open(
+        &mut self,
+        files: &Array,
+        part: Option<String>,
+        scale: bool,
+        on_read: Option<Function>,
+    ) -> Result<JsValue, JsValue> {
+        let inputs = blobs::inputs(files, on_read)?;
+        let opened = files::open(&inputs, &Options { part, scale });
+        blobs::release();
+        opened.map(|described| self.keep(described)).map_err(thrown)
     }
 
     /// Opens a demo model; `bytes` is its packaged file where it is one.
@@ -172,23 +224,53 @@ impl Engine {
     /// `{ code, message, hint }`.
     #[wasm_bindgen(js_name = openDemo)]
     pub fn open_demo(&mut self, demo: &str, bytes: Option<Box<[u8]>>) -> Result<JsValue, JsValue> {
-        let parts = files::open_demo(demo, bytes.as_deref()).map_err(thrown)?;
-        Ok(self.keep(parts))
+        let described = files::open_demo(demo, bytes.as_deref()).map_err(thrown)?;
+        Ok(self.keep(described))
     }
 
-    fn keep(&mut self, parts: Vec<Described>) -> JsValue {
-        let format = parts.first().map_or(String::new(), |part| part.report.format.clone());
-        let first = self.next_handle;
-        for part in parts {
-            self.models.insert(self.next_handle, part);
-            self.next_handle += 1;
-        }
-        let opened: Vec<OpenedPart<'_>> = self
-            .models
-            .range(first..)
-            .map(|(&model, kept)| OpenedPart { model, part: &kept.part, report: &kept.report })
-            .collect();
-        object(&[("format", JsValue::from_str(&format)), ("parts", plain(&opened))])
+    fn keep(&mut self, described: Described) -> JsValue {
+        let opened = plain(&OpenedModel {
+            format: &described.report.format,
+            parts: &described.parts,
+            model: self.next_handle,
+            part: &described.part,
+            report: &described.report,
+            origin: described.origin,
+            has_map: described.model.point_numbers().is_some(),
+        });
+        self.models.insert(self.next_handle, described);
+        self.next_handle += 1;
+        opened
+    }
+
+    /// Whether two models can be compared with these settings, and what would help.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }` when a model is closed.
+    pub fn inspect(&self, a: u32, b: u32, settings: JsValue) -> Result<JsValue, JsValue> {
+        let settings = settings_of(settings)?;
+        let (first, second) = (self.model(a)?, self.model(b)?);
+        Ok(plain(&comparison::inspect(&first.model, &second.model, &settings)))
+    }
+
+    /// The choice of points that a vertex list or a file of pairs makes.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }` when a line is none.
+    pub fn points(text: &str) -> Result<JsValue, JsValue> {
+        let points = PointSelection::parse(text);
+        points
+            .map(|points| plain(&points))
+            .map_err(|error| thrown(ComparisonError::from(PairError::Selection(error))))
+    }
+
+    /// How the two models of the comparison are drawn as it compares them: `{ a, b }`, geometries.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }` when no comparison is open.
+    pub fn compared(&self) -> Result<JsValue, JsValue> {
+        let [a, b] = self.current()?.pair().models().map(geometry_of);
+        Ok(object(&[("a", a), ("b", b)]))
     }
 
     fn model(&self, handle: u32) -> Result<&Described, JsValue> {
@@ -202,20 +284,7 @@ impl Engine {
     /// # Errors
     /// `{ code, message, hint }` when the model is closed.
     pub fn geometry(&self, model: u32) -> Result<JsValue, JsValue> {
-        let kept = self.model(model)?;
-        let (triangles, segments) = match kept.model.cells() {
-            Cells::Triangles(triangles) => (indices(triangles), JsValue::NULL),
-            Cells::Segments(segments) => (JsValue::NULL, indices(segments)),
-            Cells::None => (JsValue::NULL, JsValue::NULL),
-        };
-        Ok(object(&[
-            ("dimension", plain(&kept.report.dimension)),
-            ("kind", plain(&kept.report.kind)),
-            ("mean", single(kept.model.mean().as_slice())),
-            ("triangles", triangles),
-            ("segments", segments),
-            ("vertexSd", single(&kept.model.vertex_standard_deviations())),
-        ]))
+        Ok(geometry_of(&self.model(model)?.model))
     }
 
     /// Begins the comparison of two models; the one before it is given up. A setting that is left out
@@ -224,8 +293,7 @@ impl Engine {
     /// # Errors
     /// `{ code, message, hint }` when the two cannot be compared; the comparison before stays.
     pub fn start(&mut self, a: u32, b: u32, settings: JsValue) -> Result<(), JsValue> {
-        let settings = Settings::parse(parsed(settings, "settings")?)
-            .map_err(|error| fault("settings", error, "Reload the page."))?;
+        let settings = settings_of(settings)?;
         let (first, second) = (self.model(a)?, self.model(b)?);
         let described = [first.report.clone(), second.report.clone()];
         let comparison = Comparison::new(&first.model, &second.model, described, settings);
@@ -306,15 +374,8 @@ impl Engine {
         let seed = seed.parse().unwrap_or(0);
         let nothing = || thrown(Error::NothingYet);
         let comparison = self.comparison.as_mut().ok_or_else(nothing)?;
-        let picture = Picture {
-            exaggeration: exaggeration.unwrap_or(0.0),
-            exclusive_modes: picture.as_deref() == Some("exclusiveModes"),
-        };
-        let shapes = match which {
-            Region::AWithoutB => comparison.difference(0, count, seed, picture),
-            Region::BWithoutA => comparison.difference(1, count, seed, picture),
-            _ => comparison.region(which, count, seed),
-        };
+        let picture = ShownShape::picture_of(exaggeration.unwrap_or(0.0), picture.as_deref());
+        let shapes = comparison.shapes(which, count, seed, picture);
         Ok(shown(region, &shapes.ok_or_else(nothing)?))
     }
 
@@ -347,9 +408,10 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }` while there is nothing to save.
-    pub fn export(&self, what: JsValue) -> Result<JsValue, JsValue> {
+    pub fn export(&mut self, what: JsValue) -> Result<JsValue, JsValue> {
         let what: Download = parsed(what, "kind of file")?;
-        let written = files::write(self.current()?, self.seconds, &what).map_err(thrown)?;
+        let comparison = self.comparison.as_mut().ok_or_else(|| thrown(Error::NothingYet))?;
+        let written = files::write(comparison, self.seconds, &what).map_err(thrown)?;
         Ok(object(&[
             ("name", JsValue::from_str(&written.name)),
             ("mime", JsValue::from_str(written.mime)),

@@ -7,7 +7,7 @@ use std::process::{Command, Output};
 
 use serde_json::Value;
 use shapevenn::comparison::Region;
-use shapevenn::formats::{self, Data};
+use shapevenn::formats::{self, Data, Input, Options};
 use shapevenn::report::{ModelReport, Report};
 
 fn shapevenn(arguments: &[&str]) -> Output {
@@ -30,6 +30,10 @@ fn printed(arguments: &[&str]) -> String {
 fn fixture(name: &str) -> String {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures").join(name);
     path.to_string_lossy().into_owned()
+}
+
+fn model_of(name: &str, bytes: &[u8]) -> shapevenn::model::LinearModel {
+    formats::open(&[Input::of_bytes(name, bytes)], &Options::default()).unwrap().part.model
 }
 
 /// A fresh folder for one test.
@@ -186,8 +190,7 @@ fn out_writes_everything_and_all_of_it_opens_again() {
     assert_eq!(shape("a_without_b"), [2000, 4], "draws, modes");
 
     for name in ["intersection.h5", "intersection.npz"] {
-        let opened = formats::open(name, &read(name)).unwrap();
-        let model = &opened.parts[0].model;
+        let model = &model_of(name, &read(name));
         assert_eq!((model.point_count(), model.mode_count()), (10, 4), "{name}");
         for (found, stated) in
             model.standard_deviations().iter().zip(&printed.intersection.standard_deviations)
@@ -234,18 +237,12 @@ fn an_empty_difference_writes_no_mean() {
 fn models_converted_to_hdf5_and_back_have_equal_numbers() {
     let folder = folder("convert");
     let at = |name: &str| folder.join(name).to_string_lossy().into_owned();
-    let open = |name: &str| {
-        formats::open(name, &std::fs::read(folder.join(name)).unwrap())
-            .unwrap()
-            .parts
-            .remove(0)
-            .model
-    };
+    let open = |name: &str| model_of(name, &std::fs::read(folder.join(name)).unwrap());
     assert_eq!(printed(&["convert", &fixture("plain.npz"), &at("one.h5")]), "", "in silence");
     printed(&["convert", &at("one.h5"), &at("two.npz")]);
     printed(&["convert", &at("two.npz"), &at("three.h5")]);
     let given = std::fs::read(fixture("plain.npz")).unwrap();
-    let given = formats::open("plain.npz", &given).unwrap().parts.remove(0).model;
+    let given = model_of("plain.npz", &given);
     // HDF5 holds single precision: 6e-8 of the largest number.
     let covariance = |model: &shapevenn::model::LinearModel| {
         model.scaled_basis() * model.scaled_basis().transpose()
@@ -273,8 +270,11 @@ fn a_part_of_a_file_is_named_behind_a_hash() {
     let refused = shapevenn(&["compare", &part("shape"), &part("nose")]);
     let complaint = text(&refused.stderr);
     assert_eq!(refused.status.code(), Some(2), "{complaint}");
-    assert!(complaint.contains("has no part “nose”."), "{complaint}");
-    assert!(complaint.contains("Choose one of shape, expression, color."), "{complaint}");
+    assert!(
+        complaint.contains("There is no part “nose”, only shape, expression, color."),
+        "{complaint}"
+    );
+    assert!(complaint.contains("Choose one of the parts that the file has."), "{complaint}");
 }
 
 #[test]

@@ -8,7 +8,7 @@ use shapevenn::report::{Report, Seconds};
 fn the_stored_first_comparison_is_made_by_this_engine() {
     const HINT: &str = "run `npm run first` and commit www/first";
     let stored: Report = serde_json::from_str(include_str!("../www/first/report.json")).unwrap();
-    let open = |name: &str, bytes: &[u8]| files::open_demo(name, Some(bytes)).unwrap().remove(0);
+    let open = |name: &str, bytes: &[u8]| files::open_demo(name, Some(bytes)).unwrap();
     let a = open("heads-male", include_bytes!("../demos/heads/heads-male.npz"));
     let b = open("heads-female", include_bytes!("../demos/heads/heads-female.npz"));
     let settings = stored.settings.clone();
@@ -17,6 +17,6 @@ fn the_stored_first_comparison_is_made_by_this_engine() {
     let made = run.report(Seconds::default()).unwrap();
     let expected = Report { seconds: Seconds::default(), ..stored };
     assert_eq!(files::json(&made), files::json(&expected), "{HINT}");
-    let draws = files::write(&run, Seconds::default(), &Download::DrawsNpz).unwrap();
+    let draws = files::write(&mut run, Seconds::default(), &Download::DrawsNpz).unwrap();
     assert!(draws.bytes == include_bytes!("../www/first/draws.npz"), "other draws: {HINT}");
 }

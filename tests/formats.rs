@@ -118,7 +118,10 @@ fn every_variant_gives_the_numbers_that_were_written() {
             let error = read(file, &fixture(file), Some(damaged)).unwrap_err();
             assert_eq!(error.code(), "nan", "{file}#{damaged} is listed, but damaged: {error}");
         }
-        assert_eq!(&opened.part.name, names[0], "{file}: the first is read unless another is wanted");
+        assert_eq!(
+            &opened.part.name, names[0],
+            "{file}: the first is read unless another is wanted"
+        );
         for expected in parts {
             let part = open_part(file, &expected.part);
             let what = format!("{file}#{}", expected.part);

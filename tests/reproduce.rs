@@ -27,7 +27,7 @@ impl Observer for Ticking {
 fn head(name: &str) -> LinearModel {
     let path = format!("{}/demos/heads/heads-{name}.npz", env!("CARGO_MANIFEST_DIR"));
     let bytes = std::fs::read(path).unwrap();
-    files::open_demo(&format!("heads-{name}"), Some(&bytes)).unwrap().remove(0).model
+    files::open_demo(&format!("heads-{name}"), Some(&bytes)).unwrap().model
 }
 
 fn stars() -> Table1 {

@@ -213,7 +213,8 @@ fn pairs_that_cannot_be_compared_say_why_and_what_to_do() {
             of(3, 1746),
             "point-count-mismatch",
             "A has 12 points, B has 1,746: point for point they cannot be compared.",
-            "Load two models built on the same template mesh.",
+            "Load two models built on the same template mesh, or say by a file which point is which: \
+             a point of A and one of B on each line.",
         ),
         (
             of(2, 18),

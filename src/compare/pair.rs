@@ -10,17 +10,18 @@
 //! generating, projecting and reconstructing takes three. The paper's text calls d a mean squared
 //! error; it is the mean of the points' distances, neither squared nor a root mean square.
 //!
-//! **Limits.** Both models must have the same points in the same order. Different meshes need a
-//! correspondence first: [`Pair::new`] is the place where one would enter.
+//! **Limits.** Both models must have the same points in the same order once they are prepared
+//! ([`Preparation`]). Different meshes need a correspondence first, which is part of that.
 
 use core::fmt;
 
 use nalgebra::{DMatrix, DVector};
 
 use super::operator::{Operator, Plausibilities, Rows, with_rows};
+use super::preparation::{Preparation, Prepared, SelectionError};
 use super::{DistanceKernel, Joint};
 use crate::lanes::{Real, dot};
-use crate::model::{Alignment, Kind, LinearModel, Similarity, align_to};
+use crate::model::{Alignment, Kind, LinearModel, ModelError, Similarity};
 use crate::parallel;
 
 /// Why two models cannot be compared.
@@ -48,6 +49,15 @@ pub enum PairError {
         /// Points of B.
         b: usize,
     },
+    /// The points to compare cannot be chosen as asked.
+    Selection(SelectionError),
+    /// What is left of a model at the chosen points is none.
+    Rest {
+        /// "A" or "B".
+        model: &'static str,
+        /// What is wrong with it.
+        error: ModelError,
+    },
 }
 
 impl PairError {
@@ -57,6 +67,8 @@ impl PairError {
             Self::Dimension { .. } => "dimension-mismatch",
             Self::Kind { .. } => "kind-mismatch",
             Self::PointCount { .. } => "point-count-mismatch",
+            Self::Selection(_) => "points",
+            Self::Rest { .. } => "points-without-variance",
         }
     }
 
@@ -64,13 +76,21 @@ impl PairError {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Dimension { .. } => "Load two models of the same dimension.",
+            Self::Kind { a: Kind::Displacement, .. } | Self::Kind { b: Kind::Displacement, .. } => {
+                "Put the displacements on the mean of the other model."
+            }
             Self::Kind { .. } => "Load two shape models or two colour models.",
-            Self::PointCount { .. } => "Load two models built on the same template mesh.",
+            Self::PointCount { .. } => {
+                "Load two models built on the same template mesh, or say by a file which point is which: a point of A and one of B on each line."
+            }
+            Self::Selection(error) => error.hint(),
+            Self::Rest { .. } => "Choose more points, or others.",
         }
     }
 }
 
-fn thousands(count: usize) -> String {
+/// "53,490".
+pub(super) fn thousands(count: usize) -> String {
     let digits = count.to_string();
     let mut grouped = String::new();
     for (index, digit) in digits.chars().enumerate() {
@@ -102,6 +122,10 @@ impl fmt::Display for PairError {
                 thousands(*a),
                 thousands(*b)
             ),
+            Self::Selection(error) => error.fmt(f),
+            Self::Rest { model, error } => {
+                write!(f, "At the chosen points {model} is no model: {error}")
+            }
         }
     }
 }
@@ -363,25 +387,22 @@ impl Pair {
         alignment: Alignment,
         modes: Option<usize>,
     ) -> Result<Self, PairError> {
-        if a.dimension() != b.dimension() {
-            return Err(PairError::Dimension { a: a.dimension(), b: b.dimension() });
-        }
-        if a.kind() != b.kind() {
-            return Err(PairError::Kind { a: a.kind(), b: b.kind() });
-        }
-        if a.point_count() != b.point_count() {
-            return Err(PairError::PointCount { a: a.point_count(), b: b.point_count() });
-        }
-        let (b, moved) = align_to(a, b, alignment);
-        let most = a.mode_count().max(b.mode_count());
-        let cut = |model: &LinearModel| model.truncated(modes.unwrap_or(usize::MAX));
-        let whole = a.total_variance() + b.total_variance();
-        let (a, b) = (cut(a), cut(&b));
-        let cut_variance = if modes.is_some_and(|modes| modes < most) {
-            whole - a.total_variance() - b.total_variance()
-        } else {
-            0.0
-        };
+        Self::prepared(a, b, &Preparation::default(), alignment, modes)
+    }
+
+    /// The same after the steps that `preparation` asks for.
+    ///
+    /// # Errors
+    /// [`PairError`] when a step cannot be done, or the two still differ in dimension, kind or points.
+    pub fn prepared(
+        a: &LinearModel,
+        b: &LinearModel,
+        preparation: &Preparation,
+        alignment: Alignment,
+        modes: Option<usize>,
+    ) -> Result<Self, PairError> {
+        let Prepared { models: [a, b], moved, cut_variance } =
+            preparation.apply(a, b, alignment, modes)?;
         Ok(Self { a, b, moved, cut_variance })
     }
 

@@ -9,7 +9,7 @@ use crate::compare::{
     Fit, FitMethod, Intersection, Side, fit_laplace, fit_reweighted, fit_rms,
     fit_variational_step_every,
 };
-use crate::sampling::{Gaussian, Stream, Target, fill_normal, stream};
+use crate::sampling::{Gaussian, Stream, Target, fill_normal, importance_ess, stream};
 
 const MOST_ITERATIONS: usize = 12;
 /// Whitened length of a step at which the variational fit is at rest.
@@ -150,11 +150,6 @@ impl Fitting {
             .zip(points.chunks_exact(modes))
             .map(|(evaluation, point)| evaluation.log_density - fit.log_density(point))
             .collect();
-        let largest = log_weights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        let weights = log_weights.iter().map(|weight| libm::exp(weight - largest));
-        let (sum, squares) =
-            weights.fold((0.0, 0.0), |(sum, squares), w| (sum + w, squares + w * w));
-        let share = sum * sum / (squares * PILOT_DRAWS as f64);
-        if share.is_finite() { share } else { 0.0 }
+        importance_ess(&log_weights) / PILOT_DRAWS as f64
     }
 }

@@ -12,6 +12,7 @@ mod accuracy;
 mod error;
 mod fitting;
 mod inference;
+mod inspection;
 mod preview;
 mod regions;
 mod results;
@@ -20,6 +21,9 @@ mod summary;
 mod warnings;
 
 pub use error::ComparisonError;
+pub use inspection::{
+    Agreement, Inspection, MeanDistance, Problem, Remedy, UnitFound, guessed_unit, inspect,
+};
 pub use preview::{Prediction, SweepPoint};
 pub use regions::{Picture, Region, RegionShapes, ShapeSource};
 pub use results::{Results, StoredArray};
@@ -124,10 +128,13 @@ impl Comparison {
         settings: Settings,
     ) -> Result<Self, ComparisonError> {
         settings.check()?;
-        let pair = Pair::new(a, b, settings.align, settings.modes)?;
+        let pair = Pair::prepared(a, b, &settings.prepare, settings.align, settings.modes)?;
         let [described_a, described_b] = described;
         let refresh = |before: ModelReport, model: &LinearModel| ModelReport {
             name: before.name,
+            orthogonality: before.orthogonality,
+            dropped_modes: before.dropped_modes,
+            unit_guess: before.unit_guess,
             ..ModelReport::new(model, &before.format, &before.notes)
         };
         let described = [refresh(described_a, pair.a()), refresh(described_b, pair.b())];

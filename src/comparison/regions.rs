@@ -87,6 +87,21 @@ pub struct Picture {
 const EXCLUSIVE_REACH: f64 = 3.0;
 
 impl Comparison {
+    /// Shapes of a region; `picture` says how a difference is shown. `None` while there is nothing of it.
+    pub fn shapes(
+        &mut self,
+        region: Region,
+        count: usize,
+        seed: u64,
+        picture: Picture,
+    ) -> Option<RegionShapes> {
+        match region {
+            Region::AWithoutB => self.difference(0, count, seed, picture),
+            Region::BWithoutA => self.difference(1, count, seed, picture),
+            _ => self.region(region, count, seed),
+        }
+    }
+
     /// Shapes of A\B (`side` 0) or B\A (1) as `picture` asks; `None` while there is nothing of it.
     pub fn difference(
         &mut self,

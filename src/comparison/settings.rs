@@ -4,7 +4,7 @@ use core::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::compare::DifferenceDefinition;
+use crate::compare::{DifferenceDefinition, Preparation};
 use crate::model::Alignment;
 
 /// How the intersection is sampled.
@@ -141,6 +141,8 @@ pub struct Settings {
     pub modes: Option<usize>,
     /// What may be moved to bring B to A.
     pub align: Alignment,
+    /// What is done to the two models before they are compared.
+    pub prepare: Preparation,
 }
 
 impl Default for Settings {
@@ -165,6 +167,7 @@ impl Default for Settings {
             difference_draws: 2000,
             modes: None,
             align: Alignment::None,
+            prepare: Preparation::default(),
         }
     }
 }
@@ -310,7 +313,16 @@ impl Settings {
             let found = self.difference_quantile;
             return Err(SettingsError::Number { setting, expected, found });
         }
+        for (setting, side) in [("prepare.a", &self.prepare.a), ("prepare.b", &self.prepare.b)] {
+            if let Some(found) = side.variance.filter(|share| !(*share > 0.0 && *share <= 1.0)) {
+                let expected = "a share of the variance, more than 0 and at most 1,";
+                return Err(SettingsError::Number { setting, expected, found });
+            }
+        }
         let counts = [
+            ("prepare.a.modes", self.prepare.a.modes.unwrap_or(1), 1, 100_000),
+            ("prepare.b.modes", self.prepare.b.modes.unwrap_or(1), 1, 100_000),
+            ("prepare.subsample", self.prepare.subsample.unwrap_or(3), 3, 10_000_000),
             ("chains", self.chains, 2, 1024),
             ("draws", self.draws, 8 * self.chains, 10_000_000),
             ("burnIn", self.burn_in, 0, 10_000_000),

@@ -55,7 +55,7 @@ impl Comparison {
                     report.models.a.unit.symbol(),
                     report.models.b.unit.symbol()
                 ),
-                "Convert one of the two files, or align with scale.",
+                "Convert B into the unit of A.",
             ));
         }
         if self.settings.align == Alignment::None && a.point_count() > 2 {
@@ -320,7 +320,7 @@ fn rounded(value: f64) -> String {
 }
 
 /// Triangles without regard to their order, first corner or winding.
-fn canonical(triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
+pub(super) fn canonical(triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
     let mut sorted: Vec<[u32; 3]> = triangles
         .iter()
         .map(|triangle| {

@@ -21,14 +21,14 @@ const READERS: [Reader; 2] = [
     Reader { companions: deep3d::companions, open: deep3d::open },
 ];
 
-/// The files of the drop that make one model together: every set, its main file first.
-pub(super) fn together(inputs: &[Input]) -> Vec<Vec<usize>> {
+/// The first files of the drop that make one model together, the main file in front; none if none do.
+pub(super) fn first(inputs: &[Input]) -> Vec<usize> {
     let set = |main: usize| {
         let (others, places) = beside(inputs, main);
         let found = READERS.iter().find_map(|it| (it.companions)(&inputs[main], &others))?;
         Some(core::iter::once(main).chain(found.into_iter().map(|index| places[index])).collect())
     };
-    (0..inputs.len()).filter_map(set).collect()
+    (0..inputs.len()).find_map(set).unwrap_or_default()
 }
 
 /// Reads the model of files that belong together; `None` when no format of several files knows them.

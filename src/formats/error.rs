@@ -194,6 +194,38 @@ pub enum Fault {
         /// How many.
         count: usize,
     },
+    // Meshes, populations and archives.
+    /// The file ends before what it announces, in words.
+    CutOff {
+        /// What is missing.
+        detail: String,
+    },
+    /// Faces stored as triangle strips.
+    Strips,
+    /// A shape that does not correspond to the first of its set.
+    Correspondence {
+        /// How it differs, a whole sentence without the full stop.
+        difference: String,
+    },
+    /// Shapes that do not vary.
+    SameShapes {
+        /// How many.
+        count: usize,
+    },
+    /// An archive that unpacks to more than a file of its size may.
+    Unpacks {
+        /// Most bytes that are taken from it.
+        limit: u64,
+    },
+    /// Archives within archives.
+    Nested,
+    /// A spreadsheet.
+    Spreadsheet,
+    /// Files that make no model together.
+    Mixed {
+        /// What they are.
+        kinds: Vec<&'static str>,
+    },
     /// The numbers make no model.
     Model(ModelError),
     /// The model cannot be written in this format.
@@ -238,6 +270,14 @@ impl FormatError {
             Fault::TextEnds { .. } => "trunc",
             Fault::OtherVersion { .. } => "version",
             Fault::NoFace { .. } => "displacement",
+            Fault::CutOff { .. } => "trunc",
+            Fault::Strips => "strips",
+            Fault::Correspondence { .. } => "corr",
+            Fault::SameShapes { .. } => "no-variance",
+            Fault::Unpacks { .. } => "size",
+            Fault::Nested => "nested",
+            Fault::Spreadsheet => "spreadsheet",
+            Fault::Mixed { .. } => "mixed",
             Fault::Model(error) => error.code(),
             Fault::Write { .. } => "write",
         }
@@ -249,9 +289,7 @@ impl FormatError {
             Fault::Empty
             | Fault::Truncated { .. }
             | Fault::TruncatedArchive
-            | Fault::TextEnds { .. } => {
-                "Download or copy the file again."
-            }
+            | Fault::TextEnds { .. } => "Download or copy the file again.",
             Fault::WebPage => {
                 "Download the file itself: the page may need a login, or hold the direct link."
             }
@@ -293,9 +331,7 @@ impl FormatError {
                 "Check that the file is not damaged, or save fewer modes and load that."
             }
             Fault::Damaged { .. } => "Download the file or export the model again.",
-            Fault::Unreadable { .. } => {
-                "If the file was moved or changed, choose it again."
-            }
+            Fault::Unreadable { .. } => "If the file was moved or changed, choose it again.",
             Fault::NoPart { .. } => "Choose one of the parts that the file has.",
             Fault::Alone { .. } => {
                 "Drop it together with the other files of its set: a population needs at least three shapes."
@@ -306,6 +342,22 @@ impl FormatError {
             }
             Fault::OtherVersion { .. } => "Save the model in a version that is known.",
             Fault::NoFace { .. } => "Load the whole model of which they are a part.",
+            Fault::CutOff { .. } => "Download or copy the file again.",
+            Fault::Strips => "Save the mesh with single triangles.",
+            Fault::Correspondence { .. } => {
+                "All shapes of a set need the same points in the same order: register one template to \
+                 each of them, and drop the registered meshes."
+            }
+            Fault::SameShapes { .. } => "Drop shapes that differ from one another.",
+            Fault::Unpacks { .. } => "Unpack it and drop the files themselves.",
+            Fault::Nested => "Unpack the outer archive and drop what is in it.",
+            Fault::Spreadsheet => {
+                "Drop the files themselves: of a ShapeWorks project those that end in \
+                 `_world.particles`."
+            }
+            Fault::Mixed { .. } => {
+                "Drop the files of one model at a time, or the shapes of each set in a folder."
+            }
             Fault::Model(error) => error.hint(),
             Fault::Write { .. } => "Export the model in the other format.",
         }
@@ -434,6 +486,28 @@ impl fmt::Display for Fault {
                 "It holds {} without the face that they displace.",
                 counted(*count, "blendshape", "blendshapes")
             ),
+            Self::CutOff { detail } => write!(f, "The file is cut off: {detail}."),
+            Self::Strips => {
+                write!(f, "The faces are stored as triangle strips, which cannot be read.")
+            }
+            Self::Correspondence { difference } => write!(f, "{difference}."),
+            Self::SameShapes { count } => {
+                write!(f, "All {count} shapes are the same but for position and rotation.")
+            }
+            Self::Unpacks { limit } => write!(
+                f,
+                "It unpacks to more than {}, the most that is taken from a file of its size.",
+                quantity_of_bytes(*limit)
+            ),
+            Self::Nested => {
+                write!(f, "An archive within an archive within an archive is not unpacked.")
+            }
+            Self::Spreadsheet => {
+                write!(f, "This is a spreadsheet: it only lists the files of a project.")
+            }
+            Self::Mixed { kinds } => {
+                write!(f, "These files make no model together: {}.", kinds.join(", "))
+            }
             Self::Model(error) => write!(f, "{error}"),
             Self::Write { reason } => write!(f, "The model cannot be written: {reason}."),
         }

@@ -45,10 +45,7 @@ impl Source for Stored {
         let length = usize::try_from(self.len()).unwrap_or(usize::MAX);
         match end {
             Some(end) if end <= length => self.0.read_at(offset, buffer).map_err(Low::Source),
-            _ => Err(Low::UnexpectedEof {
-                expected: end.unwrap_or(usize::MAX),
-                available: length,
-            }),
+            _ => Err(Low::UnexpectedEof { expected: end.unwrap_or(usize::MAX), available: length }),
         }
     }
 }

@@ -13,11 +13,13 @@
 
 mod array;
 mod assemble;
+mod blendshapes;
 mod bytes;
 mod cells;
 mod clmtrackr;
 mod companions;
 mod components;
+mod container;
 mod deep3d;
 mod eos;
 mod error;
@@ -26,11 +28,13 @@ mod hdf5;
 mod hdf5_json;
 mod input;
 mod json;
+mod mesh;
 mod npy;
 mod npz;
 mod numpy_model;
 mod plain_json;
 mod point_pca;
+mod population;
 mod shapeworks;
 mod sniff;
 mod statismo;
@@ -119,24 +123,31 @@ pub enum Origin {
 /// # Errors
 /// [`FormatError`], which names the file, what was expected, what was found and what to do next.
 pub fn open(inputs: &[Input], options: &Options) -> Result<Opened, FormatError> {
+    open_within(inputs, options, 0)
+}
+
+/// The same, inside `depth` archives.
+fn open_within(inputs: &[Input], options: &Options, depth: u8) -> Result<Opened, FormatError> {
     match inputs {
         [] => Err(Fault::Empty.of("nothing")),
-        [input] => open_one(input, options),
-        several => group::open(several, options),
+        [input] => open_one(input, options, depth),
+        several => group::open(several, options, depth),
     }
 }
 
 /// Reads a file that stands alone.
-fn open_one(input: &Input, options: &Options) -> Result<Opened, FormatError> {
+fn open_one(input: &Input, options: &Options, depth: u8) -> Result<Opened, FormatError> {
     match sniff(input)? {
         Content::Hdf5 => statismo::read(input, options),
-        Content::Zip => numpy_model::read(input, options),
         Content::Json => open_json(input, options),
         Content::Clmtrackr => clmtrackr::read(input, options),
         Content::Eos => eos::read(input, options),
         Content::Scm => surrey::read(input, options),
         Content::PointPca => point_pca::read(input, options),
         Content::Deep3d => Err(deep3d::alone().of(&input.name)),
+        Content::Zip => container::open_zip(input, options, depth),
+        Content::Gzip => container::open_gzip(input, options, depth),
+        Content::Tps => population::read(core::slice::from_ref(input), options),
         other => Err(Fault::Alone { format: other.name() }.of(&input.name)),
     }
 }

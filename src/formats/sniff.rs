@@ -179,7 +179,10 @@ fn text_of(start: &[u8], length: u64) -> Option<Content> {
     }
     let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty());
     let upper = |line: &str| line.to_ascii_uppercase();
-    if lines().take(20).any(|line| upper(line).starts_with("LM=") || upper(line).starts_with("LM3=")) {
+    if lines()
+        .take(20)
+        .any(|line| upper(line).starts_with("LM=") || upper(line).starts_with("LM3="))
+    {
         return Some(Content::Tps);
     }
     let first_word = |line: &str| line.split_whitespace().next().unwrap_or_default().to_owned();
@@ -188,7 +191,17 @@ fn text_of(start: &[u8], length: u64) -> Option<Content> {
             line.starts_with('#')
                 || matches!(
                     first_word(line).as_str(),
-                    "v" | "vn" | "vt" | "vp" | "f" | "l" | "o" | "g" | "s" | "p" | "mtllib" | "usemtl"
+                    "v" | "vn"
+                        | "vt"
+                        | "vp"
+                        | "f"
+                        | "l"
+                        | "o"
+                        | "g"
+                        | "s"
+                        | "p"
+                        | "mtllib"
+                        | "usemtl"
                 )
                 || (length > LOOKED_AT as u64 && text.ends_with(line))
         })
@@ -198,8 +211,15 @@ fn text_of(start: &[u8], length: u64) -> Option<Content> {
     if text.contains("shapeModel") || text.contains("clmtrackr") || text.contains("pModel") {
         return Some(Content::Clmtrackr);
     }
+    // The points of face alignment (`.pts`), and columns that say what they are.
+    let first_line = lines().next().unwrap_or_default().to_lowercase();
+    let is_pts = first_line.starts_with("version:") && text.contains("n_points:");
+    if is_pts || matches!(first_line.replace([' ', ';', '\t'], ",").as_str(), "x,y" | "x,y,z") {
+        return Some(Content::Numbers);
+    }
     let is_number = |word: &str| word.parse::<f64>().is_ok();
-    let complete = if length > LOOKED_AT as u64 { lines().count().saturating_sub(1) } else { usize::MAX };
+    let complete =
+        if length > LOOKED_AT as u64 { lines().count().saturating_sub(1) } else { usize::MAX };
     let numeric = |line: &str| {
         line.starts_with('#')
             || line.split([' ', '\t', ',', ';']).filter(|word| !word.is_empty()).all(is_number)
@@ -209,8 +229,9 @@ fn text_of(start: &[u8], length: u64) -> Option<Content> {
         && lines().next().is_some_and(|line| {
             line.rsplit_once([' ', '\t', ',', ';']).is_some_and(|(whole, _)| numeric(whole))
         });
-    (one_cut_line || complete > 0 && lines().next().is_some() && lines().take(complete).all(numeric))
-        .then_some(Content::Numbers)
+    (one_cut_line
+        || complete > 0 && lines().next().is_some() && lines().take(complete).all(numeric))
+    .then_some(Content::Numbers)
 }
 
 /// Formats without a magic number, whose sizes must fit one another.

@@ -61,6 +61,18 @@ impl Unit {
         }
     }
 
+    /// Its length in metres; `None` when unknown.
+    pub fn metres(self) -> Option<f64> {
+        Some(match self {
+            Self::Micrometre => 1e-6,
+            Self::Millimetre => 1e-3,
+            Self::Centimetre => 1e-2,
+            Self::Decimetre => 1e-1,
+            Self::Metre => 1.0,
+            Self::Unknown => return None,
+        })
+    }
+
     /// The unit that a symbol names, also as written in files ("millimeter", "um"); `None` when unknown.
     pub fn from_symbol(symbol: &str) -> Option<Self> {
         Some(match symbol.trim().to_ascii_lowercase().as_str() {
@@ -216,6 +228,8 @@ pub struct LinearModel {
     basis: Arc<DMatrix<f64>>,
     standard_deviations: DVector<f64>,
     cells: Cells,
+    /// For every point its number in a larger mesh of which this is a crop.
+    numbers: Option<Arc<[u32]>>,
 }
 
 impl LinearModel {
@@ -265,6 +279,7 @@ impl LinearModel {
             basis: Arc::new(svd.left.remove_columns(kept, dropped)),
             standard_deviations: svd.values.rows(0, kept).into_owned(),
             cells: Cells::None,
+            numbers: None,
         };
         Ok((model, BasisCheck { orthogonality_error, dropped_modes: given - kept }))
     }
@@ -285,6 +300,7 @@ impl LinearModel {
             basis: Arc::new(basis),
             standard_deviations,
             cells: Cells::None,
+            numbers: None,
         }
     }
 
@@ -326,6 +342,35 @@ impl LinearModel {
         }
         self.cells = cells;
         Ok(self)
+    }
+
+    /// The same model, whose point v is point `numbers[v]` of a larger mesh.
+    #[must_use]
+    pub fn with_point_numbers(mut self, numbers: &[u32]) -> Self {
+        self.numbers = Some(numbers.into());
+        self
+    }
+
+    /// For every point its number in a larger mesh of which this is a crop, where that is known.
+    pub fn point_numbers(&self) -> Option<&[u32]> {
+        self.numbers.as_deref()
+    }
+
+    /// The same modes about another mean (d·n).
+    ///
+    /// # Panics
+    /// When the mean has another length.
+    #[must_use]
+    pub fn with_mean(&self, mean: DVector<f64>) -> Self {
+        assert_eq!(mean.len(), self.mean.len(), "a mean of as many points");
+        Self { mean, ..self.clone() }
+    }
+
+    /// The model enlarged by `factor` about the origin, as in another unit.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let mean = &self.mean * factor;
+        Self { mean, standard_deviations: &self.standard_deviations * factor, ..self.clone() }
     }
 
     /// The model of the first `modes` modes (all of them when there are fewer).

@@ -11,6 +11,7 @@
 //! for all its copies.
 
 mod linear_model;
+mod points;
 mod population;
 mod procrustes;
 mod product;
@@ -18,6 +19,8 @@ mod thin_svd;
 
 pub(crate) use linear_model::lengths;
 pub use linear_model::{BasisCheck, Cells, Kind, LinearModel, ModelError, Unit};
+pub use points::evenly_spread;
+pub(crate) use population::into_principal_components;
 pub use population::{generalised_procrustes, principal_components};
 pub use procrustes::{Alignment, Similarity, align_to, procrustes};
 pub use product::{cross, gram, product};

@@ -15,18 +15,25 @@ pub fn principal_components(
     dimension: usize,
     shapes: &DMatrix<f64>,
 ) -> Result<LinearModel, ModelError> {
+    into_principal_components(dimension, shapes.clone())
+}
+
+/// The same, in the memory of the shapes.
+pub(crate) fn into_principal_components(
+    dimension: usize,
+    mut shapes: DMatrix<f64>,
+) -> Result<LinearModel, ModelError> {
     let count = shapes.ncols();
     if count < 3 {
         return Err(ModelError::TooFewShapes { found: count });
     }
     let mean = shapes.column_mean();
     let scale = 1.0 / ((count - 1) as f64).sqrt();
-    let mut centred = shapes.clone();
-    for mut column in centred.column_iter_mut() {
+    for mut column in shapes.column_iter_mut() {
         column -= &mean;
         column *= scale;
     }
-    LinearModel::from_scaled_basis(dimension, mean, centred).map(|(model, _)| model)
+    LinearModel::from_scaled_basis(dimension, mean, shapes).map(|(model, _)| model)
 }
 
 /// Moves every shape (a column of `shapes`, d·n × N) onto the running mean until it settles, in at

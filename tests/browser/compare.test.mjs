@@ -97,8 +97,10 @@ test("what is taken away can be opened, and the draws are the command line's", a
       assert.ok(file.bytes.equals(readFileSync(join(wanted, name))), `${name} differs`);
     }
 
-    await page.getByRole("combobox", { name: "Region of the PLY file" }).selectOption("A∖B");
-    await page.getByRole("combobox", { name: "Shape of the PLY file" }).selectOption("sample 2");
+    await page.getByRole("combobox", { name: "Region of the shape" }).selectOption("A∖B");
+    await page
+      .getByRole("combobox", { name: "Which shape of the region" })
+      .selectOption("sample 2");
     const sample = await save("Shape .ply");
     assert.equal(sample.name, "a-without-b-sample-2.ply");
     assert.match(sample.bytes.toString("latin1", 0, 60), /^ply\nformat .*\n/);

@@ -71,13 +71,29 @@ test("aborting a run cancels it and still resolves with what was drawn", async (
 test("a model that nobody waits for any more is closed", async () => {
   const { client, worker } = begin();
   const controller = new AbortController();
-  const opening = client.open(controller.signal, "x.h5", new ArrayBuffer(1));
+  const files = [{ name: "x.h5", blob: new Blob(["x"]) }];
+  const opening = client.open(controller.signal, files, null, false, () => {});
   const { id } = worker().last();
   controller.abort();
-  const part = { model: 5, part: "shape", report: {} };
-  worker().say({ t: "opened", id, format: "f", parts: [part] } as unknown as FromEngine);
   await assert.rejects(opening, { name: "AbortError" });
+  const opened = { format: "f", parts: ["shape"], model: 5, part: "shape", report: {} };
+  worker().say({ t: "opened", id, ...opened } as unknown as FromEngine);
+  await Promise.resolve();
   assert.deepEqual(worker().last(), { t: "close", model: 5 });
+  client.dispose();
+});
+
+test("how far a file is read is told to whoever opens it", async () => {
+  const { client, worker } = begin();
+  const told: [number, number][] = [];
+  const files = [{ name: "x.h5", blob: new Blob(["x"]) }];
+  const opening = client.open(never(), files, "color", false, (...read) => told.push(read));
+  const { id } = worker().last();
+  worker().say({ t: "reading", id, bytes: 10, of: 40 });
+  worker().say({ t: "reading", id: id + 1, bytes: 20, of: 40 });
+  worker().say({ t: "opened", id, part: "color", model: 2 } as unknown as FromEngine);
+  assert.equal((await opening).part, "color");
+  assert.deepEqual(told, [[10, 40]]);
   client.dispose();
 });
 

@@ -131,6 +131,82 @@ test("previews and sweeps are answered, but not while a run goes on", () => {
   }
 });
 
+const files = [{ name: "set/1.ply", blob: new Blob(["x"]) }];
+
+test("while a file is read the page hears how far, ten times a second and at the end", () => {
+  const { coordinator, posted, kinds } = begin(1, {
+    open: (_files, _part, _scale, onRead) => {
+      for (let bytes = 1; bytes <= 1000; bytes += 1) onRead(bytes, 1000);
+      return { model: 4, parts: ["shape"], part: "shape" } as ReturnType<Engine["open"]>;
+    },
+  });
+  coordinator.receive({ t: "open", id: 3, files, part: null, scale: false });
+  const told = posted.flatMap((message) => (message.t === "reading" ? [message.bytes] : []));
+  assert.equal(told[0], 1);
+  assert.equal(told.at(-1), 1000);
+  assert.ok(told.length < 20, `${told.length} messages`);
+  assert.equal(kinds().at(-1), "opened");
+});
+
+test("a part, a size and the files themselves come to the engine as they were asked for", () => {
+  const asked: unknown[][] = [];
+  const { coordinator, posted } = begin(1, {
+    open: (...given) => {
+      asked.push(given.slice(0, 3));
+      return { model: 1 } as ReturnType<Engine["open"]>;
+    },
+    groups: (given) => given.map(({ name }, i) => ({ name, files: [i] })),
+  });
+  coordinator.receive({ t: "open", id: 1, files, part: "expression", scale: true });
+  coordinator.receive({ t: "open", id: 2, files, part: null, scale: false });
+  assert.deepEqual(asked, [
+    [files, "expression", true],
+    [files, undefined, false],
+  ]);
+  coordinator.receive({ t: "groups", id: 3, files });
+  const groups = [{ name: "set/1.ply", files: [0] }];
+  assert.deepEqual(posted.at(-1), { t: "groups", id: 3, groups });
+});
+
+test("a pair is looked at while a run goes on", () => {
+  const inspection = { problem: null } as ReturnType<Engine["inspect"]>;
+  const { coordinator, posted, step, kinds } = begin(2, { inspect: () => inspection });
+  coordinator.receive(run);
+  coordinator.receive({ t: "inspect", id: 8, a: 1, b: 2, settings: {} });
+  assert.deepEqual(posted.at(-1), { t: "inspected", id: 8, inspection });
+  step();
+  step();
+  assert.equal(kinds().at(-1), "done");
+});
+
+test("lists of points are read by the engine, and its refusal is passed on", () => {
+  const points = { by: "region", ranges: "1,2" } as const;
+  const refusal = { code: "point-list", message: "Line 2 is no number.", hint: "Mend it." };
+  const { coordinator, posted } = begin(1, {
+    points: (text) => {
+      if (text === "1\n2") return points;
+      throw refusal;
+    },
+  });
+  coordinator.receive({ t: "points", id: 1, text: "1\n2" });
+  assert.deepEqual(posted.at(-1), { t: "points", id: 1, points });
+  coordinator.receive({ t: "points", id: 2, text: "1\nx" });
+  assert.deepEqual(posted.at(-1), { t: "error", id: 2, ...refusal });
+});
+
+test("the meshes of a run are given away, both of them", () => {
+  const given: Transferable[][] = [];
+  const geometry = () => ({ mean: new Float32Array(3), vertexSd: new Float32Array(1) });
+  const engine = { compared: () => ({ a: geometry(), b: geometry() }) } as unknown as Engine;
+  const coordinator = new Coordinator(
+    engine,
+    (_, transfer = []) => given.push(transfer),
+    () => {},
+  );
+  coordinator.receive({ t: "compared", id: 1 });
+  assert.equal(given.at(-1)?.length, 4);
+});
+
 test("the region asked for is the one the engine is asked for", () => {
   const asked: unknown[][] = [];
   const { coordinator } = begin(1, {

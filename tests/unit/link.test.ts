@@ -1,6 +1,14 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { defaultLink, misread, readLink, SETTING_KEYS, writeLink } from "../../www/app/link";
+import {
+  defaultLink,
+  fitsLink,
+  misread,
+  readLink,
+  SETTING_KEYS,
+  writeLink,
+} from "../../www/app/link";
+import type { Preparation } from "../../www/worker/protocol";
 
 test("an empty link is the first comparison", () => {
   assert.deepEqual(readLink(""), defaultLink());
@@ -32,7 +40,15 @@ test("what is written is read back, for every field", () => {
       differenceQuantile: 0.953,
       differenceThreshold: 3.5,
       differenceDraws: 64,
+      prepare: {
+        a: { unit: "mm", modes: 12, variance: null, rebase: false },
+        b: { unit: "µm", modes: null, variance: 0.95, rebase: true },
+        convert: true,
+        points: { by: "region" as const, ranges: "0-99,120,130-140" },
+        subsample: 2000,
+      },
     },
+    parts: { a: null, b: null },
     view: "sd" as const,
     region: "aWithoutB" as const,
     picture: "exclusiveModes" as const,
@@ -57,13 +73,44 @@ test("addresses of models keep their queries", () => {
   assert.deepEqual(readLink(writeLink(link)).urls, urls);
 });
 
+test("parts of the files at two addresses are kept", () => {
+  const urls = { a: "https://a.example/m.h5", b: "https://a.example/m.h5" };
+  const link = { ...defaultLink(), urls, parts: { a: null, b: "expression" } };
+  const text = writeLink(link);
+  assert.match(text, /&part-b=expression&/);
+  assert.deepEqual(readLink(text), link);
+});
+
+test("what is done to the models first can be read in the link, and a list is left out", () => {
+  const { settings } = defaultLink();
+  const written = (prepare: Partial<Preparation>) =>
+    writeLink({
+      ...defaultLink(),
+      settings: { ...settings, prepare: { ...settings.prepare, ...prepare } },
+    });
+  assert.match(
+    written({ points: { by: "region", ranges: "0-99,120" }, subsample: 500 }),
+    /&points=0-99,120&subsample=500&/,
+  );
+  assert.match(written({ points: { by: "map" } }), /&points=map&/);
+  const list = written({ points: { by: "list", a: [1, 2], b: [3, 4] } });
+  assert.equal(list, writeLink(defaultLink()));
+  // Longer ones are cut by the programs that pass links on.
+  const frayed = Array.from({ length: 900 }, (_, i) => 3 * i).join(",");
+  assert.equal(written({ points: { by: "region", ranges: frayed } }), list);
+  assert.equal(fitsLink({ by: "region", ranges: frayed }), false);
+  assert.equal(fitsLink({ by: "map" }), true);
+  assert.equal(fitsLink(null), true);
+});
+
 test("only web addresses are opened", () => {
   assert.equal(readLink("v=1&a=javascript:alert(1)&b=file:///etc/passwd").urls, null);
 });
 
 test("unknown keys and unreadable values are passed over", () => {
   const odd =
-    "v=9&demo=nothing&sigma=-3&seed=abc&chains=0&draws=1&view=xray&region=c&camera=a,b&z=1";
+    "v=9&demo=nothing&sigma=-3&seed=abc&chains=0&draws=1&view=xray&region=c&camera=a,b&z=1" +
+    "&unit-a=ell&modes-b=0&variance-a=120&rebase=c&convert=1&points=9-3&subsample=2";
   assert.deepEqual(readLink(odd), defaultLink());
 });
 
@@ -86,13 +133,20 @@ test("every setting that differs from the default is in the link, under a key of
     differenceQuantile: 0.5,
     differenceThreshold: 1,
     differenceDraws: 100,
+    prepare: {
+      a: { unit: "m", modes: 3, variance: 0.9, rebase: true },
+      b: { unit: "cm", modes: 3, variance: 0.9, rebase: true },
+      convert: true,
+      points: { by: "map" as const },
+      subsample: 100,
+    },
   };
   const keys = (link: string) => [...new URLSearchParams(link).keys()];
   const plain = keys(writeLink(defaultLink()));
   const added = keys(writeLink({ ...defaultLink(), settings: other })).filter(
     (key) => !plain.includes(key),
   );
-  assert.equal(added.length, 9);
+  assert.equal(added.length, 9 + 10);
   for (const key of added) assert.ok(SETTING_KEYS.includes(key), key);
 });
 
@@ -110,7 +164,8 @@ test("a link of the first version opens as it did", () => {
 });
 
 test("what a link asks for and nobody knows falls back, and is told", () => {
-  const newer = "v=2&demo=stars-1&sampler=nuts&diff=fuzzy&sides=c&leaves=120&noise=-1&exaggerate=9";
+  const newer =
+    "v=2&demo=stars-1&sampler=nuts&diff=fuzzy&sides=c&leaves=120&noise=-1&exaggerate=9&unit-b=inch";
   assert.deepEqual(readLink(newer), { ...defaultLink(), demo: "stars-1" });
-  assert.deepEqual(misread(newer), ["sampler=nuts", "sides=c", "diff=fuzzy"]);
+  assert.deepEqual(misread(newer), ["sampler=nuts", "sides=c", "diff=fuzzy", "unit-b=inch"]);
 });

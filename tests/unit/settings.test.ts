@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { FIRST_DEMO } from "../../www/app/demos";
+import { completed } from "../../www/app/preparation";
 import {
   budgetOf,
   DEFAULTS,
@@ -58,11 +59,13 @@ function fields(text: string): Record<string, unknown> {
 const standard = fields(body("impl Default for Settings"));
 
 test("the defaults are the engine's", () => {
-  const { seed, ...rest } = DEFAULTS;
+  // The preparation is an object of its own, and the engine's default is to do nothing.
+  const { seed, prepare, ...rest } = DEFAULTS;
   for (const [name, value] of Object.entries(rest)) {
     assert.deepEqual(value, standard[name], name);
   }
   assert.equal(seed, String(standard.seed));
+  assert.deepEqual(prepare, completed(null));
 });
 
 test("the budget of each sampler is the engine's", () => {

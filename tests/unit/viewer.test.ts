@@ -54,9 +54,54 @@ test("beside a model in space, one in the plane is not drawn as if it were in sp
     vertexSd: new Float32Array(3),
   });
   const geometry = { a: model(3), b: model(2) };
-  const scene: Scene = { geometry, shapes: {}, mode: "mean", dark: false, fadeRim: false };
+  const scene: Scene = {
+    geometry,
+    compared: null,
+    shapes: {},
+    mode: "mean",
+    dark: false,
+    fadeRim: false,
+  };
   const drawn = contentsOf(scene, ["a", "b"]).map(({ region }) => region);
   assert.deepEqual(drawn, ["a"]);
+});
+
+test("shapes of a run are drawn on the points that it compares", () => {
+  const model = (points: number, triangles: Uint32Array | null) => ({
+    dimension: 3 as const,
+    kind: "shape" as const,
+    mean: new Float32Array(3 * points),
+    triangles,
+    segments: null,
+    vertexSd: new Float32Array(points),
+  });
+  const [whole, part] = [Uint32Array.of(0, 1, 2), Uint32Array.of(1, 2, 3)];
+  const own = model(9, whole);
+  const compared = { a: model(5, part), b: model(5, null) };
+  const region = (name: "a" | "intersection", points: number) => ({
+    region: name,
+    mean: new Float32Array(3 * points),
+    vertexSd: new Float32Array(points),
+    samples: new Float32Array(0),
+    count: 0,
+    source: "draws" as const,
+  });
+  const scene: Scene = {
+    geometry: { a: own, b: own },
+    compared,
+    shapes: { intersection: region("intersection", 5) },
+    mode: "mean",
+    dark: false,
+    fadeRim: false,
+  };
+  const [drawn] = contentsOf(scene, ["intersection"]);
+  assert.equal(drawn?.triangles, part);
+  // Before there are shapes, the model itself.
+  assert.equal(contentsOf(scene, ["a"])[0]?.triangles, whole);
+  // As many points as the model has, but others: still those of the run.
+  const others = { a: model(9, part), b: model(9, null) };
+  const shapes = { a: region("a", 9) };
+  assert.equal(contentsOf({ ...scene, compared: others, shapes }, ["a"])[0]?.triangles, part);
 });
 
 test("one range holds all maps, and colours stay in it", () => {

@@ -3,10 +3,11 @@ import { test } from "node:test";
 import { FIRST_DEMO } from "../../www/app/demos";
 import { DIAGNOSTICS, GROUPS, valueAt } from "../../www/app/numbers";
 import { plain } from "../../www/app/phrase";
+import { completed } from "../../www/app/preparation";
 import * as words from "../../www/app/words";
 import { star } from "../../www/worker/mock-models";
 import { mockReport } from "../../www/worker/mock-report";
-import type { Progress } from "../../www/worker/protocol";
+import type { Inspection, Progress } from "../../www/worker/protocol";
 
 const seconds = { load: 0, prepare: 0, sample: 0, total: 0 };
 const report = mockReport(star("a", 0), star("b", 1), {}, seconds);
@@ -209,4 +210,66 @@ test("a hard difference is told by its own definition", () => {
     assert.doesNotMatch(said(name), /σ/);
   }
   assert.equal(new Set((["distance", "relative", "outside"] as const).map(said)).size, 3);
+});
+
+test("while a file is read it is said how far, in the unit of the whole", () => {
+  assert.equal(words.readingSentence(null), "Opening…");
+  const reading = (bytes: number, of: number) => words.readingSentence({ bytes, of });
+  assert.equal(reading(120e6, 317e6), "Reading 120 of 317\u202fMB");
+  assert.equal(reading(2000, 30_000), "Reading 2 of 30\u202fkB");
+  assert.equal(reading(317e6, 317e6), "Making the model…");
+});
+
+test("a model that was made here says from what", () => {
+  assert.equal(words.originSentence({ kind: "file" }), null);
+  const shapes = { kind: "shapes", count: 24, scaled: false } as const;
+  assert.equal(words.originSentence(shapes), "Made here from 24 shapes, aligned rigidly.");
+  assert.match(words.originSentence({ ...shapes, scaled: true }) ?? "", /brought to one size/);
+});
+
+test("what a file leaves open is told, what is in order is not", () => {
+  const { a } = report.models;
+  assert.equal(words.unitSentence({ ...a, unit: "mm" }), null);
+  assert.equal(words.unitSentence({ ...a, unit: "units" }), "Unit not stated.");
+  const guessed = { ...a, unit: "units", unitGuess: "mm" };
+  assert.equal(words.unitSentence(guessed), "Unit not stated, probably mm.");
+  assert.equal(words.basisSentence(a), null);
+  assert.equal(words.basisSentence({ ...a, orthogonality: 1e-7, droppedModes: 0 }), null);
+  assert.equal(
+    words.basisSentence({ ...a, orthogonality: 0.02, droppedModes: 1 }),
+    "Basis not orthonormal (off by 0.020), made so. 1 mode without variance left out.",
+  );
+});
+
+test("a pair that can be compared is one line", () => {
+  const found: Inspection = {
+    problem: null,
+    points: { a: 5023, b: 5023 },
+    compared: 5023,
+    triangles: "same",
+    units: { a: { stated: "mm", guess: null }, b: { stated: "mm", guess: null } },
+    meanDistance: { before: 1.4, now: 1.4, rigid: 0.9, similarity: null },
+    scale: 1,
+    remedies: [],
+    applied: [],
+  };
+  const line = (change: Partial<Inspection>) => words.pairLine({ ...found, ...change }, "mm");
+  assert.equal(line({}), "5023 points in common · same faces · means 1.40\u202fmm apart");
+  assert.match(line({ compared: 900 }), /^900 points compared · /);
+  const meanDistance = { before: null, now: null, rigid: null, similarity: null };
+  const unlike = { points: { a: 5023, b: 900 }, compared: null, meanDistance };
+  assert.equal(line({ ...unlike, triangles: "unknown" }), "5023 and 900 points");
+  assert.equal(
+    words.alignmentWords(found, "mm"),
+    "1.40\u202fmm apart as they stand, 0.900\u202fmm aligned rigidly",
+  );
+});
+
+test("the settings of a comparison say what was done to the models", () => {
+  const prepare = { ...completed(null), points: { by: "region" as const, ranges: "0-9" } };
+  const { settings } = report;
+  assert.match(
+    words.settingsSentence({ ...report, settings: { ...settings, prepare } }),
+    / · a region of 10 points$/,
+  );
 });

@@ -1,11 +1,12 @@
 /** Opens the page: numbers first, then the engine, the models and their shapes. */
 import { batch, effect } from "@preact/signals";
 import { storedResult, watchChoices, watchPictures } from "./comparison";
-import { FIRST_DEMO, findDemo } from "./demos";
+import { FIRST_DEMO } from "./demos";
 import { engineClient } from "./engine";
-import { apply, keepLink } from "./history";
+import { apply, keepLink, modelsOf } from "./history";
 import { type LinkState, misread, readLink, SETTING_KEYS } from "./link";
-import { openDemo, openPair } from "./models";
+import { demoModels, openPair } from "./models";
+import { watchPair } from "./pair";
 import { settingsKey } from "./settings";
 import { notify, nouns, pageState, result, run } from "./state";
 import { fetchStored } from "./stored";
@@ -28,6 +29,7 @@ export async function boot(): Promise<void> {
       result.value = storedResult(stored);
     });
   }
+  watchPair();
   watchChoices(stored);
   watchPictures();
   await models;
@@ -55,11 +57,8 @@ function tellMisread(): void {
 }
 
 async function openModels(link: LinkState): Promise<void> {
-  if (link.urls) {
-    await openPair({ kind: "url", url: link.urls.a }, { kind: "url", url: link.urls.b });
-  } else {
-    await openDemo(findDemo(link.demo) ?? FIRST_DEMO);
-  }
+  const { a, b } = modelsOf(link) ?? demoModels(FIRST_DEMO);
+  await openPair(a, b);
 }
 
 /** What the document itself shows of the state. */

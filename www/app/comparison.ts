@@ -7,9 +7,10 @@ import { engineClient, onEngineRestart, report as reportError } from "./engine";
 import { latest } from "./latest";
 import { REGIONS } from "./link";
 import { plain } from "./phrase";
+import { selectsPoints } from "./preparation";
 import {
   canPreview,
-  chosenPart,
+  compared,
   currentBase,
   currentKey,
   dismiss,
@@ -17,8 +18,10 @@ import {
   exaggeration,
   failedKey,
   held,
+  inspected,
   nouns,
   opening,
+  pairKey,
   picture,
   preview,
   type Result,
@@ -59,8 +62,18 @@ export function watchChoices(first: Stored | null): void {
     clearTimeout(timer);
     if (key === null || busy || key === failedKey.value) return;
     if (key === result.value?.key && held.peek()?.key === key) return;
-    if (stored?.key === key) timer = setTimeout(() => void restore(key), 0);
-    else timer = setTimeout(() => void start(), SETTLE_MS);
+    if (stored?.key === key) {
+      timer = setTimeout(() => void restore(key), 0);
+      return;
+    }
+    // Two that cannot be compared are not tried: beside the models it says why, and what helps.
+    const pair = inspected.value;
+    if (pair?.key !== pairKey.value) return;
+    if (pair?.inspection.problem) {
+      giveUp();
+      return;
+    }
+    timer = setTimeout(() => void start(), SETTLE_MS);
   });
   onEngineRestart(() => {
     held.value = null;
@@ -71,7 +84,7 @@ export function watchChoices(first: Stored | null): void {
 
 /** Puts the stored comparison back: its numbers at once, its shapes when the engine has them. */
 async function restore(key: string): Promise<void> {
-  const [a, b] = [chosenPart("a"), chosenPart("b")];
+  const [a, b] = [slots.a.value, slots.b.value];
   if (!stored || !a || !b || restoring) return;
   const base = currentBase.value;
   restoring = true;
@@ -83,7 +96,7 @@ async function restore(key: string): Promise<void> {
     result.value = storedResult(stored);
     const signal = new AbortController().signal;
     await engineClient().restore(signal, a.model, b.model, stored.text, draws);
-    held.value = { key, base };
+    held.value = { key, base, selects: false };
     await showRegions(REGIONS);
   } catch (thrown) {
     // A stored comparison that cannot be restored is no use: draw it again.
@@ -100,10 +113,14 @@ export function storedResult(first: Stored): Result {
 }
 
 export async function start(): Promise<void> {
-  const [a, b] = [chosenPart("a"), chosenPart("b")];
+  const [a, b] = [slots.a.value, slots.b.value];
   const key = currentKey.value;
   if (!a || !b || key === null) return;
-  const base = currentBase.value;
+  const running: Held = {
+    key,
+    base: currentBase.value,
+    selects: selectsPoints(settings.value.prepare),
+  };
   forgetRun();
   const controller = new AbortController();
   runController = controller;
@@ -115,7 +132,7 @@ export async function start(): Promise<void> {
   });
   spoken.value = "Comparison started.";
   held.value = null;
-  const refine = refiner({ key, base });
+  const refine = refiner(running);
   const begun = performance.now();
   try {
     const done = await engineClient().run(
@@ -130,7 +147,7 @@ export async function start(): Promise<void> {
       },
     );
     if (runController !== controller) return;
-    finish({ key, base }, done.report, done.cancelled);
+    finish(running, done.report, done.cancelled);
     await showRegions(REGIONS);
   } catch (thrown) {
     if (runController !== controller) return;
@@ -156,6 +173,13 @@ export function cancel(): void {
 function forgetRun(): void {
   runController = null;
   run.value = null;
+}
+
+/** Ends a run of models that are no longer compared; what it drew is not waited for. */
+function giveUp(): void {
+  const controller = runController;
+  forgetRun();
+  controller?.abort();
 }
 
 function finish(done: Held, text: string, cancelled: boolean): void {
@@ -207,6 +231,7 @@ async function showRegions(regions: Region[]): Promise<void> {
   }
   const { signal } = regionController;
   const seed = shapesSeed.value;
+  await showCompared(signal);
   await Promise.all(
     regions.map(async (name) => {
       try {
@@ -234,6 +259,27 @@ async function showRegions(regions: Region[]): Promise<void> {
       }
     }),
   );
+}
+
+/** The key of the comparison whose points `compared` holds. */
+let comparedKey: string | null = null;
+
+/** Fetches the points that are compared, where those are not simply the models' own. */
+async function showCompared(signal: AbortSignal): Promise<void> {
+  const shown = held.value;
+  if (shown === null || (shown.key === comparedKey && compared.value !== null)) return;
+  if (!shown.selects) {
+    compared.value = null;
+    return;
+  }
+  try {
+    const found = await engineClient().compared(signal);
+    if (signal.aborted || held.value?.key !== shown.key) return;
+    comparedKey = shown.key;
+    compared.value = found;
+  } catch (thrown) {
+    if (!signal.aborted && !wasAborted(thrown)) reportError("run", thrown);
+  }
 }
 
 /** Other shapes of the same draws. */

@@ -1,7 +1,9 @@
 /** The whole window takes files, always. A miss never navigates away. */
 import { signal } from "@preact/signals";
+import type { DroppedFile } from "../worker/protocol";
+import { filesBelow, filesOf } from "./folders";
 import { openFiles } from "./models";
-import type { Side } from "./state";
+import { notify, type Side } from "./state";
 
 /** The half under the dragged files; null while nothing is dragged. */
 export const dropSide = signal<Side | null>(null);
@@ -28,9 +30,27 @@ export function acceptDrops(): void {
     event.preventDefault();
     depth = 0;
     dropSide.value = null;
-    const files = [...(event.dataTransfer?.files ?? [])];
-    if (files.length > 0) void openFiles(files, sideAt(event));
+    if (event.dataTransfer && holdsFiles(event)) void take(event.dataTransfer, sideAt(event));
   });
+}
+
+async function take(dropped: DataTransfer, side: Side): Promise<void> {
+  const files = await droppedFiles(dropped);
+  if (files.length > 0) return openFiles(files, side);
+  const [message, hint] = [
+    "There is no file in what was dropped.",
+    "Drop models, or folders of them.",
+  ];
+  notify("page", "no-files", message, hint);
+}
+
+/** Once the drop is over the browser takes its list away, so entries are asked for at once. */
+function droppedFiles(dropped: DataTransfer): Promise<DroppedFile[]> {
+  const items = [...dropped.items].filter(({ kind }) => kind === "file");
+  const entries = items.flatMap((item) => item.webkitGetAsEntry?.() ?? []);
+  const folders = entries.length === items.length && entries.some((entry) => entry.isDirectory);
+  const plain = filesOf(dropped.files);
+  return folders ? filesBelow(entries) : Promise.resolve(plain);
 }
 
 function holdsFiles(event: DragEvent): boolean {

@@ -4,8 +4,17 @@
  * Every link of an older page must keep opening: unknown keys are ignored, unreadable values fall
  * back to the default, and what is not given is the default.
  */
-import type { Picture, Region, Settings } from "../worker/protocol";
+import type {
+  Picture,
+  PointSelection,
+  Preparation,
+  Region,
+  Settings,
+  SidePreparation,
+} from "../worker/protocol";
 import { FIRST_DEMO, findDemo } from "./demos";
+import { UNITS } from "./preparation";
+import { parseRanges } from "./ranges";
 import {
   ALIGNMENTS,
   budgetOf,
@@ -24,6 +33,7 @@ import {
   RANGES,
   SAMPLERS,
   SIDES_USED,
+  SUBSAMPLE,
 } from "./settings";
 import { type Camera, HOME } from "./viewer/camera";
 
@@ -36,8 +46,12 @@ export const REGIONS: Region[] = ["a", "aWithoutB", "intersection", "bWithoutA",
 /** What of a link is settings of the run. */
 export const SETTING_KEYS = (
   "align modes sigma sampler seed chains draws burnin thin " +
-  "fit sides plaus noise weighted diff leaves beyond diffdraws"
+  "fit sides plaus noise weighted diff leaves beyond diffdraws " +
+  "unit-a unit-b modes-a modes-b variance-a variance-b rebase convert points subsample"
 ).split(" ");
+
+/** Longer links are cut by the programs that pass them on. */
+const LONGEST_RANGES = 2000;
 
 /** As the slider has it. */
 export const MOST_EXAGGERATION = 5;
@@ -48,6 +62,8 @@ export interface LinkState {
   /** A pair that comes with the page, unless both models have addresses. */
   demo: string;
   urls: { a: string; b: string } | null;
+  /** Parts of the files at these addresses; null for the first. */
+  parts: { a: string | null; b: string | null };
   settings: Settings;
   view: ViewMode;
   /** The region shown alone, if one is. */
@@ -64,6 +80,7 @@ export function defaultLink(): LinkState {
   return {
     demo: FIRST_DEMO.id,
     urls: null,
+    parts: { a: null, b: null },
     settings: DEFAULTS,
     view: "mean",
     region: null,
@@ -77,8 +94,11 @@ export function defaultLink(): LinkState {
 export function writeLink(state: LinkState): string {
   const { settings, camera } = state;
   const pairs: [string, string | number][] = [["v", LINK_VERSION]];
-  if (state.urls) pairs.push(["a", state.urls.a], ["b", state.urls.b]);
-  else pairs.push(["demo", state.demo]);
+  if (state.urls) {
+    pairs.push(["a", state.urls.a], ["b", state.urls.b]);
+    if (state.parts.a !== null) pairs.push(["part-a", state.parts.a]);
+    if (state.parts.b !== null) pairs.push(["part-b", state.parts.b]);
+  } else pairs.push(["demo", state.demo]);
   pairs.push(
     ["align", settings.align],
     ["modes", settings.modes ?? "all"],
@@ -90,6 +110,7 @@ export function writeLink(state: LinkState): string {
     ["burnin", settings.burnIn],
     ["thin", settings.thin],
     ...rareSettings(settings),
+    ...preparationPairs(settings.prepare),
     ["view", state.view],
   );
   if (state.region) pairs.push(["region", state.region]);
@@ -103,7 +124,7 @@ export function writeLink(state: LinkState): string {
 
 /** Settings that links leave out while they are the default, to stay short. */
 function rareSettings(settings: Settings): [string, string | number][] {
-  const pairs: [string, keyof Settings, (string | number | null)?][] = [
+  const pairs: [string, Exclude<keyof Settings, "prepare">, (string | number | null)?][] = [
     ["fit", "fit"],
     ["sides", "pooling"],
     ["plaus", "plausibility"],
@@ -119,6 +140,31 @@ function rareSettings(settings: Settings): [string, string | number][] {
     .map(([key, name, text]) => [key, text ?? settings[name] ?? ""]);
 }
 
+/** What is done to the models first; nothing of a pair that is compared as it stands. */
+function preparationPairs(prepare: Preparation): [string, string | number][] {
+  const pairs: [string, string | number][] = [];
+  for (const side of ["a", "b"] as const) {
+    const { unit, modes, variance } = prepare[side];
+    if (unit !== null) pairs.push([`unit-${side}`, unit]);
+    if (modes !== null) pairs.push([`modes-${side}`, modes]);
+    if (variance !== null) pairs.push([`variance-${side}`, percentText(variance)]);
+  }
+  const rebased = (["a", "b"] as const).filter((side) => prepare[side].rebase).join("");
+  if (rebased !== "") pairs.push(["rebase", rebased]);
+  if (prepare.convert) pairs.push(["convert", "yes"]);
+  const { points, subsample } = prepare;
+  if (points?.by === "map") pairs.push(["points", "map"]);
+  if (points?.by === "region" && fitsLink(points)) pairs.push(["points", points.ranges]);
+  if (subsample !== null) pairs.push(["subsample", subsample]);
+  return pairs;
+}
+
+/** Whether a link can hold which points are compared: not the pairs of a list, nor a frayed region. */
+export function fitsLink(points: PointSelection | null): boolean {
+  if (points?.by === "list") return false;
+  return points?.by !== "region" || points.ranges.length <= LONGEST_RANGES;
+}
+
 export function readLink(fragment: string): LinkState {
   const given = new URLSearchParams(fragment.replace(/^#/, ""));
   const fallback = defaultLink();
@@ -127,6 +173,7 @@ export function readLink(fragment: string): LinkState {
   return {
     demo: findDemo(given.get("demo") ?? "")?.id ?? fallback.demo,
     urls: a && b && isAddress(a) && isAddress(b) ? { a, b } : null,
+    parts: { a: given.get("part-a"), b: given.get("part-b") },
     settings: readSettings(given),
     view: oneOf(given.get("view"), VIEW_MODES) ?? fallback.view,
     region: oneOf(given.get("region"), REGIONS) ?? null,
@@ -167,6 +214,29 @@ function readSettings(given: URLSearchParams): Settings {
     differenceDraws: count("diffdraws", RANGES.differenceDraws, DEFAULTS.differenceDraws),
     modes: modes === 0 ? null : modes,
     align: named("align", ALIGNMENTS, DEFAULTS.align),
+    prepare: readPreparation(given),
+  };
+}
+
+function readPreparation(given: URLSearchParams): Preparation {
+  const rebased = given.get("rebase") ?? "";
+  const count = (key: string, [least, most]: readonly [number, number]) =>
+    valid<number | null>(parseCount(given.get(key) ?? "", least, most), null);
+  const side = (name: "a" | "b"): SidePreparation => ({
+    unit: oneOf(given.get(`unit-${name}`), UNITS) ?? null,
+    modes: count(`modes-${name}`, RANGES.modes),
+    variance: valid<number | null>(parsePercent(given.get(`variance-${name}`) ?? ""), null),
+    rebase: /^[ab]+$/.test(rebased) && rebased.includes(name),
+  });
+  const points = given.get("points");
+  const ranges = parseRanges(points ?? "");
+  return {
+    a: side("a"),
+    b: side("b"),
+    convert: given.get("convert") === "yes",
+    points:
+      points === "map" ? { by: "map" } : ranges === "invalid" ? null : { by: "region", ranges },
+    subsample: count("subsample", SUBSAMPLE),
   };
 }
 
@@ -180,6 +250,8 @@ export function misread(fragment: string): string[] {
     plaus: Object.keys(PLAUSIBILITIES),
     diff: DIFFERENCES,
     align: Object.keys(ALIGNMENTS),
+    "unit-a": [...UNITS],
+    "unit-b": [...UNITS],
   };
   return Object.entries(words).flatMap(([key, known]) => {
     const value = given.get(key);

@@ -5,6 +5,7 @@ import { App } from "./views/App";
 import "../styles/page.css";
 import "../styles/stage.css";
 import "../styles/panels.css";
+import "../styles/pair.css";
 
 acceptDrops();
 const root = document.getElementById("app");

@@ -1,186 +1,266 @@
 /** Opening models into the two slots. A model that cannot be opened leaves the former one. */
-import { batch } from "@preact/signals";
+import { batch, signal } from "@preact/signals";
 import { EngineFailure, wasAborted } from "../worker/engine-errors";
-import type { OpenedPart } from "../worker/protocol";
+import type { DroppedFile, OpenedModel } from "../worker/protocol";
 import { type Demo, packagedFile } from "./demos";
 import { engineClient, onEngineRestart, report } from "./engine";
+import { withoutSides } from "./preparation";
 import {
+  change,
+  compared,
   demo,
   dismiss,
   emptyRegions,
   lockedRange,
   opening,
+  painting,
   SIDES,
   type Side,
   type Slot,
   type Source,
   settings,
   slots,
+  sourceKey,
   spoken,
+  type Wanted,
 } from "./state";
 
 const loads: Record<Side, AbortController | null> = { a: null, b: null };
 let fileSerial = 0;
 
-export function fileSource(file: File): Source {
+export interface NamedSource {
+  name: string;
+  source: Source;
+}
+
+/** More models than two were dropped: which are meant, and where the drop fell. */
+export const choosing = signal<{ models: NamedSource[]; side: Side } | null>(null);
+
+function first(source: Source): Wanted {
+  return { source, part: null, scale: false };
+}
+
+function filesSource(name: string, files: DroppedFile[]): Source {
   fileSerial += 1;
-  return { kind: "file", file, serial: fileSerial };
+  return { kind: "files", name, files, serial: fileSerial };
 }
 
 /** A demo that an address asks for, with whatever settings. */
-export async function openDemo(demo: Demo): Promise<void> {
-  await openPair({ kind: "demo", name: demo.a }, { kind: "demo", name: demo.b });
+export function demoModels({ a, b }: Demo): Record<Side, Wanted> {
+  return { a: first({ kind: "demo", name: a }), b: first({ kind: "demo", name: b }) };
 }
 
 /** A demo that a visitor chooses, with the σ that suits it. */
-export async function chooseDemo(demo: Demo): Promise<void> {
-  const source = (name: string): Source => ({ kind: "demo", name });
-  await openPair(source(demo.a), source(demo.b), demo.sigma ?? null);
+export async function chooseDemo(chosen: Demo): Promise<void> {
+  const { a, b } = demoModels(chosen);
+  await openPair(a, b, forget(chosen.sigma ?? null));
 }
 
-/** Both change at once, so that no comparison of an old with a new one begins between. */
-export async function openPair(a: Source, b: Source, sigma?: number | null): Promise<void> {
-  const opened = await Promise.all([load("a", a, null), load("b", b, null)]);
-  show({ a: opened[0], b: opened[1] }, sigma);
+/**
+ * Both change at once, so that no comparison of an old with a new one begins between. `alongside` is
+ * changed in the same step.
+ */
+export async function openPair(
+  a: Wanted | null,
+  b: Wanted | null,
+  alongside: () => void = () => {},
+): Promise<void> {
+  const opened = await Promise.all([a && load("a", a), b && load("b", b)]);
+  show({ a: opened[0], b: opened[1] }, alongside);
 }
 
-async function openInto(side: Side, source: Source, sigma?: null): Promise<void> {
-  const opened = await load(side, source, null);
-  show(side === "a" ? { a: opened, b: null } : { a: null, b: opened }, sigma);
+/** Lengths in use, those of the former models, say nothing of these. */
+function forget(sigma: number | null = null): () => void {
+  return () => change({ sigma, noise: null, differenceThreshold: null });
 }
 
-/** Files that were dropped or chosen: one fills the slot it was meant for, two fill both. */
-export async function openFiles(files: File[], side: Side): Promise<void> {
-  const [first, second, ...rest] = files;
-  if (!first) return;
-  if (rest.length > 0) {
-    report(
-      "page",
-      new EngineFailure({
-        code: "too-many-files",
-        message: `${files.length} files were dropped; one or two were expected.`,
-        hint: "Drop one file on a half, or two at once to fill both.",
-      }),
-    );
-    return;
-  }
+/** Files that were dropped or chosen: one model fills the slot it was meant for, two fill both. */
+export async function openFiles(files: DroppedFile[], side: Side): Promise<void> {
+  if (files.length === 0) return;
   dismiss("page");
-  if (second) await openPair(fileSource(first), fileSource(second), null);
+  const groups = await grouped(files, side);
+  if (groups === null) return;
+  const models = groups.map((group) => {
+    const own = group.files.flatMap((index) => files[index] ?? []);
+    return { name: group.name, source: filesSource(group.name, own) };
+  });
+  const [one, two, ...rest] = models;
+  if (!one) return;
+  if (rest.length > 0) {
+    choosing.value = { models, side };
+    spoken.value = `${models.length} models were found. Choose two of them.`;
+  } else if (two) {
+    await openPair(first(one.source), first(two.source), forget());
+  } else {
+    await openSource(side, one.source);
+  }
+}
+
+/** What was chosen of several models; null keeps the one that is there. */
+export async function openChosen(a: Source | null, b: Source | null): Promise<void> {
+  choosing.value = null;
+  if (a && b) await openPair(first(a), first(b), forget());
+  else if (a) await openSource("a", a);
+  else if (b) await openSource("b", b);
+}
+
+async function openSource(side: Side, source: Source): Promise<void> {
   // Whoever compares several models with one of their own keeps the σ they chose.
-  else await openInto(side, fileSource(first), demo.peek() === null ? undefined : null);
+  const alongside = demo.peek() === null ? undefined : forget();
+  await reread(side, first(source), alongside);
 }
 
-export async function choosePart(side: Side, index: number): Promise<void> {
+async function reread(side: Side, wanted: Wanted, alongside?: () => void): Promise<void> {
+  await openPair(side === "a" ? wanted : null, side === "b" ? wanted : null, alongside);
+}
+
+/** Which files belong together; null where they cannot be looked at. */
+async function grouped(files: DroppedFile[], side: Side) {
+  const [only] = files;
+  if (only && files.length === 1) return [{ name: baseName(only.name), files: [0] }];
+  const controller = begin(side, `${files.length} files`);
+  try {
+    const groups = await engineClient().groups(controller.signal, files);
+    if (groups.length > 0) return groups;
+    throw new EngineFailure({
+      code: "no-models",
+      message: `None of the ${files.length} files is a shape model.`,
+      hint: "Open models, or a folder of meshes with the same points in the same order.",
+    });
+  } catch (thrown) {
+    if (!wasAborted(thrown)) report("page", thrown);
+    return null;
+  } finally {
+    end(side, controller);
+  }
+}
+
+/** Another model of the same file. */
+export async function choosePart(side: Side, part: string): Promise<void> {
   const slot = slots[side].value;
-  const part = slot?.parts[index];
-  if (!slot || !part || index === slot.chosen) return;
-  const geometry = await geometryOf(new AbortController().signal, part);
-  slots[side].value = { ...slot, chosen: index, geometry };
+  if (!slot || part === slot.part) return;
+  await reread(side, { source: slot.source, part, scale: slot.scale });
 }
 
-/** `sigma` where the lengths in use, those of the former models, say nothing of these. */
-function show(opened: Record<Side, Slot | null>, sigma?: number | null): void {
+/** The shapes of a set, with or without their sizes. */
+export async function chooseScale(side: Side, scale: boolean): Promise<void> {
+  const slot = slots[side].value;
+  if (slot) await reread(side, { source: slot.source, part: slot.part, scale });
+}
+
+export async function openParts(source: Source, a: string, b: string): Promise<void> {
+  const part = (name: string): Wanted => ({ source, part: name, scale: false });
+  await openPair(part(a), part(b), forget());
+}
+
+/** Gives up what is being opened; the former model stays. */
+export function cancelOpening(side: Side): void {
+  loads[side]?.abort();
+  spoken.value = `Opening model ${side} was cancelled.`;
+}
+
+function show(opened: Record<Side, Slot | null>, alongside: () => void): void {
   batch(() => {
-    if (sigma !== undefined && (opened.a || opened.b)) {
-      settings.value = { ...settings.value, sigma, noise: null, differenceThreshold: null };
-    }
+    const sides = { a: replaces("a", opened.a), b: replaces("b", opened.b) };
+    if (sides.a || sides.b) change({ prepare: withoutSides(settings.value.prepare, sides) });
     for (const side of SIDES) {
       const slot = opened[side];
       if (!slot) continue;
-      for (const part of slots[side].value?.parts ?? []) engineClient().close(part.model);
+      const former = slots[side].value;
+      if (former) engineClient().close(former.model);
       slots[side].value = slot;
       opening[side].value = null;
     }
     emptyRegions.value = {};
     lockedRange.value = null;
+    compared.value = null;
+    painting.value = null;
     dismiss("run");
+    dismiss("pair");
+    alongside();
   });
 }
 
-/** Null if it failed or another was asked for meanwhile. */
-async function load(side: Side, source: Source, chosen: number | null): Promise<Slot | null> {
+/** A declared unit, a number of modes and a list of points are about one model. */
+function replaces(side: Side, slot: Slot | null): boolean {
+  const former = slots[side].value;
+  if (!slot || !former) return false;
+  return sourceKey(slot.source) !== sourceKey(former.source) || slot.part !== former.part;
+}
+
+function begin(side: Side, name: string): AbortController {
   loads[side]?.abort();
   const controller = new AbortController();
   loads[side] = controller;
-  opening[side].value = nameOf(source);
+  opening[side].value = { name, read: null };
   dismiss(side);
+  return controller;
+}
+
+function end(side: Side, controller: AbortController): void {
+  if (loads[side] !== controller) return;
+  loads[side] = null;
+  opening[side].value = null;
+}
+
+/** Null if it failed or another was asked for meanwhile. */
+async function load(side: Side, wanted: Wanted): Promise<Slot | null> {
+  const { source } = wanted;
+  const name = nameOf(source);
+  const controller = begin(side, name);
+  const onRead = (bytes: number, of: number) => {
+    if (loads[side] === controller) opening[side].value = { name, read: { bytes, of } };
+  };
   try {
-    const slot = await openSource(controller.signal, source, chosen);
-    if (source.kind !== "demo") spoken.value = `${nameOf(source)} opened as model ${side}.`;
+    const slot = await openWanted(controller.signal, wanted, onRead);
+    if (source.kind !== "demo") spoken.value = `${name} opened as model ${side}.`;
     return slot;
   } catch (thrown) {
     if (!wasAborted(thrown)) report(side, thrown);
     return null;
   } finally {
-    if (loads[side] === controller) {
-      loads[side] = null;
-      opening[side].value = null;
-    }
+    end(side, controller);
   }
 }
 
-async function openSource(
-  signal: AbortSignal,
-  source: Source,
-  chosen: number | null,
-): Promise<Slot> {
+type OnRead = (bytes: number, of: number) => void;
+
+async function openWanted(signal: AbortSignal, wanted: Wanted, onRead: OnRead): Promise<Slot> {
+  const { source, part, scale } = wanted;
   const client = engineClient();
-  let bytes: ArrayBuffer | null;
-  let size: number | null = null;
+  let opened: OpenedModel;
+  let bytes: number | null = null;
   if (source.kind === "demo") {
     const file = packagedFile(source.name);
-    bytes = file === null ? null : await fetched(signal, file);
+    const packaged = file === null ? null : await (await fetched(signal, file)).arrayBuffer();
+    opened = await client.openDemo(signal, source.name, packaged);
   } else {
-    bytes =
-      source.kind === "file" ? await readFile(source.file) : await fetched(signal, source.url);
-    size = bytes.byteLength;
+    const files = source.kind === "files" ? source.files : [await download(signal, source.url)];
+    bytes = files.reduce((sum, { blob }) => sum + blob.size, 0);
+    opened = await client.open(signal, files, part, scale, onRead);
   }
-  const opened =
-    source.kind === "demo"
-      ? await client.openDemo(signal, source.name, bytes)
-      : await client.open(signal, nameOf(source), bytes ?? new ArrayBuffer(0));
-  const index =
-    chosen ??
-    Math.max(
-      0,
-      opened.parts.findIndex((part) => part.report.kind === "shape"),
-    );
-  const part = opened.parts[index];
-  if (!part) {
-    throw new EngineFailure({
-      code: "empty-file",
-      message: `“${nameOf(source)}” holds no shape model.`,
-      hint: "Open a file with a mean shape and its modes.",
-    });
-  }
-  const geometry = await geometryOf(signal, part);
+  const geometry = await client.geometry(signal, opened.model);
+  const { format, parts, model, report, origin, hasMap } = opened;
   return {
     source,
-    format: opened.format,
-    bytes: size,
-    parts: opened.parts,
-    chosen: index,
+    scale,
+    bytes,
     geometry,
+    format,
+    parts,
+    model,
+    part: opened.part,
+    report,
+    origin,
+    hasMap,
   };
 }
 
-function geometryOf(signal: AbortSignal, part: OpenedPart) {
-  return engineClient().geometry(signal, part.model);
+async function download(signal: AbortSignal, url: string): Promise<DroppedFile> {
+  return { name: nameOf({ kind: "url", url }), blob: await (await fetched(signal, url)).blob() };
 }
 
-async function readFile(file: File): Promise<ArrayBuffer> {
-  try {
-    return await file.arrayBuffer();
-  } catch {
-    throw new EngineFailure({
-      code: "unreadable-file",
-      message: `“${file.name}” cannot be read.`,
-      hint: "If it was moved, changed or is a folder, choose the file again.",
-    });
-  }
-}
-
-async function fetched(signal: AbortSignal, address: string): Promise<ArrayBuffer> {
+async function fetched(signal: AbortSignal, address: string): Promise<Response> {
   const url = rawAddress(address);
   const failure = (what: string) =>
     new EngineFailure({
@@ -193,7 +273,7 @@ async function fetched(signal: AbortSignal, address: string): Promise<ArrayBuffe
     throw failure(thrown instanceof Error ? thrown.message : "no answer");
   });
   if (!response.ok) throw failure(`the server answered ${response.status}`);
-  return response.arrayBuffer();
+  return response;
 }
 
 /** A link to a file's page on GitHub means the file. */
@@ -205,25 +285,26 @@ function rawAddress(address: string): string {
 }
 
 export function nameOf(source: Source): string {
-  if (source.kind === "demo") return source.name;
-  if (source.kind === "file") return source.file.name;
+  if (source.kind !== "url") return source.name;
   return decodeURIComponent(source.url.split(/[?#]/)[0]?.split("/").pop() ?? source.url);
 }
 
+function baseName(path: string): string {
+  return path.split("/").pop() ?? path;
+}
+
 async function reopen(): Promise<void> {
-  const held = { a: slots.a.value, b: slots.b.value };
   const again = (side: Side) => {
-    const slot = held[side];
-    return slot ? load(side, slot.source, slot.chosen) : null;
+    const slot = slots[side].value;
+    return slot ? load(side, { source: slot.source, part: slot.part, scale: slot.scale }) : null;
   };
   const [a, b] = await Promise.all([again("a"), again("b")]);
-  for (const [side, slot] of [
-    ["a", a],
-    ["b", b],
-  ] as const) {
-    // The old handles died with the old worker: nothing is to be closed.
-    if (slot) slots[side].value = slot;
-  }
+  batch(() => {
+    // The old handles died with the old worker: nothing is to be closed, and what is done to the
+    // models stays.
+    if (a) slots.a.value = a;
+    if (b) slots.b.value = b;
+  });
 }
 
 onEngineRestart(() => void reopen());

@@ -8,6 +8,7 @@ import type {
   SamplerName,
   Settings,
 } from "../worker/protocol";
+import { completed, UNPREPARED } from "./preparation";
 
 export const DEFAULTS: Settings = {
   sigma: null,
@@ -25,6 +26,7 @@ export const DEFAULTS: Settings = {
   differenceDraws: 2000,
   modes: null,
   align: "none",
+  prepare: UNPREPARED,
 };
 
 /** Choices of one setting, the default first. */
@@ -139,6 +141,9 @@ export const RANGES = {
   modes: [1, 100_000],
 } as const;
 
+/** Fewer points than this say nothing of a shape. */
+export const SUBSAMPLE = [3, 10_000_000] as const;
+
 export const MOST_DRAWS = 10_000_000;
 
 /** Each chain has at least eight draws. */
@@ -186,13 +191,25 @@ const KEYS = Object.keys(DEFAULTS).sort() as (keyof Settings)[];
 
 /** Two runs with the same models and the same key draw the same. */
 export function settingsKey(settings: Settings): string {
-  return JSON.stringify(KEYS.map((key) => settings[key]));
+  return JSON.stringify(KEYS.map((key) => sorted(settings[key])));
+}
+
+/** The same with the names of every object in order, whoever wrote it. */
+function sorted(value: unknown): unknown {
+  if (typeof value !== "object" || value === null || Array.isArray(value)) return value;
+  const entries = Object.entries(value).sort(([one], [other]) => (one < other ? -1 : 1));
+  return entries.map(([name, inner]) => [name, sorted(inner)]);
 }
 
 /** The settings that led to a report: σ is left to the engine where it had chosen it. */
 export function settingsOf(
   report: Partial<Settings> & { sigma: number | null; sigmaRecommended: boolean },
 ): Settings {
-  const { sigmaRecommended, sigma, ...rest } = report;
-  return { ...DEFAULTS, ...rest, sigma: sigmaRecommended ? null : sigma };
+  const { sigmaRecommended, sigma, prepare, ...rest } = report;
+  return {
+    ...DEFAULTS,
+    ...rest,
+    prepare: completed(prepare),
+    sigma: sigmaRecommended ? null : sigma,
+  };
 }

@@ -2,17 +2,22 @@
 import { computed, type Signal, signal } from "@preact/signals";
 import type { EngineInfo } from "../worker/client";
 import type {
+  BothSides,
+  DroppedFile,
   Geometry,
-  OpenedPart,
+  Inspection,
+  OpenedModel,
   Prediction,
   Progress,
   Region,
   RegionShapes,
   Report,
   Settings,
+  SettingsPatch,
 } from "../worker/protocol";
 import { FIRST_DEMO, findDemo, type Nouns, nounsOf } from "./demos";
 import { defaultLink, type LinkState, type ViewMode } from "./link";
+import { patched } from "./preparation";
 import { DEFAULTS, settingsKey } from "./settings";
 import { type Camera, HOME } from "./viewer/camera";
 
@@ -22,17 +27,30 @@ export const SIDES: Side[] = ["a", "b"];
 /** Where a model came from, so that it can be opened again. */
 export type Source =
   | { kind: "demo"; name: string }
-  | { kind: "file"; file: File; serial: number }
+  | { kind: "files"; name: string; files: DroppedFile[]; serial: number }
   | { kind: "url"; url: string };
 
-export interface Slot {
+/** Which model of a source, read in which way. */
+export interface Wanted {
   source: Source;
-  format: string;
+  /** The first that can be read, where it is null. */
+  part: string | null;
+  /** Whether the shapes of a set are also brought to one size. */
+  scale: boolean;
+}
+
+export interface Slot extends OpenedModel {
+  source: Source;
+  scale: boolean;
+  /** Size of the files. */
   bytes: number | null;
-  parts: OpenedPart[];
-  /** Index into `parts`. */
-  chosen: number;
   geometry: Geometry | null;
+}
+
+/** What is being opened, and how much of it is read. */
+export interface Opening {
+  name: string;
+  read: { bytes: number; of: number } | null;
 }
 
 export interface Result {
@@ -54,19 +72,20 @@ export interface RunState {
 
 export interface Notice {
   id: number;
-  place: Side | "run" | "page" | "link";
+  place: Side | "pair" | "run" | "page" | "link";
   code: string;
   message: string;
   hint: string;
 }
+
+export type PaintTool = "add" | "erase" | "turn";
 
 export type Theme = "system" | "light" | "dark";
 
 const first: LinkState = defaultLink();
 
 export const slots: Record<Side, Signal<Slot | null>> = { a: signal(null), b: signal(null) };
-/** Name of what is being opened into a slot. */
-export const opening: Record<Side, Signal<string | null>> = { a: signal(null), b: signal(null) };
+export const opening: Record<Side, Signal<Opening | null>> = { a: signal(null), b: signal(null) };
 
 export const settings = signal<Settings>(DEFAULTS);
 export const result = signal<Result | null>(null);
@@ -90,8 +109,14 @@ export const shapes = signal<Partial<Record<Region, RegionShapes>>>({});
 export const preview = signal<Prediction | null>(null);
 /** The σ under the slider while it moves. */
 export const tried = signal<number | null>(null);
+/** The models as the run compares them, where those are other points than the models have. */
+export const compared = signal<BothSides<Geometry> | null>(null);
 /** Why a region has no shapes. */
 export const emptyRegions = signal<Partial<Record<Region, string>>>({});
+/** While the points that are compared are painted: 1 for each of A that is. */
+export const painting = signal<{ mask: Uint8Array; tool: PaintTool; size: number } | null>(null);
+/** The region that fills the stage, if one does: A while it is painted on. */
+export const alone = computed<Region | null>(() => (painting.value ? "a" : region.value));
 /** Colour range of the standard deviations while it is locked. */
 export const lockedRange = signal<[number, number] | null>(null);
 export const theme = signal<Theme>("system");
@@ -108,11 +133,30 @@ export const demo = computed(() => {
   return found?.b === b.name ? found : null;
 });
 
-export const nouns = computed<Nouns>(() => demo.value?.nouns ?? nounsOf("model A", "model B"));
+export const nouns = computed<Nouns>(() => {
+  if (demo.value) return demo.value.nouns;
+  const [a, b] = [slots.a.value, slots.b.value];
+  const one = a && b && sourceKey(a.source) === sourceKey(b.source) && a.part !== b.part;
+  return one ? nounsOf(partName(a.part), partName(b.part)) : nounsOf("model A", "model B");
+});
+
+/** What a part of a file is called in a sentence. */
+export function partName(part: string): string {
+  return part === "shape" ? "identity" : part === "color" ? "colour" : part;
+}
 
 export function sourceKey(source: Source): string {
   if (source.kind === "demo") return `demo:${source.name}`;
-  return source.kind === "url" ? source.url : `file:${source.serial}:${source.file.name}`;
+  return source.kind === "url" ? source.url : `file:${source.serial}:${source.name}`;
+}
+
+/** Two models with the same key are the same; of a source, the first part goes without a name. */
+export function modelKey(source: Source, part: string, scale: boolean): string {
+  return `${sourceKey(source)}#${part}${scale ? " in one size" : ""}`;
+}
+
+export function slotKey(slot: Slot): string {
+  return modelKey(slot.source, slot.part === slot.parts[0] ? "" : slot.part, slot.scale);
 }
 
 export function comparisonKey(a: string, b: string, chosen: Settings): string {
@@ -122,8 +166,7 @@ export function comparisonKey(a: string, b: string, chosen: Settings): string {
 function keyWith(chosen: Settings): string | null {
   const [a, b] = [slots.a.value, slots.b.value];
   if (!a || !b) return null;
-  const key = (slot: Slot) => `${sourceKey(slot.source)}#${slot.chosen}`;
-  return comparisonKey(key(a), key(b), chosen);
+  return comparisonKey(slotKey(a), slotKey(b), chosen);
 }
 
 /** What the chosen models and settings would draw; null until both models are there. */
@@ -131,8 +174,25 @@ export const currentKey = computed(() => keyWith(settings.value));
 /** The same at whatever σ. */
 export const currentBase = computed(() => keyWith({ ...settings.value, sigma: null }));
 
+/** Of what decides whether the two can be compared: the models and what is done to them first. */
+export const pairKey = computed(() => {
+  const { prepare, align, modes } = settings.value;
+  return keyWith({ ...DEFAULTS, prepare, align, modes });
+});
+/** What the engine found when it last looked at a pair. */
+export const inspected = signal<{ key: string; inspection: Inspection } | null>(null);
+/** The same, where it is about the pair that is chosen now. */
+export const inspection = computed(() =>
+  inspected.value?.key === pairKey.value ? (inspected.value?.inspection ?? null) : null,
+);
+
 /** The comparison that the engine holds, of which regions, previews and files can be asked. */
-export const held = signal<{ key: string; base: string | null } | null>(null);
+export const held = signal<{
+  key: string;
+  base: string | null;
+  /** Whether its points are others than the models have. */
+  selects: boolean;
+} | null>(null);
 
 /** Whether the engine holds the models and settings that are chosen, at whatever σ, and is free. */
 export const canPreview = computed(
@@ -144,13 +204,12 @@ export const outOfDate = computed(
 );
 
 export const unit = computed(
-  () => chosenPart("a")?.report.unit ?? result.value?.report.models.a.unit ?? "units",
+  () =>
+    settings.value.prepare.a.unit ??
+    slots.a.value?.report.unit ??
+    result.value?.report.models.a.unit ??
+    "units",
 );
-
-export function chosenPart(side: Side): OpenedPart | undefined {
-  const slot = slots[side].value;
-  return slot?.parts[slot.chosen];
-}
 
 /** σ that the engine recommends for the models on show, where it has said so. */
 export const recommended = computed(() => {
@@ -165,13 +224,14 @@ export const pageState = computed(() => {
   if (run.value) return "running";
   if (opening.a.value !== null || opening.b.value !== null) return "loading";
   if (notices.value.some(({ place }) => place !== "link")) return "error";
+  if (inspection.value?.problem) return "error";
   if (!slots.a.value || !slots.b.value) return "idle";
   return result.value && !outOfDate.value && shapes.value.intersection ? "done" : "ready";
 });
 
 /** Changes some of the settings; the run that this asks for begins by itself. */
-export function change(part: Partial<Settings>): void {
-  settings.value = { ...settings.value, ...part };
+export function change(part: SettingsPatch): void {
+  settings.value = patched(settings.value, part);
 }
 
 let noticeId = 0;

@@ -2,7 +2,7 @@
 import type { Report, Settings } from "../worker/protocol";
 import { FIRST_DEMO } from "./demos";
 import { settingsOf } from "./settings";
-import { comparisonKey } from "./state";
+import { comparisonKey, modelKey } from "./state";
 
 export interface Stored {
   report: Report;
@@ -31,7 +31,8 @@ export async function fetchStored(): Promise<Stored | null> {
     const text = await response.text();
     const report = JSON.parse(text) as Report;
     const settings = settingsOf(report.settings);
-    const key = comparisonKey(`demo:${FIRST_DEMO.a}#0`, `demo:${FIRST_DEMO.b}#0`, settings);
+    const demo = (name: string) => modelKey({ kind: "demo", name }, "", false);
+    const key = comparisonKey(demo(FIRST_DEMO.a), demo(FIRST_DEMO.b), settings);
     return { report, text, settings, key, draws: fetchDraws };
   } catch {
     return null;

@@ -4,14 +4,18 @@ import type {
   DifferenceName,
   FitMethod,
   Inference,
+  Inspection,
   ModeDiagnostics,
+  ModelReport,
+  Origin,
   Progress,
   Report,
   SamplerName,
 } from "../worker/protocol";
 import type { Nouns } from "./demos";
-import { count, degrees, length, number, percent, plusMinus } from "./format";
+import { bytes, count, degrees, length, number, percent, plusMinus } from "./format";
 import { figure, type Phrase } from "./phrase";
+import { completed, preparationWords, UNSTATED } from "./preparation";
 
 /** The thresholds of src/report.rs. */
 export const R_HAT = 1.01;
@@ -434,7 +438,77 @@ export function settingsSentence(report: Report): string {
   }
   if (modes !== null) parts.push(`first ${modes} modes`);
   if (align !== "none") parts.push(align === "rigid" ? "rigidly aligned" : "aligned with scale");
+  parts.push(...preparationWords(completed(report.settings.prepare)));
   return parts.join(" · ");
+}
+
+/** While a file is opened: how far it is read. */
+export function readingSentence(read: { bytes: number; of: number } | null): string {
+  if (read === null) return "Opening…";
+  if (read.bytes >= read.of) return "Making the model…";
+  const of = bytes(read.of);
+  const unit = of.slice(of.indexOf("\u202f"));
+  const done = unit.endsWith("MB")
+    ? number(read.bytes / 1e6)
+    : String(Math.round(read.bytes / 1e3));
+  return `Reading ${done} of ${of}`;
+}
+
+/** How a model was made that is not in a file; null for one that is. */
+export function originSentence(origin: Origin): string | null {
+  switch (origin.kind) {
+    case "file":
+      return null;
+    case "shapes":
+      return `Made here from ${count(origin.count)} shapes, aligned rigidly${origin.scaled ? " and brought to one size" : ""}.`;
+    case "blendshapes":
+      return `Made here from ${count(origin.count)} blendshapes, by ${count(origin.sampled)} sampled shapes.`;
+  }
+}
+
+/** What the size suggests of a unit that the file does not state. */
+export function unitSentence(report: ModelReport): string | null {
+  if (report.unit !== UNSTATED) return null;
+  const guess = report.unitGuess ? `, probably ${report.unitGuess}` : "";
+  return `Unit not stated${guess}.`;
+}
+
+/** From here on a basis was not orthonormal but for rounding in single precision. */
+const ROUNDING = 1e-4;
+
+export function basisSentence(report: ModelReport): string | null {
+  const off = report.orthogonality ?? 0;
+  const dropped = report.droppedModes ?? 0;
+  const sentences: string[] = [];
+  if (off > ROUNDING) sentences.push(`Basis not orthonormal (off by ${number(off, 2)}), made so.`);
+  if (dropped > 0) {
+    sentences.push(`${count(dropped)} mode${dropped === 1 ? "" : "s"} without variance left out.`);
+  }
+  return sentences.length === 0 ? null : sentences.join(" ");
+}
+
+/** The pair in one line, when all is well. */
+export function pairLine(found: Inspection, unit: string): string {
+  const { compared, points, triangles, meanDistance } = found;
+  const same = points.a === points.b;
+  const parts =
+    compared === null
+      ? [`${count(points.a)} and ${count(points.b)} points`]
+      : [`${count(compared)} points ${same && compared === points.a ? "in common" : "compared"}`];
+  if (triangles !== "unknown") parts.push(triangles === "same" ? "same faces" : "other faces");
+  const apart = meanDistance.now ?? meanDistance.before;
+  if (apart !== null) parts.push(apart === 0 ? "same mean" : `means ${length(apart, unit)} apart`);
+  return parts.join(" · ");
+}
+
+/** What aligning would do for the distance of the means. */
+export function alignmentWords(found: Inspection, unit: string): string | null {
+  const { before, rigid, similarity } = found.meanDistance;
+  const parts: string[] = [];
+  if (before !== null) parts.push(`${length(before, unit)} apart as they stand`);
+  if (rigid !== null) parts.push(`${length(rigid, unit)} aligned rigidly`);
+  if (similarity !== null) parts.push(`${length(similarity, unit)} with scale`);
+  return parts.length === 0 ? null : parts.join(", ");
 }
 
 function capital(text: string): string {

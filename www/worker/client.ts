@@ -6,11 +6,16 @@
  */
 import { EngineFailure } from "./engine-errors";
 import type {
+  BothSides,
+  DroppedFile,
   ExportKind,
+  FileGroup,
   FromEngine,
   Geometry,
   Handle,
+  Inspection,
   Picture,
+  PointSelection,
   Preview,
   Progress,
   Region,
@@ -38,8 +43,12 @@ export interface EngineEvents {
 interface Pending {
   resolve(message: FromEngine): void;
   reject(reason: unknown): void;
-  onProgress?: (progress: Progress, seconds: number) => void;
+  onProgress?: OnProgress;
+  onRead?: OnRead;
 }
+
+type OnProgress = (progress: Progress, seconds: number) => void;
+type OnRead = (bytes: number, of: number) => void;
 
 type Request = ToEngine extends infer M
   ? M extends { id: number }
@@ -71,8 +80,19 @@ export class EngineClient {
     this.#worker = this.#begin();
   }
 
-  async open(signal: AbortSignal, name: string, bytes: ArrayBuffer): Promise<Reply<"opened">> {
-    return this.#opened(signal, { t: "open", name, bytes }, [bytes]);
+  async groups(signal: AbortSignal, files: DroppedFile[]): Promise<FileGroup[]> {
+    return (await this.#ask(signal, { t: "groups", files }, "groups")).groups;
+  }
+
+  /** Aborting gives the model up; the engine lets go of it when it is read. */
+  async open(
+    signal: AbortSignal,
+    files: DroppedFile[],
+    part: string | null,
+    scale: boolean,
+    onRead: OnRead,
+  ): Promise<Reply<"opened">> {
+    return this.#opened(signal, { t: "open", files, part, scale }, [], onRead);
   }
 
   async openDemo(
@@ -87,19 +107,38 @@ export class EngineClient {
     return (await this.#ask(signal, { t: "geometry", model }, "geometry")).geometry;
   }
 
+  async inspect(
+    signal: AbortSignal,
+    a: Handle,
+    b: Handle,
+    settings: Partial<Settings>,
+  ): Promise<Inspection> {
+    return (await this.#ask(signal, { t: "inspect", a, b, settings }, "inspected")).inspection;
+  }
+
+  async points(signal: AbortSignal, text: string): Promise<PointSelection> {
+    return (await this.#ask(signal, { t: "points", text }, "points")).points;
+  }
+
+  /** The two models as the current run compares them. */
+  async compared(signal: AbortSignal): Promise<BothSides<Geometry>> {
+    const { a, b } = await this.#ask(signal, { t: "compared" }, "compared");
+    return { a, b };
+  }
+
   /** Aborting ends the run and still resolves, with what was drawn so far. */
   async run(
     signal: AbortSignal,
     a: Handle,
     b: Handle,
     settings: Partial<Settings>,
-    onProgress: (progress: Progress, seconds: number) => void,
+    onProgress: OnProgress,
   ): Promise<Reply<"done">> {
     const id = this.#next++;
     const cancel = () => this.#send({ t: "cancel", id });
     signal.addEventListener("abort", cancel);
     try {
-      const reply = await this.#wait(id, { t: "run", id, a, b, settings }, [], onProgress);
+      const reply = await this.#wait(id, { t: "run", id, a, b, settings }, [], { onProgress });
       return reply as Reply<"done">;
     } finally {
       signal.removeEventListener("abort", cancel);
@@ -154,24 +193,32 @@ export class EngineClient {
     signal: AbortSignal,
     request: Request,
     transfer: Transferable[],
+    onRead?: OnRead,
   ): Promise<Reply<"opened">> {
-    return this.#ask(signal, request, "opened", transfer, (late) => {
-      for (const part of late.parts) this.close(part.model);
+    signal.throwIfAborted();
+    const id = this.#next++;
+    const aborted = new Promise<never>((_, reject) => {
+      signal.addEventListener("abort", () => reject(signal.reason), { once: true });
     });
+    const message = { ...request, id } as ToEngine;
+    const reply = this.#wait(id, message, transfer, onRead ? { onRead } : {}).then((found) => {
+      const opened = found as Reply<"opened">;
+      if (signal.aborted) this.close(opened.model);
+      return opened;
+    });
+    // Whoever gives it up need not wait for the engine to come to its end.
+    return Promise.race([reply, aborted]);
   }
 
-  /** `discard` tidies up after a reply that nobody waits for any more. */
   async #ask<T extends FromEngine["t"]>(
     signal: AbortSignal,
     request: Request,
     _reply: T,
     transfer: Transferable[] = [],
-    discard?: (late: Reply<T>) => void,
   ): Promise<Reply<T>> {
     signal.throwIfAborted();
     const id = this.#next++;
     const reply = await this.#wait(id, { ...request, id } as ToEngine, transfer);
-    if (signal.aborted) discard?.(reply as Reply<T>);
     signal.throwIfAborted();
     return reply as Reply<T>;
   }
@@ -180,12 +227,10 @@ export class EngineClient {
     id: number,
     message: ToEngine,
     transfer: Transferable[],
-    onProgress?: (progress: Progress, seconds: number) => void,
+    listeners: Pick<Pending, "onProgress" | "onRead"> = {},
   ): Promise<FromEngine> {
     return new Promise((resolve, reject) => {
-      const pending: Pending = { resolve, reject };
-      if (onProgress) pending.onProgress = onProgress;
-      this.#pending.set(id, pending);
+      this.#pending.set(id, { resolve, reject, ...listeners });
       this.#send(message, transfer);
     });
   }
@@ -227,6 +272,11 @@ export class EngineClient {
       case "progress":
         this.#restarts = 0;
         this.#pending.get(message.id)?.onProgress?.(message.progress, message.seconds);
+        break;
+      case "reading":
+        // Making the model of what was read is one piece of work.
+        this.#watch.busy();
+        this.#pending.get(message.id)?.onRead?.(message.bytes, message.of);
         break;
       case "error":
         this.#settle(message.id)?.reject(new EngineFailure(message));

@@ -6,7 +6,15 @@
  * busy reads no messages and would not see a cancel.
  */
 import { isEngineError, sentenceOf } from "./engine-errors";
-import type { Engine, EngineError, FromEngine, Handle, Stage, ToEngine } from "./protocol";
+import type {
+  Engine,
+  EngineError,
+  FromEngine,
+  Handle,
+  OpenedModel,
+  Stage,
+  ToEngine,
+} from "./protocol";
 import { firstBudget, isIndivisible, nextBudget } from "./slices";
 
 export type Post = (message: FromEngine, transfer?: Transferable[]) => void;
@@ -28,9 +36,13 @@ interface Run {
 type Question = Exclude<ToEngine, { t: "run" | "cancel" | "close" }>;
 
 const BUSY_WITH: Record<Question["t"], string> = {
+  groups: "looking at the files",
   open: "reading the file",
   openDemo: "preparing the demo",
   geometry: "drawing the model",
+  inspect: "looking at the pair",
+  points: "reading the list",
+  compared: "drawing the models",
   restore: "restoring the comparison",
   region: "drawing shapes",
   preview: "previewing",
@@ -39,6 +51,8 @@ const BUSY_WITH: Record<Question["t"], string> = {
 };
 
 const POST_EVERY_MS = 250;
+/** Ten messages a second tell how far a file is read. */
+const TELL_EVERY_MS = 100;
 
 export class Coordinator {
   #engine: Engine;
@@ -101,14 +115,27 @@ export class Coordinator {
     const engine = this.#engine;
     const { id } = message;
     switch (message.t) {
-      case "open":
-        return this.#opened(id, () => engine.open(message.name, new Uint8Array(message.bytes)));
+      case "groups":
+        return { t: "groups", id, groups: engine.groups(message.files) };
+      case "open": {
+        const { files, part, scale } = message;
+        const onRead = this.#teller(id);
+        return this.#opened(id, () => engine.open(files, part ?? undefined, scale, onRead));
+      }
       case "openDemo": {
         const bytes = message.bytes === null ? undefined : new Uint8Array(message.bytes);
         return this.#opened(id, () => engine.openDemo(message.demo, bytes));
       }
       case "geometry":
         return { t: "geometry", id, geometry: engine.geometry(message.model) };
+      case "inspect": {
+        const { a, b, settings } = message;
+        return { t: "inspected", id, inspection: engine.inspect(a, b, settings) };
+      }
+      case "points":
+        return { t: "points", id, points: engine.points(message.text) };
+      case "compared":
+        return { t: "compared", id, ...engine.compared() };
       case "restore":
         this.#supersede();
         engine.restore(message.a, message.b, message.report, new Uint8Array(message.draws));
@@ -146,11 +173,22 @@ export class Coordinator {
     } satisfies EngineError;
   }
 
-  #opened(id: number, open: () => ReturnType<Engine["open"]>): FromEngine {
+  /** Says how far a file is read, now and then, and when all of it is. */
+  #teller(id: number): (bytes: number, of: number) => void {
+    let told = Number.NEGATIVE_INFINITY;
+    return (bytes, of) => {
+      const now = performance.now();
+      if (now - told < TELL_EVERY_MS && bytes < of) return;
+      told = now;
+      this.#post({ t: "reading", id, bytes, of });
+    };
+  }
+
+  #opened(id: number, open: () => OpenedModel): FromEngine {
     const begun = performance.now();
     const opened = open();
     const seconds = (performance.now() - begun) / 1000;
-    for (const { model } of opened.parts) this.#loading.set(model, seconds);
+    this.#loading.set(opened.model, seconds);
     return { t: "opened", id, ...opened };
   }
 

@@ -126,6 +126,34 @@ export function star(name: string, firstSpike: number): MockModel {
   return model(name, "the paper's stars (mock)", 2, "units", mean, modes, null, segments);
 }
 
+/** The model on some of its points; null takes all. */
+export function selected(whole: MockModel, points: number[] | null): MockModel {
+  if (points === null) return whole;
+  const { dimension } = whole;
+  const places = new Map(points.map((point, place) => [point, place]));
+  const pick = (values: Float32Array) =>
+    Float32Array.from({ length: points.length * dimension }, (_, i) => {
+      const point = points[Math.floor(i / dimension)] ?? 0;
+      return values[point * dimension + (i % dimension)] ?? 0;
+    });
+  const cells = (all: Uint32Array | null, corners: number) => {
+    if (all === null) return null;
+    const kept: number[] = [];
+    for (let i = 0; i < all.length; i += corners) {
+      const cell = [...all.subarray(i, i + corners)].flatMap((point) => places.get(point) ?? []);
+      if (cell.length === corners) kept.push(...cell);
+    }
+    return kept.length > 0 ? Uint32Array.from(kept) : null;
+  };
+  return {
+    ...whole,
+    mean: pick(whole.mean),
+    modes: whole.modes.map(pick),
+    triangles: cells(whole.triangles, 3),
+    segments: cells(whole.segments, 2),
+  };
+}
+
 /** A single point that moves in a plane. */
 export function plane(name: string, tilt: number): MockModel {
   const modes = [

@@ -2,14 +2,19 @@
  * Development only (`?mock`): an engine that invents its numbers and is slow on purpose, so that
  * loading, running, cancelling and failing can be seen without the real one.
  */
-import { type MockModel, packagedHeads, plane, star } from "./mock-models";
+import { type MockModel, packagedHeads, plane, selected, star } from "./mock-models";
+import { comparedPoints, mockInspection, mockPoints } from "./mock-pair";
 import { mockPrediction, mockReport, mockReportOf, mockSweepPoint } from "./mock-report";
 import type {
+  DroppedFile,
   Engine,
   EngineError,
   ExportKind,
+  FileGroup,
   Geometry,
   Handle,
+  OpenedModel,
+  Origin,
   Progress,
   Region,
   RegionShapes,
@@ -26,32 +31,67 @@ export async function mockEngine(base: string): Promise<Engine> {
   let pair: { a: MockModel; b: MockModel; settings: Partial<Settings> } | null = null;
   let done = 0;
 
-  const keep = (model: MockModel) => {
+  const keep = (model: MockModel, more: Partial<OpenedModel> = {}): OpenedModel => {
     models.set(next, model);
     next += 1;
     return {
       format: model.format,
-      parts: [{ model: next - 1, part: "shape", report: mockReportOf(model) }],
+      parts: ["shape"],
+      model: next - 1,
+      part: "shape",
+      report: mockReportOf(model),
+      origin: { kind: "file" },
+      hasMap: false,
+      ...more,
     };
   };
   const find = (handle: Handle) => models.get(handle) ?? fail("handle", "No such model.", "");
   const current = () => pair ?? fail("no-run", "There is no run.", "Start one.");
 
   return {
-    open(name, bytes) {
-      work(300);
+    groups(files) {
+      work(100);
+      return grouped(files);
+    },
+    open(files, part, scale, onRead) {
+      const name = files.length > 1 ? folderOf(files[0]?.name ?? "") : (files[0]?.name ?? "");
+      read(name, onRead);
       if (name.endsWith(".txt")) {
         fail(
           "unknown-format",
-          `“${name}” is not a shape model that Shapevenn can read (${bytes.length} bytes of text).`,
+          `“${name}” is not a shape model that Shapevenn can read.`,
           "Open a statismo or Scalismo .h5, a .mat, .npz or .pkl model.",
         );
       }
-      return keep({
-        ...(heads.get("heads-identity") as MockModel),
-        name,
-        format: "HDF5, Scalismo model",
-      });
+      const parts = name.includes("parts") ? ["shape", "expression"] : ["shape"];
+      const which = part ?? "shape";
+      const base = heads.get(
+        which === "expression" ? "heads-expression" : "heads-identity",
+      ) as MockModel;
+      const named = { ...base, name, format: "HDF5, Scalismo model" };
+      const model = name.includes("crop")
+        ? selected(named, [...base.mean.keys()].slice(0, 900))
+        : named;
+      const origin: Origin =
+        files.length > 1
+          ? { kind: "shapes", count: files.length, scaled: scale }
+          : name.includes("blend")
+            ? { kind: "blendshapes", count: 52, sampled: 1000 }
+            : { kind: "file" };
+      const opened = keep(model, { parts, part: which, origin, hasMap: name.includes("crop") });
+      const { report } = opened;
+      return name.includes("plain")
+        ? {
+            ...opened,
+            report: {
+              ...report,
+              unit: "units",
+              unitGuess: "mm",
+              orthogonality: 0.02,
+              droppedModes: 2,
+            },
+          }
+        : opened;
     },
     openDemo(demo) {
       work(120);
@@ -59,19 +99,19 @@ export async function mockEngine(base: string): Promise<Engine> {
       if (demo.startsWith("planes")) return keep(plane(demo, demo.endsWith("a") ? 0 : 1));
       return keep(heads.get(demo) ?? fail("demo", `There is no demo “${demo}”.`, ""));
     },
-    geometry(handle): Geometry {
-      const { dimension, mean, triangles, segments, modes } = find(handle);
-      return {
-        dimension,
-        kind: "shape",
-        mean: mean.slice(),
-        triangles: triangles?.slice() ?? null,
-        segments: segments?.slice() ?? null,
-        vertexSd: deviation(modes, dimension, 1),
-      };
+    geometry: (handle) => geometryOf(find(handle)),
+    inspect(a, b, settings) {
+      work(30);
+      return mockInspection(find(a), find(b), settings);
+    },
+    points: mockPoints,
+    compared() {
+      const { a, b } = current();
+      return { a: geometryOf(a), b: geometryOf(b) };
     },
     start(a, b, settings) {
-      const [first, second] = [find(a), find(b)];
+      const points = comparedPoints(find(a), settings);
+      const [first, second] = [selected(find(a), points), selected(find(b), points)];
       if (first.mean.length !== second.mean.length) {
         fail(
           "point-count-mismatch",
@@ -139,6 +179,42 @@ export async function mockEngine(base: string): Promise<Engine> {
       models.delete(handle);
     },
   };
+}
+
+function geometryOf({ dimension, mean, triangles, segments, modes }: MockModel): Geometry {
+  return {
+    dimension,
+    kind: "shape",
+    mean: mean.slice(),
+    triangles: triangles?.slice() ?? null,
+    segments: segments?.slice() ?? null,
+    vertexSd: deviation(modes, dimension, 1),
+  };
+}
+
+/** Meshes of one folder belong together. */
+function grouped(files: DroppedFile[]): FileGroup[] {
+  const groups = new Map<string, number[]>();
+  files.forEach(({ name }, i) => {
+    const key = /\.(ply|obj|stl|vtk)$/.test(name) ? folderOf(name) : name;
+    groups.set(key, [...(groups.get(key) ?? []), i]);
+  });
+  return [...groups].map(([name, indices]) => ({ name, files: indices }));
+}
+
+function folderOf(name: string): string {
+  return name.split("/").slice(0, -1).join("/") || "shapes";
+}
+
+/** Names that say “big” are read slowly. */
+function read(name: string, onRead: (bytes: number, of: number) => void): void {
+  const of = name.includes("big") ? 317e6 : 2e5;
+  const steps = name.includes("big") ? 60 : 3;
+  for (let step = 1; step <= steps; step += 1) {
+    work(50);
+    onRead((of * step) / steps, of);
+  }
+  work(name.includes("big") ? 1500 : 100);
 }
 
 function stageAt(fraction: number): Stage {

@@ -3,7 +3,7 @@
  * a change of meaning raises PROTOCOL. Bulk data is typed arrays, transferred, never JSON.
  */
 
-export const PROTOCOL = 2;
+export const PROTOCOL = 3;
 
 /** A model that the engine holds, until `close`. */
 export type Handle = number;
@@ -30,6 +30,38 @@ export type Plausibility = "product" | "idempotent";
 export type DifferenceName = "soft" | "distance" | "relative" | "outside";
 export type Alignment = "none" | "rigid" | "similarity";
 
+/** What is done to one model before it is compared. */
+export interface SidePreparation {
+  /** Declares the unit where the file does not say it. */
+  unit: string | null;
+  /** The first so many modes. */
+  modes: number | null;
+  /** Or as many as hold this share of the variance. */
+  variance: number | null;
+  /** Puts this model's modes on the other's mean. */
+  rebase: boolean;
+}
+
+/** Which points are compared. */
+export type PointSelection =
+  /** "0-99,120": these points of A, and of B. */
+  | { by: "region"; ranges: string }
+  /** The crop's own index map. */
+  | { by: "map" }
+  /** Pairs of points of A and of B. */
+  | { by: "list"; a: number[]; b: number[] };
+
+/** What is done to both models before they are compared. */
+export interface Preparation {
+  a: SidePreparation;
+  b: SidePreparation;
+  /** B into the unit of A. */
+  convert: boolean;
+  points: PointSelection | null;
+  /** At most so many points, evenly spread. */
+  subsample: number | null;
+}
+
 /** As `Settings` in src/comparison/settings.rs; absent fields take the engine's defaults. */
 export interface Settings {
   sigma: number | null;
@@ -53,13 +85,22 @@ export interface Settings {
   differenceDraws: number;
   modes: number | null;
   align: Alignment;
+  prepare: Preparation;
 }
+
+/** Some of the settings, the preparation part by part. */
+export type SettingsPatch = Partial<Omit<Settings, "prepare">> & {
+  prepare?: Partial<Omit<Preparation, "a" | "b">> & {
+    a?: Partial<SidePreparation>;
+    b?: Partial<SidePreparation>;
+  };
+};
 
 /** As `ModelReport` in src/report.rs. */
 export interface ModelReport {
   name: string;
   format: string;
-  kind: "shape" | "color";
+  kind: "shape" | "color" | "displacement";
   points: number;
   dimension: 2 | 3;
   modes: number;
@@ -72,6 +113,12 @@ export interface ModelReport {
   /** Triangles, or segments where there are none. */
   cells: number;
   notes: string[];
+  /** How far the basis in the file was from orthonormal; reports of older engines lack this. */
+  orthogonality?: number;
+  /** Modes of the file without variance. */
+  droppedModes?: number;
+  /** What the size suggests where the file does not state the unit. */
+  unitGuess?: string | null;
 }
 
 export interface Spread {
@@ -222,17 +269,78 @@ export interface Report {
   seconds: { load: number; prepare: number; sample: number; total: number };
 }
 
-/** One model of an opened file. */
-export interface OpenedPart {
+/** A file where it is: read in the worker, as far as needed. */
+export interface DroppedFile {
+  /** With the folders in which it was dropped: "female/01.ply". */
+  name: string;
+  blob: Blob;
+}
+
+/** Files that make one model, as indices into what was asked about. */
+export interface FileGroup {
+  name: string;
+  files: number[];
+}
+
+/** Where a model comes from. */
+export type Origin =
+  | { kind: "file" }
+  /** Made of shapes in correspondence. */
+  | { kind: "shapes"; count: number; scaled: boolean }
+  /** Made of a sampled population of a neutral shape and its displacements. */
+  | { kind: "blendshapes"; count: number; sampled: number };
+
+/** One model of a file or of several; other parts are opened when they are chosen. */
+export interface OpenedModel {
+  format: string;
+  /** Names of all models in it, the one to show first in front. */
+  parts: string[];
   model: Handle;
   part: string;
   report: ModelReport;
+  origin: Origin;
+  /** Whether it says which points of a larger mesh its own are. */
+  hasMap: boolean;
+}
+
+/** Something that can be done about a pair, or was. */
+export interface Remedy {
+  id: string;
+  label: string;
+  sentence: string;
+  /** What does it; of an applied one, what undoes it. */
+  settings: SettingsPatch;
+  recommended: boolean;
+}
+
+/** Whether two models can be compared, and what would help. */
+export interface Inspection {
+  /** Why they cannot be compared as they stand. */
+  problem: EngineError | null;
+  /** Points of each model. */
+  points: BothSides<number>;
+  /** Points that are compared after preparation. */
+  compared: number | null;
+  triangles: "same" | "different" | "unknown";
+  units: BothSides<{ stated: string; guess: string | null }>;
+  /** Of the two mean shapes, in the unit of A: as they are, as prepared, after either alignment. */
+  meanDistance: {
+    before: number | null;
+    now: number | null;
+    rigid: number | null;
+    similarity: number | null;
+  };
+  /** Size of B over size of A. */
+  scale: number | null;
+  /** Not yet applied. */
+  remedies: Remedy[];
+  applied: Remedy[];
 }
 
 /** How a model is drawn. `vertexSd` is per point, in the model's unit. */
 export interface Geometry {
   dimension: 2 | 3;
-  kind: "shape" | "color";
+  kind: ModelReport["kind"];
   mean: Float32Array;
   triangles: Uint32Array | null;
   segments: Uint32Array | null;
@@ -293,17 +401,40 @@ export interface Progress {
 
 export type ExportKind =
   | { kind: "intersection-h5" }
+  /** Scalismo's .h5.json. */
+  | { kind: "intersection-json" }
   | { kind: "intersection-npz" }
+  | { kind: "intersection-plain-json" }
+  | { kind: "intersection-glb" }
   | { kind: "draws-npz" }
+  | { kind: "draws-json" }
+  | { kind: "draws-csv" }
   | { kind: "report-json" }
-  /** index −1 is the mean, else a sample of the same seed and count as in `region`. */
-  | { kind: "ply"; region: Region; index: number; count: number; seed: string };
+  | { kind: "report-csv" }
+  /** index −1 is the mean, else a sample; the rest as in `region`, so that the file is what is seen. */
+  | {
+      kind: "ply" | "obj" | "glb";
+      region: Region;
+      index: number;
+      count: number;
+      seed: string;
+      exaggeration: number;
+      picture: Picture;
+    };
 
 export type ToEngine =
-  | { t: "open"; id: number; name: string; bytes: ArrayBuffer }
+  /** Which of these files belong together. */
+  | { t: "groups"; id: number; files: DroppedFile[] }
+  /** `part` null takes the first; `scale` also brings the shapes of a set to one size. */
+  | { t: "open"; id: number; files: DroppedFile[]; part: string | null; scale: boolean }
   /** `bytes`: the packaged head file; null for demos that are made by code. */
   | { t: "openDemo"; id: number; demo: string; bytes: ArrayBuffer | null }
   | { t: "geometry"; id: number; model: Handle }
+  | { t: "inspect"; id: number; a: Handle; b: Handle; settings: Partial<Settings> }
+  /** A list of vertices, or pairs of them, as text. */
+  | { t: "points"; id: number; text: string }
+  /** The two models as the current run compares them. */
+  | { t: "compared"; id: number }
   | { t: "run"; id: number; a: Handle; b: Handle; settings: Partial<Settings> }
   | { t: "cancel"; id: number }
   /** Puts back a finished run from its report and draws. */
@@ -336,8 +467,14 @@ export type FromEngine =
   | { t: "beat" }
   /** Long indivisible work begins: no beats until it is done. */
   | { t: "busy"; what: string }
-  | { t: "opened"; id: number; format: string; parts: OpenedPart[] }
+  | { t: "groups"; id: number; groups: FileGroup[] }
+  /** While a model is read: bytes so far, of how many. */
+  | { t: "reading"; id: number; bytes: number; of: number }
+  | ({ t: "opened"; id: number } & OpenedModel)
   | { t: "geometry"; id: number; geometry: Geometry }
+  | { t: "inspected"; id: number; inspection: Inspection }
+  | { t: "points"; id: number; points: PointSelection }
+  | ({ t: "compared"; id: number } & BothSides<Geometry>)
   | { t: "progress"; id: number; progress: Progress; seconds: number }
   /** Also after cancel: partial results are results. `report` is the JSON text, as downloaded. */
   | { t: "done"; id: number; cancelled: boolean; report: string }
@@ -352,9 +489,18 @@ export type FromEngine =
 
 /** The class that the engine's wasm package exports (src/wasm.rs), as the worker uses it. */
 export interface Engine {
-  open(name: string, bytes: Uint8Array): { format: string; parts: OpenedPart[] };
-  openDemo(demo: string, bytes?: Uint8Array): { format: string; parts: OpenedPart[] };
+  groups(files: DroppedFile[]): FileGroup[];
+  open(
+    files: DroppedFile[],
+    part: string | undefined,
+    scale: boolean,
+    onRead: (bytes: number, of: number) => void,
+  ): OpenedModel;
+  openDemo(demo: string, bytes?: Uint8Array): OpenedModel;
   geometry(model: Handle): Geometry;
+  inspect(a: Handle, b: Handle, settings: Partial<Settings>): Inspection;
+  points(text: string): PointSelection;
+  compared(): BothSides<Geometry>;
   start(a: Handle, b: Handle, settings: Partial<Settings>): void;
   /** Does about `evaluations` evaluations of the distance and says how far the run is. */
   advance(evaluations: number): Progress;

@@ -4,23 +4,25 @@
 #![allow(clippy::print_stdout, reason = "a command prints its result")]
 
 mod document;
+mod prepare;
 mod reproduce;
+mod sources;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use shapevenn::compare::DifferenceDefinition;
 use shapevenn::comparison::{
-    Comparison, ComparisonError, FitChoice, Plausibility, Pooling, Sampler, Settings,
+    self, Comparison, ComparisonError, FitChoice, Plausibility, Pooling, Sampler, Settings,
     SettingsError, Stage,
 };
-use shapevenn::files::{self, Described, Download, Error};
+use shapevenn::files::{self, Download, Error, ShownShape};
 use shapevenn::formats;
-use shapevenn::model::{Alignment, LinearModel};
+use shapevenn::model::LinearModel;
 use shapevenn::report::{ModelReport, Report, Seconds};
 
 /// Which shapes can two statistical shape models both make, and which can only one of them make?
@@ -35,7 +37,7 @@ struct Cli {
 enum Command {
     /// Say what is in model files
     Info {
-        /// Files, `FILE#part` or `demo:NAME`
+        /// Files, folders of shapes, `FILE#part` or `demo:NAME`
         #[arg(required = true)]
         files: Vec<String>,
         /// Print one JSON array of descriptions
@@ -44,6 +46,18 @@ enum Command {
     },
     /// Compare two models: A∩B, A\B and B\A
     Compare(Compare),
+    /// Say whether two models can be compared, and what would help
+    Inspect {
+        /// First model: a file, a folder of shapes, `FILE#part` or `demo:NAME`
+        a: String,
+        /// Second model
+        b: String,
+        #[command(flatten)]
+        prepare: prepare::Arguments,
+        /// Print one JSON document
+        #[arg(long)]
+        json: bool,
+    },
     /// Write a model in another format, chosen by the ending of OUT: .h5, .npz, or .ply (mean shape)
     Convert {
         /// A file, `FILE#part` or `demo:NAME`
@@ -60,12 +74,8 @@ enum Command {
         /// Tolerances to look at; from a hundredth of the recommended one to a hundredfold when left out
         #[arg(long, value_delimiter = ',')]
         sigma: Vec<f64>,
-        /// Use only the first modes of each model
-        #[arg(long)]
-        modes: Option<usize>,
-        /// What may be moved to bring B to A
-        #[arg(long, value_enum, default_value = "none")]
-        align: AlignName,
+        #[command(flatten)]
+        prepare: prepare::Arguments,
         /// Print one JSON array
         #[arg(long)]
         json: bool,
@@ -76,13 +86,12 @@ enum Command {
 
 #[derive(Debug, Args)]
 struct Compare {
-    /// First model: a file, `FILE#part` or `demo:NAME`
+    /// First model: a file, a folder of shapes, `FILE#part` or `demo:NAME`
     a: String,
     /// Second model
     b: String,
-    /// Use only the first modes of each model
-    #[arg(long)]
-    modes: Option<usize>,
+    #[command(flatten)]
+    prepare: prepare::Arguments,
     /// Tolerance σ in the unit of A; recommended from the models when left out
     #[arg(long)]
     sigma: Option<f64>,
@@ -104,9 +113,6 @@ struct Compare {
     /// Steps of each chain for every draw kept
     #[arg(long)]
     thin: Option<usize>,
-    /// What may be moved to bring B to A
-    #[arg(long, value_enum, default_value = "none")]
-    align: AlignName,
     /// Gaussian fit to build on: auto, variational, reweighted, laplace or rms
     #[arg(long, value_parser = setting::<FitChoice>)]
     fit: Option<FitChoice>,
@@ -140,26 +146,6 @@ struct Compare {
     /// Print the report as one JSON document
     #[arg(long)]
     json: bool,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum AlignName {
-    /// Compare the models as they stand
-    None,
-    /// Rotation and translation
-    Rigid,
-    /// Rotation, translation and scale
-    Similarity,
-}
-
-impl From<AlignName> for Alignment {
-    fn from(name: AlignName) -> Self {
-        match name {
-            AlignName::None => Self::None,
-            AlignName::Rigid => Self::Rigid,
-            AlignName::Similarity => Self::Similarity,
-        }
-    }
 }
 
 /// A parser of one of the names, which the help lists.
@@ -202,10 +188,8 @@ fn main() -> ExitCode {
     let done = match Cli::parse().command {
         Command::Info { files, json } => info(&files, json),
         Command::Compare(arguments) => compare(&arguments),
-        Command::Sweep { a, b, sigma, modes, align, json } => {
-            let settings = Settings { modes, align: align.into(), ..Settings::default() };
-            sweep([&a, &b], sigma, settings, json)
-        }
+        Command::Inspect { a, b, prepare, json } => inspect([&a, &b], &prepare, json),
+        Command::Sweep { a, b, sigma, prepare, json } => sweep([&a, &b], sigma, &prepare, json),
         Command::Convert { input, output } => convert(&input, &output),
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
     };
@@ -222,49 +206,10 @@ fn main() -> ExitCode {
     }
 }
 
-/// All models of a file or demo.
-fn open_all(source: &str) -> Result<Vec<Described>, Failure> {
-    if let Some(name) = source.strip_prefix("demo:") {
-        return Ok(files::open_demo(name, packaged(name))?);
-    }
-    let path = Path::new(source);
-    let bytes = std::fs::read(path).map_err(|error| Failure::Input {
-        message: format!("{source} cannot be read: {error}."),
-        hint: "Check the path; demo models are written demo:NAME.".to_owned(),
-    })?;
-    let name = path.file_name().map_or(source.into(), |name| name.to_string_lossy());
-    Ok(files::open(&name, &bytes)?)
-}
-
-/// One model: of `FILE#part` that part, else the first.
-fn open_one(source: &str) -> Result<Described, Failure> {
-    let (file, part) = part_of(source).map_or((source, None), |(file, part)| (file, Some(part)));
-    Ok(files::choose(file, open_all(file)?, part)?)
-}
-
-/// `FILE#part` in two, unless a file has that very name.
-fn part_of(source: &str) -> Option<(&str, &str)> {
-    source.rsplit_once('#').filter(|_| !Path::new(source).exists())
-}
-
-/// The heads that the command carries.
-fn packaged(name: &str) -> Option<&'static [u8]> {
-    Some(match name {
-        "heads-male" => include_bytes!("../../../demos/heads/heads-male.npz"),
-        "heads-female" => include_bytes!("../../../demos/heads/heads-female.npz"),
-        "heads-identity" => include_bytes!("../../../demos/heads/heads-identity.npz"),
-        "heads-expression" => include_bytes!("../../../demos/heads/heads-expression.npz"),
-        _ => return None,
-    })
-}
-
-fn info(sources: &[String], json: bool) -> Result<(), Failure> {
+fn info(named: &[String], json: bool) -> Result<(), Failure> {
     let mut descriptions: Vec<ModelReport> = Vec::new();
-    for source in sources {
-        let models = match part_of(source) {
-            Some(_) => vec![open_one(source)?],
-            None => open_all(source)?,
-        };
+    for source in named {
+        let models = sources::open_all(source)?;
         descriptions.extend(models.into_iter().map(|model| model.report));
     }
     if json {
@@ -290,13 +235,36 @@ fn info(sources: &[String], json: bool) -> Result<(), Failure> {
     Ok(())
 }
 
+fn inspect(named: [&str; 2], prepare: &prepare::Arguments, json: bool) -> Result<(), Failure> {
+    let settings = prepare.settings(Settings::default())?;
+    let [a, b] = [sources::open(named[0], prepare.scale)?, sources::open(named[1], prepare.scale)?];
+    let found = comparison::inspect(&a.model, &b.model, &settings);
+    if json {
+        println!("{}", to_json(&found)?);
+        return Ok(());
+    }
+    match (&found.problem, found.compared) {
+        (Some(problem), _) => println!("! {} {}", problem.message, problem.hint),
+        (None, count) => println!("{} points in common", count.unwrap_or(0)),
+    }
+    if let (Some(now), unit) = (found.mean_distance.now, found.units.a.stated.symbol()) {
+        println!("the means are {now:.4} {unit} apart");
+    }
+    for (list, mark) in [(&found.applied, "✓"), (&found.remedies, "?")] {
+        for remedy in list {
+            println!("{mark} {}: {}", remedy.label, remedy.sentence);
+        }
+    }
+    Ok(())
+}
+
 fn to_json(value: &impl serde::Serialize) -> Result<String, Failure> {
     serde_json::to_string_pretty(value).map_err(|error| Failure::System(error.to_string()))
 }
 
-fn settings(arguments: &Compare) -> Settings {
+fn settings(arguments: &Compare) -> Result<Settings, Failure> {
     let defaults = Settings::of(arguments.sampler);
-    Settings {
+    arguments.prepare.settings(Settings {
         sigma: arguments.sigma,
         seed: arguments.seed.unwrap_or(defaults.seed),
         chains: arguments.chains.unwrap_or(defaults.chains),
@@ -312,19 +280,18 @@ fn settings(arguments: &Compare) -> Settings {
         difference_threshold: arguments.difference_threshold,
         burn_in: arguments.burn_in.unwrap_or(defaults.burn_in),
         thin: arguments.thin.unwrap_or(defaults.thin),
-        modes: arguments.modes,
-        align: arguments.align.into(),
         ..defaults
-    }
+    })
 }
 
 fn compare(arguments: &Compare) -> Result<(), Failure> {
     let begun = Instant::now();
-    let (a, b) = (open_one(&arguments.a)?, open_one(&arguments.b)?);
+    let open = |source| sources::open(source, arguments.prepare.scale);
+    let (a, b) = (open(&arguments.a)?, open(&arguments.b)?);
     let mut seconds = Seconds { load: begun.elapsed().as_secs_f64(), ..Seconds::default() };
     let described = [a.report, b.report];
-    let mut run =
-        Comparison::new(&a.model, &b.model, described, settings(arguments)).map_err(Error::from)?;
+    let mut run = Comparison::new(&a.model, &b.model, described, settings(arguments)?)
+        .map_err(Error::from)?;
     let bar = ProgressBar::new(1000).with_style(
         ProgressStyle::with_template("{msg:14} {bar:40} {percent:>3} %  {eta} left")
             .unwrap_or_else(|_| ProgressStyle::default_bar()),
@@ -345,7 +312,7 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
     seconds.total = begun.elapsed().as_secs_f64();
     let report = run.report(seconds).ok_or_else(|| Failure::System("no report".to_owned()))?;
     if let Some(folder) = &arguments.out {
-        write_all(&run, seconds, folder)?;
+        write_all(&mut run, seconds, folder)?;
     }
     if arguments.json {
         println!("{}", files::json(&report));
@@ -356,16 +323,17 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
 }
 
 fn sweep(
-    sources: [&str; 2],
+    named: [&str; 2],
     sigmas: Vec<f64>,
-    settings: Settings,
+    prepare: &prepare::Arguments,
     json: bool,
 ) -> Result<(), Failure> {
     const POINTS: i32 = 17;
     if let Some(&found) = sigmas.iter().find(|sigma| !(sigma.is_finite() && **sigma > 0.0)) {
         return Err(Error::from(ComparisonError::from(SettingsError::Sigma { found })).into());
     }
-    let [a, b] = [open_one(sources[0])?, open_one(sources[1])?];
+    let settings = prepare.settings(Settings::default())?;
+    let [a, b] = [sources::open(named[0], prepare.scale)?, sources::open(named[1], prepare.scale)?];
     let mut run =
         Comparison::new(&a.model, &b.model, [a.report, b.report], settings).map_err(Error::from)?;
     while run.stage() == Stage::Prepare {
@@ -409,15 +377,10 @@ fn name_of(stage: Stage) -> &'static str {
     }
 }
 
-fn write_all(run: &Comparison, seconds: Seconds, folder: &Path) -> Result<(), Failure> {
+fn write_all(run: &mut Comparison, seconds: Seconds, folder: &Path) -> Result<(), Failure> {
     use shapevenn::comparison::Region;
     std::fs::create_dir_all(folder).map_err(|error| system(folder, &error))?;
-    let means = Region::ALL.map(|region| Download::Ply {
-        region,
-        index: -1,
-        count: 0,
-        seed: run.settings().seed.to_string(),
-    });
+    let means = Region::ALL.map(|region| Download::Ply(ShownShape::mean(region)));
     let fixed = [
         Download::ReportJson,
         Download::DrawsNpz,
@@ -486,7 +449,7 @@ fn print_in_words(report: &Report) {
 }
 
 fn convert(input: &str, output: &Path) -> Result<(), Failure> {
-    let model: LinearModel = open_one(input)?.model;
+    let model: LinearModel = sources::open(input, false)?.model;
     let ending = output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
     let bytes = match ending.as_deref() {
         Some("h5") => formats::write_statismo(&model).map_err(Error::from)?,

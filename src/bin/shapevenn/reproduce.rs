@@ -12,7 +12,7 @@ use shapevenn::files::Error;
 use shapevenn::model::LinearModel;
 use shapevenn::reproduce::{self, Ablation, Machine, Observer, Plan, Table1, Table2};
 
-use crate::{Failure, document, open_one, to_json};
+use crate::{Failure, document, sources, to_json};
 
 /// The models whose modes table 2 splits, and that the ablation compares.
 const SPLIT: &str = "demo:heads-identity";
@@ -91,12 +91,13 @@ fn table1(arguments: &Arguments, screen: &Screen) -> Result<Table1, Failure> {
 }
 
 fn table2(arguments: &Arguments, screen: &Screen) -> Result<Table2, Failure> {
-    let head = open_one(SPLIT)?.model;
+    let head = sources::open(SPLIT, false)?.model;
     run(reproduce::table2(&head, plan(arguments, 3), screen))
 }
 
 fn sigma(arguments: &Arguments, screen: &Screen) -> Result<Ablation, Failure> {
-    let [a, b]: [LinearModel; 2] = [open_one(COMPARED[0])?.model, open_one(COMPARED[1])?.model];
+    let [a, b]: [LinearModel; 2] =
+        [sources::open(COMPARED[0], false)?.model, sources::open(COMPARED[1], false)?.model];
     run(reproduce::sigma([&a, &b], plan(arguments, 3), screen))
 }
 

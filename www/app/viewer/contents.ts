@@ -1,11 +1,13 @@
 /** From the state to what the panes show. Pure. */
-import type { Geometry, Region, RegionShapes } from "../../worker/protocol";
+import type { BothSides, Geometry, Region, RegionShapes } from "../../worker/protocol";
 import { REGIONS, type ViewMode } from "../link";
 import { rimFade } from "./rim";
 import { type Frame, frameOf, type PaneContent } from "./viewer";
 
 export interface Scene {
   geometry: { a: Geometry | null; b: Geometry | null };
+  /** The models as a run compares them, where those are other points than `geometry` has. */
+  compared: BothSides<Geometry> | null;
   shapes: Partial<Record<Region, RegionShapes>>;
   mode: ViewMode;
   dark: boolean;
@@ -50,6 +52,9 @@ const INK: Record<"light" | "dark", Record<Region, Rgb>> = {
   },
 };
 
+/** Points that are painted: strong, since it stands for what is compared. */
+const MARK: Record<"light" | "dark", Rgb> = { light: [178, 84, 188], dark: [226, 130, 236] };
+
 const fades = new WeakMap<Uint32Array, Float32Array | null>();
 
 export function contentsOf(scene: Scene, regions: readonly Region[]): PaneContent[] {
@@ -59,7 +64,7 @@ export function contentsOf(scene: Scene, regions: readonly Region[]): PaneConten
 export function contentOf(scene: Scene, region: Region): PaneContent | null {
   const found = scene.shapes[region];
   const own = ownGeometry(scene, region);
-  const current = found && geometryFor(scene, found.mean.length);
+  const current = found && geometryFor(scene, region, found.mean.length);
   // A model that was just opened is shown before anything was compared.
   const alone = region === "a" || region === "b";
   const geometry = current ?? (alone ? own : null);
@@ -77,8 +82,11 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
     overlaid: cloud || geometry.segments !== null,
     triangles: geometry.triangles,
     segments: geometry.segments,
-    fade: scene.fadeRim && geometry.triangles ? fadeOf(geometry) : null,
+    // The rim of a region is no cut at the neck.
+    fade:
+      scene.fadeRim && geometry.triangles && !isCompared(scene, geometry) ? fadeOf(geometry) : null,
     values: scene.mode === "sd" ? shown.vertexSd : null,
+    marks: null,
     tint: (surface ? CLAY : INK)[shade][region],
   };
 }
@@ -91,7 +99,7 @@ export function isCloud(geometry: Geometry): boolean {
 
 /** One card's picture: the model's own mean. */
 export function cardContent(geometry: Geometry, side: Region, scene: Scene): PaneContent | null {
-  const alone = { ...scene, shapes: {}, mode: "mean" as const };
+  const alone = { ...scene, compared: null, shapes: {}, mode: "mean" as const };
   return contentOf({ ...alone, geometry: { a: geometry, b: geometry } }, side);
 }
 
@@ -128,12 +136,33 @@ function samplesOf(found: RegionShapes): Float32Array[] {
 }
 
 function ownGeometry(scene: Scene, region: Region): Geometry | null {
-  return region === "b" || region === "bWithoutA" ? scene.geometry.b : scene.geometry.a;
+  return scene.geometry[sideOf(region)];
 }
 
-function geometryFor(scene: Scene, length: number): Geometry | null {
-  const fits = [scene.geometry.a, scene.geometry.b].filter((g) => g?.mean.length === length);
+function sideOf(region: Region): "a" | "b" {
+  return region === "b" || region === "bWithoutA" ? "b" : "a";
+}
+
+/** What shapes of so many numbers are drawn with: surfaces if there are any, its own side's first. */
+function geometryFor(scene: Scene, region: Region, length: number): Geometry | null {
+  const { geometry, compared } = scene;
+  const both = compared ?? geometry;
+  const own = both[sideOf(region)];
+  const fits = [...(compared ? [own] : []), both.a, both.b].filter(
+    (g) => g?.mean.length === length,
+  );
   return fits.find((g) => g?.triangles || g?.segments) ?? fits[0] ?? null;
+}
+
+function isCompared({ compared }: Scene, geometry: Geometry): boolean {
+  return compared !== null && (geometry === compared.a || geometry === compared.b);
+}
+
+/** Model A alone, with the points that are marked in the colour of what both share. */
+export function markedContent(scene: Scene, mask: Uint8Array): PaneContent | null {
+  const content = contentOf({ ...scene, compared: null, shapes: {}, mode: "mean" }, "a");
+  const shade = scene.dark ? "dark" : "light";
+  return content && { ...content, marks: { mask, tint: MARK[shade] } };
 }
 
 function fadeOf(geometry: Geometry): Float32Array | null {

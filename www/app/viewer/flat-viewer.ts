@@ -13,6 +13,8 @@ import {
   type Viewer,
 } from "./viewer";
 
+const MARK_PX = 6;
+
 export class FlatViewer implements Viewer {
   #canvas: HTMLCanvasElement;
   #panes: PaneContent[] = [];
@@ -131,6 +133,12 @@ export class FlatViewer implements Viewer {
       const colour = `rgb(${pane.tint.join(" ")} / ${many ? 0.22 : 1})`;
       this.#outline(pen, pane, shape, place, colour, many ? 1 : 2.25);
     }
+    const { marks } = pane;
+    pen.fillStyle = `rgb(${marks?.tint.join(" ")})`;
+    marks?.mask.forEach((marked, point) => {
+      const [x, y] = place(pane.shapes[0] ?? new Float32Array(0), point);
+      if (marked === 1) pen.fillRect(x - MARK_PX / 2, y - MARK_PX / 2, MARK_PX, MARK_PX);
+    });
     pen.restore();
   }
 

@@ -18,11 +18,17 @@ export interface GestureTarget {
   leave(): void;
   /** A click that was no drag. */
   tap(x: number, y: number): void;
+  /** Whether a drag paints instead of turning; two fingers and the right button still turn. */
+  paints(): boolean;
+  beginStroke(): void;
+  dropStroke(): void;
+  paint(x: number, y: number): void;
 }
 
 export function listen(canvas: HTMLCanvasElement, target: GestureTarget): () => void {
   const held = new Map<number, { x: number; y: number }>();
   let moved = 0;
+  let painting = false;
   const stop = new AbortController();
   const on = <K extends keyof HTMLElementEventMap>(
     name: K,
@@ -44,7 +50,13 @@ export function listen(canvas: HTMLCanvasElement, target: GestureTarget): () => 
     canvas.setPointerCapture(event.pointerId);
     held.set(event.pointerId, { x: event.clientX, y: event.clientY });
     if (held.size === 1) moved = 0;
+    // A second finger means that the first was not to paint.
+    if (painting) target.dropStroke();
+    painting = held.size === 1 && event.button === 0 && target.paints();
     target.leave();
+    if (!painting) return;
+    target.beginStroke();
+    target.paint(event.offsetX, event.offsetY);
   });
   on("pointermove", (event) => {
     const last = held.get(event.pointerId);
@@ -57,12 +69,16 @@ export function listen(canvas: HTMLCanvasElement, target: GestureTarget): () => 
       const factor = spread(held) / Math.max(before, 1);
       target.setCamera(zoomBy(target.camera(), factor));
       drag(dx / 2, dy / 2, true);
+    } else if (painting) {
+      target.paint(event.offsetX, event.offsetY);
     } else {
-      drag(dx, dy, event.shiftKey || event.buttons === 2);
+      // While the left button paints, the right one turns.
+      drag(dx, dy, event.shiftKey || (event.buttons === 2 && !target.paints()));
     }
   });
   const release = (event: PointerEvent) => {
-    const tapped = held.delete(event.pointerId) && held.size === 0 && moved < 5;
+    const tapped = held.delete(event.pointerId) && held.size === 0 && moved < 5 && !painting;
+    painting = false;
     if (tapped && event.type === "pointerup" && event.button === 0) {
       target.tap(event.offsetX, event.offsetY);
     }
@@ -85,6 +101,12 @@ export function listen(canvas: HTMLCanvasElement, target: GestureTarget): () => 
   on(
     "keydown",
     (event) => {
+      if (event.key === " " && target.paints()) {
+        event.preventDefault();
+        target.beginStroke();
+        target.paint(canvas.clientWidth / 2, canvas.clientHeight / 2);
+        return;
+      }
       const next = keyed(event, target);
       if (!next) return;
       event.preventDefault();

@@ -278,10 +278,11 @@ export class MeshViewer implements Viewer {
       const attribute = (object as Mesh).geometry.getAttribute("color") as BufferAttribute;
       for (let i = 0; i < attribute.count; i += 1) {
         const value = content.values?.[i];
+        const plain = content.marks?.mask[i] === 1 ? content.marks.tint : content.tint;
         const [r, g, b] =
           this.#range && value !== undefined
             ? viridis((value - low) / Math.max(high - low, 1e-30))
-            : content.tint;
+            : plain;
         colour.setRGB(r / 255, g / 255, b / 255, SRGBColorSpace);
         const opacity = content.fade?.[i] ?? 1;
         attribute.setXYZW(i, colour.r, colour.g, colour.b, opacity);

@@ -3,14 +3,36 @@ import { computed, effect, signal } from "@preact/signals";
 import type { Region } from "../../worker/protocol";
 import { commonRange } from "../colormap";
 import { REGIONS } from "../link";
-import { camera, demo, lockedRange, region, type Side, shapes, slots, view } from "../state";
+import { beginStroke, brushRadius, paintAt, undoStroke } from "../painting";
+import {
+  alone,
+  camera,
+  compared,
+  demo,
+  lockedRange,
+  painting,
+  region,
+  type Side,
+  shapes,
+  slots,
+  view,
+} from "../state";
 import { isDark } from "../theme";
-import { cardContent, contentsOf, dimensionOf, type Scene, sceneFrame } from "./contents";
+import {
+  cardContent,
+  contentsOf,
+  dimensionOf,
+  markedContent,
+  type Scene,
+  sceneFrame,
+} from "./contents";
 import { listen } from "./gestures";
-import type { Hit, Rect, Viewer } from "./viewer";
+import { type Hit, halfHeightIn, type Rect, type Viewer } from "./viewer";
 
 /** What is under the pointer, with its place on the canvas. */
 export const hover = signal<(Hit & { x: number; y: number }) | null>(null);
+/** The brush under the pointer: its place on the canvas and its radius there. */
+export const brush = signal<{ x: number; y: number; radius: number } | null>(null);
 /** Set while a viewer is there, for pictures. */
 export const viewer = signal<Viewer | null>(null);
 /** Whether a card can have its picture drawn. */
@@ -18,6 +40,7 @@ export const drawable = signal(false);
 
 export const scene = computed<Scene>(() => ({
   geometry: { a: slots.a.value?.geometry ?? null, b: slots.b.value?.geometry ?? null },
+  compared: compared.value,
   shapes: shapes.value,
   mode: view.value,
   dark: isDark(),
@@ -27,8 +50,18 @@ export const scene = computed<Scene>(() => ({
 export const dimension = computed(() => dimensionOf(scene.value));
 
 const regionsShown = computed<readonly Region[]>(() =>
-  region.value === null ? REGIONS : [region.value],
+  alone.value === null ? REGIONS : [alone.value],
 );
+
+/** What is painted on: the mean of A, and nothing else. */
+const canvasOfPaint = computed<Scene>(() => ({
+  ...scene.value,
+  compared: null,
+  shapes: {},
+  mode: "mean",
+  geometry: { a: scene.value.geometry.a, b: null },
+}));
+const paintFrame = computed(() => sceneFrame(canvasOfPaint.value));
 
 /** One range for all regions, whether or not they are on show. */
 export const ownRange = computed<[number, number] | null>(() => {
@@ -60,6 +93,12 @@ export function takeCanvas(
       effect(() => {
         // Shapes of another dimension wait for the viewer that replaces this one.
         if ((dimension.value === 2) !== flat) return;
+        if (painting.value) {
+          const content = markedContent(canvasOfPaint.value, painting.value.mask);
+          made.setMesh(content ? [content] : [], paintFrame.value);
+          return;
+        }
+        brush.value = null;
         made.setMesh(contentsOf(scene.value, regionsShown.value), sceneFrame(scene.value));
       }),
       effect(() => made.setColors(range.value)),
@@ -107,27 +146,39 @@ async function createViewer(canvas: HTMLCanvasElement, flat: boolean): Promise<V
 
 function gestures(canvas: HTMLCanvasElement, made: Viewer) {
   const wide = matchMedia("(min-width: 1100px)");
+  const paints = () => painting.peek() !== null && painting.peek()?.tool !== "turn";
+  const paint = (x: number, y: number) => {
+    const hit = made.pick(x, y);
+    if (hit) paintAt(hit.vertex);
+    showBrush(canvas, x, y);
+  };
   return {
+    paints,
+    beginStroke,
+    dropStroke: undoStroke,
+    paint,
     camera: () => camera.peek(),
     setCamera: (next: typeof camera.value) => {
       camera.value = next;
     },
     flat: () => dimension.peek() === 2,
-    ownsWheel: () => wide.matches || region.peek() !== null,
+    ownsWheel: () => wide.matches || alone.peek() !== null,
     pixelsPerRadius: () => {
-      const pane = panes.get(region.peek() ?? "intersection");
+      const pane = panes.get(alone.peek() ?? "intersection");
       return Math.max(40, (pane?.clientHeight ?? 200) / 2.2);
     },
     hover: (x: number, y: number) => {
+      if (paints()) return showBrush(canvas, x, y);
       const hit = made.pick(x, y);
       hover.value = hit && { ...hit, x, y };
       canvas.style.cursor = "";
     },
     leave: () => {
       hover.value = null;
+      brush.value = null;
     },
     tap: (x: number, y: number) => {
-      if (region.peek() !== null) return;
+      if (alone.peek() !== null) return;
       for (const [name, rect] of layoutOf(canvas)[2]) {
         const inside =
           x >= rect.x && y >= rect.y && x < rect.x + rect.width && y < rect.y + rect.height;
@@ -135,6 +186,14 @@ function gestures(canvas: HTMLCanvasElement, made: Viewer) {
       }
     },
   };
+}
+
+/** As wide as the brush is on a surface that faces the eye. */
+function showBrush(canvas: HTMLCanvasElement, x: number, y: number): void {
+  const rect = layoutOf(canvas)[2].get("a");
+  if (!rect) return;
+  const halfHeight = halfHeightIn(rect, paintFrame.peek()) / camera.peek().zoom;
+  brush.value = { x, y, radius: (brushRadius() * rect.height) / (2 * halfHeight) };
 }
 
 export function layoutOf(canvas: HTMLCanvasElement): [number, number, Map<Region, Rect>] {
@@ -160,11 +219,12 @@ export function cardPicture(side: Side, size: number): HTMLCanvasElement | null 
   if (!geometry || !made || geometry.dimension !== dimension.peek()) return null;
   const content = cardContent(geometry, side, scene.peek());
   if (!content) return null;
-  const alone: Scene = {
+  const one: Scene = {
     ...scene.peek(),
+    compared: null,
     shapes: {},
     mode: "mean",
     geometry: { a: geometry, b: null },
   };
-  return made.thumbnail(content, sceneFrame(alone), size);
+  return made.thumbnail(content, sceneFrame(one), size);
 }

@@ -25,6 +25,8 @@ export interface PaneContent {
   fade: Float32Array | null;
   /** One number per vertex, coloured by `range`. */
   values: Float32Array | null;
+  /** Vertices, 1 of each, that are drawn in another colour. */
+  marks: { mask: Uint8Array; tint: readonly [number, number, number] } | null;
   /** sRGB, 0 … 255. */
   tint: readonly [number, number, number];
 }

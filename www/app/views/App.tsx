@@ -1,10 +1,12 @@
 import { demo, spoken } from "../state";
 import { About } from "./About";
+import { Chooser } from "./Chooser";
 import { Downloads } from "./Downloads";
 import { DropOverlay } from "./DropOverlay";
 import { Header } from "./Header";
 import { ModelCard } from "./ModelCard";
 import { Notices } from "./Notices";
+import { PairCard } from "./PairCard";
 import { Headline, Results } from "./Results";
 import { RunPanel } from "./RunPanel";
 import { SettingsPanel } from "./SettingsPanel";
@@ -24,8 +26,11 @@ export function App() {
         <div class="rail models">
           <ModelCard side="a" />
           <ModelCard side="b" />
-          {demo.value && <p class="privacy">{demo.value.note}</p>}
-          <p class="privacy">Drop files anywhere. Your files stay on this computer.</p>
+          <p class="privacy">
+            {demo.value && `${demo.value.note} `}
+            Drop files or folders anywhere. Your files stay on this computer.
+          </p>
+          <PairCard />
           <RunPanel />
           <SettingsPanel />
         </div>
@@ -36,6 +41,7 @@ export function App() {
         </div>
       </main>
       <DropOverlay />
+      <Chooser />
       <p class="unseen" aria-live="polite">
         {spoken.value}
       </p>

@@ -3,8 +3,30 @@ import type { ExportKind, Region } from "../../worker/protocol";
 import { shapeCount } from "../comparison";
 import { download, saveText } from "../download";
 import { REGIONS } from "../link";
-import { engine, result, run, shapes, shapesSeed } from "../state";
+import { engine, exaggeration, picture, result, run, shapes, shapesSeed } from "../state";
 import { REGION_NAMES } from "./names";
+
+/** What is taken away, and as which kinds of file. */
+const KINDS: { of: string; files: [ending: string, kind: ExportKind["kind"], help: string][] }[] = [
+  {
+    of: "A∩B",
+    files: [
+      [".h5", "intersection-h5", "Model for statismo and Scalismo before version 1"],
+      [".h5.json", "intersection-json", "Model for Scalismo from version 1 on"],
+      [".npz", "intersection-npz", "Model as NumPy arrays"],
+      [".json", "intersection-plain-json", "Model as plain numbers, for any language"],
+      [".glb", "intersection-glb", "Mean and modes as morph targets, for 3-D programs"],
+    ],
+  },
+  {
+    of: "Draws",
+    files: [
+      [".npz", "draws-npz", "Coefficients of all draws as NumPy arrays"],
+      [".json", "draws-json", "Coefficients of all draws as plain numbers"],
+      [".csv", "draws-csv", "Coefficients of all draws as a table"],
+    ],
+  },
+];
 
 export function Downloads() {
   const held = result.value;
@@ -12,47 +34,81 @@ export function Downloads() {
   return (
     <section class="downloads" aria-label="Downloads">
       <h3>Take away</h3>
-      <div class="download-row">
-        <Save what={{ kind: "intersection-h5" }} label="A∩B .h5" ready={ready} />
-        <Save what={{ kind: "intersection-npz" }} label="A∩B .npz" ready={ready} />
-        <Save what={{ kind: "draws-npz" }} label="Draws .npz" ready={ready} />
+      {KINDS.map(({ of, files }) => (
+        <fieldset key={of} class="download-row">
+          <legend>{of}</legend>
+          {files.map(([ending, kind, help]) => (
+            <Save key={kind} what={{ kind } as ExportKind} {...{ of, ending, help, ready }} />
+          ))}
+        </fieldset>
+      ))}
+      <fieldset class="download-row">
+        <legend>Report</legend>
         <button
           type="button"
+          aria-label="Report .json"
+          title="All numbers of the page, unrounded"
           disabled={held === null}
           onClick={() => held && saveText("shapevenn-report.json", held.text)}
         >
-          Report .json
+          .json
         </button>
-      </div>
-      <Ply ready={ready} />
+        <Save
+          what={{ kind: "report-csv" }}
+          of="Report"
+          ending=".csv"
+          help="All numbers as a table"
+          ready={ready}
+        />
+      </fieldset>
+      <Shape ready={ready} />
     </section>
   );
 }
 
-function Save({ what, label, ready }: { what: ExportKind; label: string; ready: boolean }) {
+interface SaveProps {
+  what: ExportKind;
+  of: string;
+  ending: string;
+  help: string;
+  ready: boolean;
+}
+
+function Save({ what, of, ending, help, ready }: SaveProps) {
   return (
-    <button type="button" disabled={!ready} onClick={() => void download(what)}>
-      {label}
+    <button
+      type="button"
+      aria-label={`${of} ${ending}`}
+      title={help}
+      disabled={!ready}
+      onClick={() => void download(what)}
+    >
+      {ending}
     </button>
   );
 }
 
-function Ply({ ready }: { ready: boolean }) {
+const MESHES = ["ply", "obj", "glb"] as const;
+
+/** One shape as it is drawn, exaggerated or not. */
+function Shape({ ready }: { ready: boolean }) {
   const from = useSignal<Region>("intersection");
   const index = useSignal(-1);
   const shown = Math.min(9, shapes.value[from.value]?.count ?? 0);
-  const save = () =>
-    download({
-      kind: "ply",
-      region: from.value,
-      index: index.value,
-      count: shapeCount(),
-      seed: shapesSeed.value,
-    });
+  const what = (kind: (typeof MESHES)[number]): ExportKind => ({
+    kind,
+    region: from.value,
+    index: index.value,
+    count: shapeCount(),
+    seed: shapesSeed.value,
+    exaggeration: exaggeration.value,
+    picture: picture.value,
+  });
   return (
-    <div class="download-row">
+    <fieldset class="download-row">
+      <legend>Shape</legend>
       <select
-        aria-label="Region of the PLY file"
+        aria-label="Region of the shape"
         value={from.value}
         onChange={(event) => {
           from.value = event.currentTarget.value as Region;
@@ -65,7 +121,7 @@ function Ply({ ready }: { ready: boolean }) {
         ))}
       </select>
       <select
-        aria-label="Shape of the PLY file"
+        aria-label="Which shape of the region"
         value={String(index.value)}
         onChange={(event) => {
           index.value = Number(event.currentTarget.value);
@@ -78,9 +134,16 @@ function Ply({ ready }: { ready: boolean }) {
           </option>
         ))}
       </select>
-      <button type="button" disabled={!ready} onClick={() => void save()}>
-        Shape .ply
-      </button>
-    </div>
+      {MESHES.map((kind) => (
+        <Save
+          key={kind}
+          what={what(kind)}
+          of="Shape"
+          ending={`.${kind}`}
+          help="This shape as it is drawn"
+          ready={ready}
+        />
+      ))}
+    </fieldset>
   );
 }

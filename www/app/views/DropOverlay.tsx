@@ -12,7 +12,10 @@ export function DropOverlay() {
           <span>Drop here to open as model {half.toUpperCase()}</span>
         </div>
       ))}
-      <p class="drop-note">Two files at once fill both. Your files stay on this computer.</p>
+      <p class="drop-note">
+        Two models at once fill both; a folder of meshes makes one. Your files stay on this
+        computer.
+      </p>
     </div>
   );
 }

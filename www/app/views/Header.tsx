@@ -1,6 +1,6 @@
 import { useSignal } from "@preact/signals";
 import { DEMO_GROUPS, findDemo } from "../demos";
-import { currentLink, linkable } from "../history";
+import { linkable, writeAddress } from "../history";
 import { chooseDemo } from "../models";
 import { demo, spoken } from "../state";
 import { isDark, toggleTheme } from "../theme";
@@ -75,11 +75,10 @@ function CopyLink() {
     }, 2500);
   };
   const copy = async () => {
-    const address = new URL(`#${currentLink()}`, document.baseURI).href;
-    history.replaceState(null, "", `#${currentLink()}`);
+    writeAddress();
     try {
-      await navigator.clipboard.writeText(address);
-      say(linkable.value ? "Link copied" : "Copied; it cannot hold your files");
+      await navigator.clipboard.writeText(location.href);
+      say(linkable.value ? "Link copied" : "Copied; it cannot hold your files and lists");
     } catch {
       say("Copy it from the address bar");
     }

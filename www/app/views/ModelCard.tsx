@@ -1,10 +1,15 @@
 import { useEffect, useRef } from "preact/hooks";
+import type { ModelReport } from "../../worker/protocol";
 import { bytes, count, length } from "../format";
-import { choosePart, nameOf, openFiles } from "../models";
-import { chosenPart, demo, opening, result, type Side, slots } from "../state";
+import { cancelOpening, choosePart, chooseScale, nameOf, openParts } from "../models";
+import { keptModes } from "../preparation";
+import { demo, opening, partName, result, type Side, type Slot, settings, slots } from "../state";
 import { isDark } from "../theme";
 import { cardPicture, drawable } from "../viewer/stage-controller";
+import { basisSentence, originSentence, readingSentence, unitSentence } from "../words";
+import { ModesKept } from "./ModesKept";
 import { Notices } from "./Notices";
+import { OpenButtons } from "./OpenButtons";
 import { Scree } from "./Scree";
 
 const PICTURE_PX = 84;
@@ -12,7 +17,7 @@ const PICTURE_PX = 84;
 export function ModelCard({ side }: { side: Side }) {
   const slot = slots[side].value;
   // Before the engine is up, the stored report already describes both models.
-  const report = chosenPart(side)?.report ?? result.value?.report.models[side];
+  const report = slot?.report ?? result.value?.report.models[side];
   const ofFile = slot && slot.source.kind !== "demo" ? nameOf(slot.source) : undefined;
   const name = ofFile ?? report?.name ?? demo.value?.[side] ?? "";
   const busy = opening[side].value;
@@ -28,26 +33,21 @@ export function ModelCard({ side }: { side: Side }) {
           {side.toUpperCase()}
         </span>
         <div class="card-title">
-          <h2 title={name}>{busy ?? name}</h2>
-          <p class="format">{busy ? "Opening…" : (report?.format ?? "")}</p>
+          <h2 title={busy?.name ?? name}>{busy?.name ?? name}</h2>
+          <p class="format">{busy ? readingSentence(busy.read) : (report?.format ?? "")}</p>
         </div>
-        <OpenButton side={side} />
+        {busy ? <CancelButton side={side} /> : <OpenButtons side={side} />}
       </div>
-      <Notices place={side} />
-      {slot && slot.parts.length > 1 && (
-        <select
-          class="parts"
-          aria-label={`Part of ${name}`}
-          value={String(slot.chosen)}
-          onChange={(event) => void choosePart(side, Number(event.currentTarget.value))}
-        >
-          {slot.parts.map((part, i) => (
-            <option key={part.model} value={String(i)}>
-              {part.part}
-            </option>
-          ))}
-        </select>
+      {busy?.read && busy.read.bytes < busy.read.of && (
+        <progress
+          class="bar"
+          value={busy.read.bytes}
+          max={busy.read.of}
+          aria-label={`Reading ${busy.name}`}
+        />
       )}
+      <Notices place={side} />
+      {slot && slot.parts.length > 1 && <Parts side={side} slot={slot} name={name} />}
       {report && (
         <div class="card-body">
           <Picture side={side} />
@@ -58,11 +58,17 @@ export function ModelCard({ side }: { side: Side }) {
             {slot?.bytes && <Fact term="file" value={bytes(slot.bytes)} />}
           </dl>
           <figure class="scree">
-            <Scree deviations={report.standardDeviations} side={side} />
+            <Scree
+              deviations={report.standardDeviations}
+              side={side}
+              kept={keptModes(report.standardDeviations, settings.value.prepare[side])}
+            />
             <figcaption>SD per mode</figcaption>
           </figure>
         </div>
       )}
+      {slot && <Made side={side} slot={slot} />}
+      {report && demo.value === null && <Basis report={report} />}
       {report?.notes.map((note) => (
         <p key={note} class="note">
           {note}
@@ -72,36 +78,85 @@ export function ModelCard({ side }: { side: Side }) {
   );
 }
 
+function CancelButton({ side }: { side: Side }) {
+  return (
+    <button type="button" class="open" onClick={() => cancelOpening(side)}>
+      Cancel<span class="unseen"> opening model {side.toUpperCase()}</span>
+    </button>
+  );
+}
+
+/** The models of one file: which of them this is, and two of them against one another. */
+function Parts({ side, slot, name }: { side: Side; slot: Slot; name: string }) {
+  const { parts, part, source } = slot;
+  const both = parts.includes("shape") && parts.includes("expression");
+  const others = slots[side === "a" ? "b" : "a"].value;
+  const shown =
+    others?.source === source && [part, others.part].sort().join() === "expression,shape";
+  return (
+    <div class="card-row">
+      <select
+        class="parts"
+        aria-label={`Part of ${name}`}
+        value={part}
+        onChange={(event) => void choosePart(side, event.currentTarget.value)}
+      >
+        {parts.map((one) => (
+          <option key={one} value={one}>
+            {one === "shape" ? "shape (identity)" : partName(one)}
+          </option>
+        ))}
+      </select>
+      {both && !shown && (
+        <button
+          type="button"
+          class="as-link"
+          onClick={() => void openParts(source, "shape", "expression")}
+        >
+          Compare identity with expression
+        </button>
+      )}
+    </div>
+  );
+}
+
+/** How a model came about that was not in a file, and what can be chosen about that. */
+function Made({ side, slot }: { side: Side; slot: Slot }) {
+  const { origin, report } = slot;
+  const { modes, variance } = settings.value.prepare[side];
+  const sentence = originSentence(origin);
+  return (
+    <>
+      {sentence && <p class="made">{sentence}</p>}
+      {origin.kind === "shapes" && (
+        <label class="check">
+          <input
+            type="checkbox"
+            checked={slot.scale}
+            onChange={(event) => void chooseScale(side, event.currentTarget.checked)}
+          />
+          Also bring to one size
+        </label>
+      )}
+      {(sentence || modes !== null || variance !== null) && (
+        <ModesKept side={side} deviations={report.standardDeviations} />
+      )}
+    </>
+  );
+}
+
+/** What a file left open, or got wrong. */
+function Basis({ report }: { report: ModelReport }) {
+  const sentences = [unitSentence(report), basisSentence(report)].filter(Boolean);
+  return sentences.length === 0 ? null : <p class="note">{sentences.join(" ")}</p>;
+}
+
 function Fact({ term, value }: { term: string; value: string }) {
   return (
     <div>
       <dt>{term}</dt>
       <dd>{value}</dd>
     </div>
-  );
-}
-
-function OpenButton({ side }: { side: Side }) {
-  const input = useRef<HTMLInputElement>(null);
-  // No `accept`: iOS greys out files of types it does not know.
-  return (
-    <>
-      <button type="button" class="open" onClick={() => input.current?.click()}>
-        Open model…<span class="unseen"> for {side.toUpperCase()}</span>
-      </button>
-      <input
-        ref={input}
-        class="unseen"
-        type="file"
-        multiple
-        tabIndex={-1}
-        aria-label={`File for model ${side.toUpperCase()}`}
-        onChange={(event) => {
-          void openFiles([...(event.currentTarget.files ?? [])], side);
-          event.currentTarget.value = "";
-        }}
-      />
-    </>
   );
 }
 

@@ -1,6 +1,6 @@
 import { cancel, start } from "../comparison";
 import { duration, number, percent } from "../format";
-import { engine, outOfDate, pageState, result, run, unit } from "../state";
+import { engine, inspection, outOfDate, pageState, result, run, unit } from "../state";
 import { LOOKS_WELL, liveBelief, secondsLeft, settingsSentence, stageName } from "../words";
 import { Notices } from "./Notices";
 
@@ -16,7 +16,8 @@ export function RunPanel() {
 
 function Idle() {
   const held = result.value;
-  const canRun = pageState.value !== "loading" && engine.value !== null;
+  const cannot = inspection.value?.problem != null;
+  const canRun = pageState.value !== "loading" && engine.value !== null && !cannot;
   const label = held === null ? "Compare" : held.stored ? "Run it live" : "Run again";
   return (
     <>
@@ -39,6 +40,7 @@ function Idle() {
 function stateSentence(): string {
   const held = result.value;
   if (pageState.value === "loading") return "Opening the models…";
+  if (inspection.value?.problem) return "These two cannot be compared as they stand.";
   if (held === null) return "Nothing compared yet.";
   if (outOfDate.value) return "Out of date: the choices have changed.";
   if (held.stored) return "Computed beforehand by this engine.";

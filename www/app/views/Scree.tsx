@@ -12,10 +12,12 @@ interface Props {
   errors?: number[] | undefined;
   /** Modes, from 1, that are not determined one by one. */
   doubtful?: Set<number> | undefined;
+  /** How many of them are compared, where not all are. */
+  kept?: number | undefined;
 }
 
 /** Standard deviations of the modes, largest first, as bars. */
-export function Scree({ deviations, side, errors, doubtful }: Props) {
+export function Scree({ deviations, side, errors, doubtful, kept }: Props) {
   const ends = deviations.map((deviation, i) => deviation + ERRORS_SHOWN * (errors?.[i] ?? 0));
   const largest = Math.max(...ends, 1e-300);
   const shown = deviations.slice(0, 60);
@@ -36,7 +38,11 @@ export function Scree({ deviations, side, errors, doubtful }: Props) {
         const error = ERRORS_SHOWN * (errors?.[i] ?? 0);
         const middle = (i + 0.36) * step;
         return (
-          <g key={i} data-doubtful={doubtful?.has(i + 1)}>
+          <g
+            key={i}
+            data-doubtful={doubtful?.has(i + 1)}
+            data-left-out={kept !== undefined && i >= kept}
+          >
             <rect x={i * step} y={HEIGHT - height} width={step * 0.72} height={height} />
             {error > 0 && (
               <line

@@ -1,6 +1,5 @@
 import type { DifferenceName, Settings } from "../../worker/protocol";
 import {
-  ALIGNMENTS,
   budgetOf,
   DEFAULTS,
   DIFFERENCES,
@@ -18,9 +17,9 @@ import {
   SAMPLERS,
   SIDES_USED,
 } from "../settings";
-import { change, chosenPart, settings, unit } from "../state";
+import { change, settings, slots, unit } from "../state";
 import { DEFINITIONS } from "../words";
-import { Field } from "./Field";
+import { Choice } from "./Choice";
 import { SigmaField } from "./SigmaField";
 import { TypedField } from "./TypedField";
 
@@ -35,13 +34,6 @@ export function SettingsPanel() {
         options={SAMPLERS}
         standard={DEFAULTS.sampler}
         onChoose={(sampler) => change({ sampler, ...budgetOf(sampler) })}
-      />
-      <Choice
-        label="Align B to A"
-        value={now.align}
-        options={ALIGNMENTS}
-        standard={DEFAULTS.align}
-        onChoose={(align) => change({ align })}
       />
       <ModesField />
       <TypedField
@@ -198,7 +190,7 @@ function DifferenceFields() {
 
 function ModesField() {
   const now = settings.value;
-  const most = Math.max(chosenPart("a")?.report.modes ?? 0, chosenPart("b")?.report.modes ?? 0);
+  const most = Math.max(slots.a.value?.report.modes ?? 0, slots.b.value?.report.modes ?? 0);
   return (
     <TypedField
       label="Modes used"
@@ -237,49 +229,5 @@ function CountField({ name, standard, range, onChange, ...shown }: CountFieldPro
       onChange={onChange ?? ((value) => change({ [name]: value }))}
       wrong={`${least} to ${most.toLocaleString("en").replaceAll(",", "\u202f")}`}
     />
-  );
-}
-
-interface ChoiceProps<T extends string> {
-  label: string;
-  value: T;
-  standard: T;
-  options: Options<T>;
-  onChoose: (value: T) => void;
-  /** Where the default needs a word of explanation too. */
-  alwaysHelp?: boolean;
-}
-
-function Choice<T extends string>(props: ChoiceProps<T>) {
-  const { label, value, standard, options, onChoose, alwaysHelp = false } = props;
-  const names = Object.keys(options) as T[];
-  const about = `${label.replace(/\W+/g, "-").toLowerCase()}-about`;
-  const { help } = options[value];
-  return (
-    <>
-      <Field
-        label={label}
-        changed={value !== standard}
-        onReset={() => onChoose(standard)}
-        help={help}
-      >
-        <select
-          value={value}
-          aria-label={label}
-          aria-describedby={about}
-          onChange={(event) => onChoose(event.currentTarget.value as T)}
-        >
-          {names.map((name) => (
-            <option key={name} value={name}>
-              {options[name].label}
-              {name === standard && value !== name ? " (default)" : ""}
-            </option>
-          ))}
-        </select>
-      </Field>
-      <p id={about} class={alwaysHelp || value !== standard ? "field-help" : "unseen"}>
-        {help}
-      </p>
-    </>
   );
 }

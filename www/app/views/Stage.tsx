@@ -1,13 +1,35 @@
 import { useEffect, useRef } from "preact/hooks";
 import type { Region } from "../../worker/protocol";
 import { number } from "../format";
-import { emptyRegions, outOfDate, region, result, run, shapes, slots, unit, view } from "../state";
+import {
+  alone,
+  compared,
+  emptyRegions,
+  outOfDate,
+  painting,
+  region,
+  result,
+  run,
+  shapes,
+  slots,
+  unit,
+  view,
+} from "../state";
 import { contentOf } from "../viewer/contents";
-import { dimension, hover, ownRange, range, scene, takeCanvas } from "../viewer/stage-controller";
+import {
+  brush,
+  dimension,
+  hover,
+  ownRange,
+  range,
+  scene,
+  takeCanvas,
+} from "../viewer/stage-controller";
 import { ColorBar } from "./ColorBar";
 import { DifferenceBar } from "./DifferenceBar";
 import { BackIcon, ExpandIcon } from "./icons";
 import { REGION_NAMES, regionLabel, shownIn } from "./names";
+import { PaintBar } from "./PaintBar";
 import { Toolbar } from "./Toolbar";
 import { VennMap } from "./VennMap";
 
@@ -17,21 +39,28 @@ const ORDER: (Region | "map")[] = ["a", "intersection", "b", "aWithoutB", "map",
 export function Stage() {
   // A canvas cannot change from a 2-D to a WebGL context: another kind of model gets another one.
   const kind = dimension.value;
+  const paints = painting.value !== null;
   return (
     <section
       class="stage"
       aria-label="Shapes"
-      data-region={region.value ?? "all"}
+      data-region={alone.value ?? "all"}
       data-view={view.value}
-      data-stale={outOfDate.value && !run.value?.progress?.hasIntersection}
+      data-paint={painting.value?.tool}
+      data-stale={outOfDate.value && !paints && !run.value?.progress?.hasIntersection}
     >
-      <Toolbar />
+      {paints ? <PaintBar /> : <Toolbar />}
       <div class="field-of-view">
         <Panes key={kind === 2 ? "flat" : "space"} live={kind !== null} />
         <Tooltip />
+        <Brush />
       </div>
-      <DifferenceBar />
-      <ColorBar range={range.value} own={ownRange.value} />
+      {!paints && (
+        <>
+          <DifferenceBar />
+          <ColorBar range={range.value} own={ownRange.value} />
+        </>
+      )}
     </section>
   );
 }
@@ -56,6 +85,7 @@ function Panes({ live }: { live: boolean }) {
         aria-describedby="canvas-help"
       />
       <p id="canvas-help" class="unseen">
+        {painting.value && "Space paints in the middle. "}
         {flat
           ? "Drag or use the arrow keys to shift"
           : "Drag or use the arrow keys to turn all shapes at once"}
@@ -75,18 +105,20 @@ function Panes({ live }: { live: boolean }) {
 }
 
 function canvasLabel(): string {
+  if (painting.value) return "Mean shape of A, to paint on";
   const what = { mean: "Mean shapes", samples: "Random shapes", sd: "Standard deviations" }[
     view.value
   ];
-  return region.value === null
+  return alone.value === null
     ? `${what} of the five regions`
-    : `${what} of ${regionLabel(region.value)}`;
+    : `${what} of ${regionLabel(alone.value)}`;
 }
 
 function Pane({ name, panes }: { name: Region; panes: Map<Region, HTMLElement> }) {
-  const alone = region.value === name;
-  const away = region.value !== null && !alone;
+  const shown = alone.value === name;
+  const away = alone.value !== null && !shown;
   const { sign } = REGION_NAMES[name];
+  const paints = painting.value !== null;
   return (
     <div class="pane" data-pane={name} data-away={away}>
       <div
@@ -97,20 +129,25 @@ function Pane({ name, panes }: { name: Region; panes: Map<Region, HTMLElement> }
         }}
       />
       <p class="pane-label">
-        <strong>{sign}</strong> <span class="pane-meaning">{shownIn(name)}</span>
+        <strong>{sign}</strong>{" "}
+        <span class="pane-meaning">
+          {paints ? "which of its points are compared" : shownIn(name)}
+        </span>
       </p>
-      <button
-        type="button"
-        class="quiet icon-only pane-zoom"
-        onClick={() => {
-          region.value = alone ? null : name;
-        }}
-        aria-label={alone ? "Show all five regions" : `Show ${sign} alone`}
-        title={alone ? "Show all five regions" : `Show ${sign} alone`}
-      >
-        {alone ? <BackIcon /> : <ExpandIcon />}
-      </button>
-      <PaneNote name={name} />
+      {!paints && (
+        <button
+          type="button"
+          class="quiet icon-only pane-zoom"
+          onClick={() => {
+            region.value = shown ? null : name;
+          }}
+          aria-label={shown ? "Show all five regions" : `Show ${sign} alone`}
+          title={shown ? "Show all five regions" : `Show ${sign} alone`}
+        >
+          {shown ? <BackIcon /> : <ExpandIcon />}
+        </button>
+      )}
+      {!paints && <PaneNote name={name} />}
     </div>
   );
 }
@@ -137,13 +174,13 @@ function isEmpty(name: Region): boolean {
 
 function Tooltip() {
   const hit = hover.value;
-  if (!hit) return null;
+  if (!hit || painting.value?.tool === "add" || painting.value?.tool === "erase") return null;
   const { geometry } = scene.value;
   const own = hit.region === "b" || hit.region === "bWithoutA" ? geometry.b : geometry.a;
   const deviation = shapes.value[hit.region]?.vertexSd[hit.vertex] ?? own?.vertexSd[hit.vertex];
   return (
     <output class="tip" style={{ left: `${hit.x}px`, top: `${hit.y}px` }} aria-hidden="true">
-      {REGION_NAMES[hit.region].sign} · vertex {hit.vertex}
+      {REGION_NAMES[hit.region].sign} · {compared.value ? "compared point" : "vertex"} {hit.vertex}
       {view.value === "samples" && hit.shape >= 0 && !dimensionIsFlat()
         ? ` · shape ${hit.shape + 1}`
         : ""}
@@ -155,6 +192,15 @@ function Tooltip() {
       ) : null}
     </output>
   );
+}
+
+/** How far the brush reaches. */
+function Brush() {
+  const found = brush.value;
+  if (!found || !painting.value) return null;
+  const { x, y, radius } = found;
+  const [left, top, width] = [`${x - radius}px`, `${y - radius}px`, `${2 * radius}px`];
+  return <div class="brush" aria-hidden="true" style={{ left, top, width, height: width }} />;
 }
 
 function dimensionIsFlat(): boolean {

@@ -1,7 +1,7 @@
 import { useComputed } from "@preact/signals";
 import type { Region } from "../../worker/protocol";
 import { percent } from "../format";
-import { outOfDate, region, result } from "../state";
+import { outOfDate, painting, region, result } from "../state";
 import { VENN_BOX, vennOf } from "../venn";
 import { regionLabel } from "./names";
 
@@ -9,7 +9,7 @@ import { regionLabel } from "./names";
 export function VennMap() {
   const report = result.value?.report;
   const venn = useComputed(() => result.value && vennOf(result.value.report)).value;
-  if (!venn || !report) return <figure class="venn" aria-hidden="true" />;
+  if (!venn || !report || painting.value) return <figure class="venn" aria-hidden="true" />;
   const { a, b, paths } = venn;
   const { varianceOfAInB, varianceOfBInA } = report.overlap;
   const middle = (Math.max(a.x - a.r, b.x - b.r) + Math.min(a.x + a.r, b.x + b.r)) / 2;

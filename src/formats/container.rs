@@ -1,0 +1,286 @@
+//! Archives: what is in them is read as if it had been dropped itself.
+//!
+//! | archive | is |
+//! |---|---|
+//! | gzip | one file; also several members one after the other |
+//! | ZIP of `*.npy` | a NumPy archive |
+//! | ZIP with `xl/` | a spreadsheet, refused |
+//! | any other ZIP | a drop: models, or folders of shapes, each a part |
+//!
+//! A path inside an archive is only a name: nothing is written anywhere.
+//!
+//! **Limits.** Unpacked bytes are counted while they are made and end at 64 times the archive's (at
+//! least 16 MiB, at most 1 GiB), files at 10,000, archives in archives at two.
+
+use std::io::{Cursor, Read};
+use std::sync::Arc;
+
+use flate2::read::MultiGzDecoder;
+use zip::ZipArchive;
+
+use super::array::largest_array;
+use super::error::Fault;
+use super::input::{Input, Storage};
+use super::sniff::{Content, sniff};
+use super::{FormatError, Opened, Options, group, numpy_model, open_within};
+
+/// Archives in archives.
+pub(super) const DEEPEST: u8 = 2;
+
+const MOST_FILES: usize = 10_000;
+
+/// Names listed when an archive holds no model.
+const MOST_NAMES: usize = 20;
+
+/// What `input` is; of a gzip file, what is in it.
+pub(super) fn content(input: &Input) -> Result<Content, FormatError> {
+    /// Packed bytes that surely unpack to all that [`sniff`] looks at.
+    const PACKED: usize = 16 << 10;
+    let mut inner = input.clone();
+    for _ in 0..DEEPEST {
+        if sniff(&inner)? != Content::Gzip {
+            break;
+        }
+        let mut start = Vec::new();
+        let packed = inner.start(PACKED)?;
+        // The end is missing, of course: what was unpacked until then counts.
+        let _ = MultiGzDecoder::new(packed.as_slice()).take(PACKED as u64).read_to_end(&mut start);
+        let mut length = [0; 4];
+        if let Some(offset) = inner.len().checked_sub(4) {
+            let read = inner.storage().read_at(offset, &mut length);
+            read.map_err(|reason| Fault::Unreadable { reason }.of(&input.name))?;
+        }
+        let length = u64::from(u32::from_le_bytes(length)).max(start.len() as u64);
+        inner = Input::new(input.name.clone(), Arc::new(Start { start, length }));
+    }
+    sniff(&inner)
+}
+
+/// The first bytes of a file that is longer.
+#[derive(Debug)]
+struct Start {
+    start: Vec<u8>,
+    length: u64,
+}
+
+impl Storage for Start {
+    fn len(&self) -> u64 {
+        self.length
+    }
+
+    fn read_at(&self, offset: u64, buffer: &mut [u8]) -> Result<(), String> {
+        let start = usize::try_from(offset).unwrap_or(usize::MAX).min(self.start.len());
+        let known = &self.start[start..];
+        let count = known.len().min(buffer.len());
+        buffer[..count].copy_from_slice(&known[..count]);
+        buffer[count..].fill(0);
+        Ok(())
+    }
+}
+
+/// The file itself, or what is in it when it is a gzip file.
+pub(super) fn unpacked(input: &Input) -> Result<Input, FormatError> {
+    let mut inner = input.clone();
+    for _ in 0..DEEPEST {
+        if sniff(&inner)? != Content::Gzip {
+            break;
+        }
+        inner = inflated(&inner).map_err(|error| error.fault.of(&input.name))?;
+    }
+    Ok(inner)
+}
+
+fn inflated(input: &Input) -> Result<Input, FormatError> {
+    let packed = input.bytes()?;
+    let bytes = read_bounded(
+        MultiGzDecoder::new(packed.as_slice()),
+        largest_array(packed.len()),
+        0,
+        "The gzip file",
+    )
+    .map_err(|fault| fault.of(&input.name))?;
+    let name = input.name.strip_suffix(".gz").unwrap_or(&input.name);
+    Ok(Input::of_bytes(name, bytes))
+}
+
+/// Reads to the end, unless there are more than `limit` bytes; `expected` is a hint from the file.
+fn read_bounded(
+    reader: impl Read,
+    limit: u64,
+    expected: u64,
+    what: &str,
+) -> Result<Vec<u8>, Fault> {
+    let mut bytes = Vec::new();
+    let expected = usize::try_from(expected.min(limit)).unwrap_or(0);
+    bytes.try_reserve_exact(expected).map_err(|_| Fault::Unpacks { limit })?;
+    match reader.take(limit.saturating_add(1)).read_to_end(&mut bytes) {
+        Ok(_) if bytes.len() as u64 > limit => Err(Fault::Unpacks { limit }),
+        Ok(_) => Ok(bytes),
+        Err(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+            Err(Fault::CutOff { detail: "its compressed bytes do not end".to_owned() })
+        }
+        Err(_) => Err(Fault::Damaged {
+            what: what.to_owned(),
+            reason: "its compressed bytes are corrupt".to_owned(),
+        }),
+    }
+}
+
+/// Opens what is in a gzip file.
+pub(super) fn open_gzip(
+    input: &Input,
+    options: &Options,
+    depth: u8,
+) -> Result<Opened, FormatError> {
+    if depth >= DEEPEST {
+        return Err(Fault::Nested.of(&input.name));
+    }
+    open_within(&[inflated(input)?], options, depth + 1)
+}
+
+/// Opens what is in a ZIP archive.
+pub(super) fn open_zip(input: &Input, options: &Options, depth: u8) -> Result<Opened, FormatError> {
+    let bytes = input.bytes()?;
+    let members = members(&bytes).map_err(|fault| fault.of(&input.name))?;
+    let is_array = |member: &&Member| member.name.ends_with(".npy");
+    if !members.is_empty() && members.iter().all(|member| is_array(&member)) {
+        return numpy_model::read(input, options);
+    }
+    if members.iter().any(|member| is_array(&member))
+        && let Ok(opened) = numpy_model::read(input, options)
+    {
+        return Ok(opened);
+    }
+    if members.iter().any(|member| member.name == "xl/workbook.xml") {
+        return Err(Fault::Spreadsheet.of(&input.name));
+    }
+    if depth >= DEEPEST {
+        return Err(Fault::Nested.of(&input.name));
+    }
+    let files = unpack(input, &bytes, &members)?;
+    drop(bytes);
+    let mut groups = group::groups(&files)?;
+    groups.retain(|group| group.files.iter().any(|&file| content(&files[file]).is_ok()));
+    let files_of = |group: &group::Group| -> Vec<Input> {
+        group.files.iter().map(|&file| files[file].clone()).collect()
+    };
+    match groups.as_slice() {
+        [] => {
+            let contents = members.into_iter().take(MOST_NAMES).map(|member| member.name).collect();
+            Err(Fault::NoModel { format: "ZIP archive", contents }.of(&input.name))
+        }
+        [group] => open_within(&files_of(group), options, depth + 1),
+        several => {
+            let parts: Vec<String> = several.iter().map(|group| group.name.clone()).collect();
+            open_part(input, parts, options, |index| {
+                let options = Options { part: None, ..options.clone() };
+                open_within(&files_of(&several[index]), &options, depth + 1)
+            })
+        }
+    }
+}
+
+/// Opens the part that is wanted, or the first that can be read.
+fn open_part(
+    input: &Input,
+    parts: Vec<String>,
+    options: &Options,
+    open: impl Fn(usize) -> Result<Opened, FormatError>,
+) -> Result<Opened, FormatError> {
+    let named = |index: usize, mut opened: Opened| {
+        let name = parts[index].clone();
+        let model_name = format!("{}#{name}", input.file_name());
+        opened.part.model = opened.part.model.with_name(model_name);
+        opened.part.name = name;
+        opened.parts.clone_from(&parts);
+        opened
+    };
+    if let Some(wanted) = &options.part {
+        let Some(index) = parts.iter().position(|part| part == wanted) else {
+            return Err(Fault::NoPart { part: wanted.clone(), parts }.of(&input.name));
+        };
+        return open(index).map(|opened| named(index, opened));
+    }
+    let mut first_error = None;
+    for index in 0..parts.len() {
+        match open(index) {
+            Ok(opened) => return Ok(named(index, opened)),
+            Err(error) => first_error = first_error.or(Some(error)),
+        }
+    }
+    Err(first_error.unwrap_or_else(|| Fault::Empty.of(&input.name)))
+}
+
+/// A file of an archive.
+struct Member {
+    index: usize,
+    name: String,
+    size: u64,
+}
+
+/// The files of an archive, without folders and what systems leave behind.
+fn members(bytes: &[u8]) -> Result<Vec<Member>, Fault> {
+    let mut zip = open_archive(bytes)?;
+    let mut members = Vec::new();
+    for index in 0..zip.len() {
+        let member = zip.by_index_raw(index).map_err(damaged)?;
+        let name = String::from_utf8_lossy(member.name_raw()).replace('\\', "/");
+        if name.ends_with('/') || group::is_junk(&name) {
+            continue;
+        }
+        if member.encrypted() {
+            let reason = "it is locked with a password".to_owned();
+            return Err(Fault::Damaged { what: name, reason });
+        }
+        if members.len() == MOST_FILES {
+            let reason = format!("it holds more than {MOST_FILES} files");
+            return Err(Fault::Damaged { what: "The ZIP archive".to_owned(), reason });
+        }
+        members.push(Member { index, name, size: member.size() });
+    }
+    Ok(members)
+}
+
+/// Unpacks all files, which are then named as if the archive were a folder.
+fn unpack(input: &Input, bytes: &[u8], members: &[Member]) -> Result<Vec<Input>, FormatError> {
+    let limit = largest_array(bytes.len());
+    let bomb = || Fault::Unpacks { limit }.of(&input.name);
+    if members.iter().map(|member| u128::from(member.size)).sum::<u128>() > u128::from(limit) {
+        return Err(bomb());
+    }
+    let mut zip = open_archive(bytes).map_err(|fault| fault.of(&input.name))?;
+    let mut left = limit;
+    let mut files = Vec::new();
+    for member in members {
+        let name = format!("{}/{}", input.file_name(), member.name);
+        let unpacked = zip
+            .by_index(member.index)
+            .map_err(damaged)
+            .and_then(|reader| read_bounded(reader, left, member.size, "The file"));
+        let unpacked = match unpacked {
+            Ok(unpacked) => unpacked,
+            Err(Fault::Unpacks { .. }) => return Err(bomb()),
+            Err(fault) => return Err(fault.of(&name)),
+        };
+        left -= unpacked.len() as u64;
+        files.push(Input::of_bytes(name, unpacked));
+    }
+    Ok(files)
+}
+
+fn open_archive(bytes: &[u8]) -> Result<ZipArchive<Cursor<&[u8]>>, Fault> {
+    ZipArchive::new(Cursor::new(bytes)).map_err(|error| {
+        if bytes.windows(4).any(|window| window == b"PK\x05\x06") {
+            damaged(error)
+        } else {
+            Fault::TruncatedArchive
+        }
+    })
+}
+
+fn damaged(error: impl core::fmt::Display) -> Fault {
+    Fault::Damaged {
+        what: "The ZIP archive".to_owned(),
+        reason: error.to_string().trim_end_matches('.').to_owned(),
+    }
+}

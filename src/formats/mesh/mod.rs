@@ -1,0 +1,239 @@
+//! Meshes and landmarks in files of their own: the shapes of a population, or the faces of a model.
+//!
+//! | format | read | points come from |
+//! |---|---|---|
+//! | PLY | ASCII, binary of either endianness | element `vertex` |
+//! | OBJ | text | lines `v`, in the order of the file |
+//! | STL | ASCII and binary | corners, welded as in the first file of the set |
+//! | VTK | legacy 2.0 to 5.1, ASCII and binary; XML (`.vtp`, `.vtu`) | `POINTS` |
+//! | TPS | landmarks and curves of several specimens | `LM=`, `LM3=`, `CURVES=` |
+//! | points | two or three numbers a line | lines |
+//!
+//! Polygons become fans of triangles. Where a file has both, triangles win over line segments.
+//! A reader never trusts a count: it takes what is there and compares.
+//!
+//! **Limits.** Colours, normals, texture coordinates and all other attributes are skipped.
+
+pub(super) mod obj;
+pub(super) mod ply;
+pub(super) mod points;
+pub(super) mod stl;
+pub(super) mod tps;
+pub(super) mod vtk;
+pub(super) mod vtp;
+
+use super::error::Fault;
+use super::sniff::Content;
+use crate::model::Cells;
+
+/// Points and how they are joined.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Mesh {
+    /// Coordinates per point, 2 or 3.
+    pub(super) dimension: usize,
+    /// Interleaved coordinates, at least one point.
+    pub(super) points: Vec<f64>,
+    /// Triangles, segments or nothing; all corners exist.
+    pub(super) cells: Cells,
+    /// What the reader should know, each one sentence.
+    pub(super) notes: Vec<String>,
+}
+
+impl Mesh {
+    /// A mesh whose coordinates are finite and whose corners exist.
+    pub(super) fn new(dimension: usize, points: Vec<f64>, cells: Cells) -> Result<Self, Fault> {
+        let count = points.len() / dimension;
+        if count == 0 {
+            return Err(damaged("The mesh", "it has no points"));
+        }
+        check_coordinates(&points)?;
+        let beyond = corners(&cells).iter().filter(|&&corner| corner as usize >= count).count();
+        if beyond > 0 {
+            return Err(Fault::CellIndices { count: beyond, points: count });
+        }
+        Ok(Self { dimension, points, cells, notes: Vec::new() })
+    }
+
+    /// Number of points.
+    pub(super) fn point_count(&self) -> usize {
+        self.points.len() / self.dimension
+    }
+}
+
+/// Refuses coordinates that are no numbers, or too large to be squared and added.
+pub(super) fn check_coordinates(points: &[f64]) -> Result<(), Fault> {
+    const LARGEST: f64 = 1e38;
+    let count = points.iter().filter(|value| !value.is_finite()).count();
+    if count > 0 {
+        return Err(Fault::NotFinite { what: "the list of points".to_owned(), count });
+    }
+    match points.iter().find(|value| value.abs() > LARGEST) {
+        Some(value) => Err(damaged("The list of points", format!("{value:.1e} is no coordinate"))),
+        None => Ok(()),
+    }
+}
+
+/// All corners, one after the other.
+pub(super) fn corners(cells: &Cells) -> &[u32] {
+    match cells {
+        Cells::None => &[],
+        Cells::Segments(segments) => segments.as_flattened(),
+        Cells::Triangles(triangles) => triangles.as_flattened(),
+    }
+}
+
+/// Whether content is the mesh of one shape, with faces or lines.
+pub(super) fn is_mesh(content: Content) -> bool {
+    matches!(content, Content::Ply | Content::Obj | Content::Stl | Content::Vtk | Content::Vtp)
+}
+
+/// Whether content may be a shape of a population: a mesh, landmarks, points.
+pub(super) fn is_shape(content: Content) -> bool {
+    is_mesh(content) || matches!(content, Content::Tps | Content::Numbers)
+}
+
+/// Reads one mesh that stands alone; STL is welded by its own corners.
+pub(super) fn read(content: Content, bytes: &[u8]) -> Result<Mesh, Fault> {
+    match content {
+        Content::Ply => ply::read(bytes),
+        Content::Obj => obj::read(bytes),
+        Content::Stl => {
+            let corners = stl::corners(bytes)?;
+            stl::Welding::of(&corners).mesh(&corners)
+        }
+        Content::Vtk => vtk::read(bytes),
+        Content::Vtp => vtp::read(bytes),
+        Content::Numbers => points::read(bytes),
+        other => Err(Fault::Alone { format: other.name() }),
+    }
+}
+
+/// Cells as they are collected from a file.
+#[derive(Debug, Default)]
+struct Collected {
+    triangles: Vec<[u32; 3]>,
+    segments: Vec<[u32; 2]>,
+    /// Whether there were cells that have no flat face of their own.
+    volumes: bool,
+}
+
+impl Collected {
+    /// A polygon, as a fan of triangles from its first corner.
+    fn polygon(&mut self, corners: &[u32]) {
+        if let [first, rest @ ..] = corners {
+            self.triangles.extend(rest.windows(2).map(|edge| [*first, edge[0], edge[1]]));
+        }
+    }
+
+    /// A line through all corners.
+    fn line(&mut self, corners: &[u32]) {
+        self.segments.extend(corners.windows(2).map(|edge| [edge[0], edge[1]]));
+    }
+
+    /// A strip of triangles, of which every second runs the other way.
+    fn strip(&mut self, corners: &[u32]) {
+        for (place, window) in corners.windows(3).enumerate() {
+            let [a, b, c] = [window[0], window[1], window[2]];
+            self.triangles.push(if place % 2 == 0 { [a, b, c] } else { [b, a, c] });
+        }
+    }
+
+    /// A cell of a type that VTK numbers.
+    fn typed(&mut self, kind: u32, corners: &[u32]) {
+        match (kind, corners) {
+            (0..=2, _) => {}
+            (3 | 4, _) => self.line(corners),
+            (6, _) => self.strip(corners),
+            (5 | 7 | 9, _) => self.polygon(corners),
+            // A pixel counts its corners row by row.
+            (8, &[a, b, c, d]) => self.polygon(&[a, b, d, c]),
+            _ => self.volumes = true,
+        }
+    }
+
+    /// The mesh of these cells.
+    fn mesh(self, dimension: usize, points: Vec<f64>) -> Result<Mesh, Fault> {
+        let cells = if !self.triangles.is_empty() {
+            Cells::Triangles(self.triangles)
+        } else if !self.segments.is_empty() {
+            Cells::Segments(self.segments)
+        } else {
+            Cells::None
+        };
+        let mut mesh = Mesh::new(dimension, points, cells)?;
+        if self.volumes {
+            mesh.notes.push("Volume cells are not drawn.".to_owned());
+        }
+        Ok(mesh)
+    }
+}
+
+/// A point number, if this is one.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "only whole numbers of 32 bits pass"
+)]
+fn index_of(number: f64) -> Option<u32> {
+    (number >= 0.0 && number <= f64::from(u32::MAX) && number == number.trunc())
+        .then_some(number as u32)
+}
+
+/// The number that a word of text writes.
+fn number(word: &[u8]) -> Option<f64> {
+    core::str::from_utf8(word).ok()?.parse().ok()
+}
+
+/// The words of text, between blanks and line ends.
+fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
+}
+
+/// The lines of text, without blanks around them; lines of old Macintosh files too.
+fn lines(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let end = if text.contains(&b'\n') { b'\n' } else { b'\r' };
+    text.split(move |byte| *byte == end).map(<[u8]>::trim_ascii)
+}
+
+fn damaged(what: impl Into<String>, reason: impl Into<String>) -> Fault {
+    Fault::Damaged { what: what.into(), reason: reason.into() }
+}
+
+/// The fault of a line of text, counted from 0.
+fn at_line(line: usize, reason: impl Into<String>) -> Fault {
+    damaged(format!("Line {}", line + 1), reason)
+}
+
+/// The fault of a list that is shorter than announced.
+fn ends_early(what: &str, announced: u64, present: u64) -> Fault {
+    Fault::CutOff { detail: format!("{announced} {what} were announced, {present} are there") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cells_of_all_sorts_become_triangles() {
+        let mut cells = Collected::default();
+        cells.polygon(&[0, 1, 2, 3]);
+        cells.strip(&[4, 5, 6, 7]);
+        cells.typed(8, &[0, 1, 2, 3]);
+        cells.polygon(&[0, 1]);
+        cells.polygon(&[]);
+        assert_eq!(
+            cells.triangles,
+            [[0, 1, 2], [0, 2, 3], [4, 5, 6], [6, 5, 7], [0, 1, 3], [0, 3, 2]],
+            "quad, strip, pixel; fewer than three corners are no face"
+        );
+        cells.typed(10, &[0, 1, 2, 3]);
+        assert!(cells.volumes, "a tetrahedron");
+    }
+
+    #[test]
+    fn coordinates_must_be_numbers_that_can_be_squared() {
+        assert!(check_coordinates(&[0.0, -1e30]).is_ok(), "numbers");
+        assert!(check_coordinates(&[f64::NAN]).is_err(), "no number");
+        assert!(check_coordinates(&[1e200]).is_err(), "no coordinate");
+    }
+}

@@ -1,0 +1,145 @@
+//! TPS, the landmark files of tpsDig: specimens one after the other.
+//!
+//! | line | is |
+//! |---|---|
+//! | `LM=n`, `LM3=n` | n lines of 2 or 3 coordinates follow; a new specimen |
+//! | `CURVES=k`, then `POINTS=p` | k curves of p points each, appended to the landmarks |
+//! | `SCALE=s` | factor from image to length |
+//! | `ID=`, `IMAGE=` … | skipped |
+//!
+//! Keys may be written small, blank lines may stand anywhere. `SCALE` counts only where every
+//! specimen has one. Negative coordinates are taken as they are: some programs mark missing points
+//! by them, in other files they are legal.
+//!
+//! **References.** Rohlf, tpsDig.
+
+use super::{Mesh, at_line, ends_early, lines, number, words};
+use crate::formats::error::Fault;
+use crate::model::Cells;
+
+/// The landmarks of one specimen.
+#[derive(Debug)]
+pub(in crate::formats) struct Specimen {
+    /// Landmarks, then the points of all curves; nothing joins them.
+    pub(in crate::formats) mesh: Mesh,
+    /// Its factor from image to length.
+    pub(in crate::formats) scale: Option<f64>,
+}
+
+/// Reads all specimens; at least one.
+pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Vec<Specimen>, Fault> {
+    let mut specimens = Vec::new();
+    let mut current: Option<Draft> = None;
+    for (index, line) in lines(bytes).enumerate() {
+        let line =
+            if index == 0 { line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line) } else { line };
+        if line.is_empty() || line.starts_with(b"#") {
+            continue;
+        }
+        if let Some(place) = line.iter().position(|byte| *byte == b'=') {
+            let key = line[..place].trim_ascii().to_ascii_uppercase();
+            let value = line[place + 1..].trim_ascii();
+            let count = || {
+                let text = core::str::from_utf8(value).ok().and_then(|text| text.parse().ok());
+                text.ok_or_else(|| at_line(index, "a whole number was expected after “=”"))
+            };
+            match key.as_slice() {
+                b"LM" | b"LM3" => {
+                    if let Some(draft) = current.take() {
+                        specimens.push(draft.finish(specimens.len())?);
+                    }
+                    let dimension = if key == b"LM3" { 3 } else { 2 };
+                    current = Some(Draft { dimension, expected: count()?, ..Draft::default() });
+                }
+                b"POINTS" => {
+                    let draft = current.as_mut().ok_or_else(|| early(index))?;
+                    draft.expected = draft.expected.saturating_add(count()?);
+                }
+                b"SCALE" => {
+                    let draft = current.as_mut().ok_or_else(|| early(index))?;
+                    let scale = number(value).filter(|scale| scale.is_finite() && *scale > 0.0);
+                    let wrong = || at_line(index, "a positive number was expected after “=”");
+                    draft.scale = Some(scale.ok_or_else(wrong)?);
+                }
+                _ => {}
+            }
+            continue;
+        }
+        let draft = current.as_mut().ok_or_else(|| early(index))?;
+        let before = draft.points.len();
+        for word in words(line) {
+            let value = number(word).ok_or_else(|| at_line(index, "it is not all numbers"))?;
+            draft.points.push(value);
+        }
+        let found = draft.points.len() - before;
+        if found != draft.dimension {
+            let reason = format!("it has {found} numbers, not {}", draft.dimension);
+            return Err(at_line(index, reason));
+        }
+        if (draft.points.len() / draft.dimension) as u64 > draft.expected {
+            let reason = format!("only {} points were announced", draft.expected);
+            return Err(at_line(index, reason));
+        }
+    }
+    specimens.push(current.ok_or_else(|| early(0))?.finish(specimens.len())?);
+    Ok(specimens)
+}
+
+fn early(line: usize) -> Fault {
+    at_line(line, "no “LM=” stands before it")
+}
+
+/// A specimen that is being read.
+#[derive(Default)]
+struct Draft {
+    dimension: usize,
+    expected: u64,
+    points: Vec<f64>,
+    scale: Option<f64>,
+}
+
+impl Draft {
+    fn finish(self, before: usize) -> Result<Specimen, Fault> {
+        let found = (self.points.len() / self.dimension) as u64;
+        if found < self.expected {
+            let what = format!("points of specimen {}", before + 1);
+            return Err(ends_early(&what, self.expected, found));
+        }
+        let mesh = Mesh::new(self.dimension, self.points, Cells::None)?;
+        Ok(Specimen { mesh, scale: self.scale })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn landmarks_curves_and_keys_of_any_case_are_read() {
+        let text = b"lm=2\n1 2\n3 4\nCURVES=1\nPOINTS=1\n5 6\nIMAGE=a.jpg\nScale=0.5\n\n\
+                     LM3=1\r\n1 2 3\r\nID=b\r\n";
+        let specimens = read(text).unwrap();
+        assert_eq!(specimens.len(), 2, "specimens");
+        assert_eq!(specimens[0].mesh.points, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0], "with the curve");
+        assert_eq!(specimens[0].scale, Some(0.5), "its scale");
+        assert_eq!((specimens[1].mesh.dimension, specimens[1].scale), (3, None), "the second");
+    }
+
+    #[test]
+    fn wrong_counts_say_where() {
+        let fault = |text: &str| read(text.as_bytes()).unwrap_err();
+        assert_eq!(
+            fault("LM=3\n1 2\nLM=1\n1 2\n"),
+            ends_early("points of specimen 1", 3, 1),
+            "too few"
+        );
+        assert_eq!(fault("LM=1\n1 2\n3 4\n"), at_line(2, "only 1 points were announced"), "more");
+        assert_eq!(fault("LM=1\n1 2 3\n"), at_line(1, "it has 3 numbers, not 2"), "three numbers");
+        assert_eq!(fault("1 2\n"), early(0), "no key");
+        assert_eq!(
+            fault("LM=999999999999999\n1 2\n").clone(),
+            { ends_early("points of specimen 1", 999_999_999_999_999, 1) },
+            "a claim"
+        );
+    }
+}

@@ -1,0 +1,57 @@
+/** Sets of vertices as people write them: "0-99,120,130-140". Pure. */
+
+/** Whether a text is such a list; what it means is the engine's to say. */
+export function parseRanges(text: string): string | "invalid" {
+  const parts = text.split(/[,;\s]+/).filter((part) => part !== "");
+  const readable = parts.every((part) => {
+    const [, from = "", to = from] = /^(\d{1,9})(?:[-–](\d{1,9}))?$/.exec(part) ?? [];
+    return from !== "" && Number(from) <= Number(to);
+  });
+  return parts.length > 0 && readable ? parts.join(",").replaceAll("–", "-") : "invalid";
+}
+
+/** Which of `points` vertices a list holds; those beyond are left out. */
+export function maskOf(ranges: string, points: number): Uint8Array {
+  const mask = new Uint8Array(points);
+  for (const [from, to] of pairsOf(ranges)) mask.fill(1, from, to + 1);
+  return mask;
+}
+
+export function rangesOf(mask: Uint8Array): string {
+  const parts: string[] = [];
+  for (let from = 0; from < mask.length; from += 1) {
+    if (mask[from] === 0) continue;
+    let to = from;
+    while (mask[to + 1] === 1) to += 1;
+    parts.push(to === from ? String(from) : `${from}-${to}`);
+    from = to;
+  }
+  return parts.join(",");
+}
+
+/** How many vertices a list names, those in two of its ranges counted once. */
+export function rangeCount(ranges: string): number {
+  let counted = 0;
+  let last = -1;
+  for (const [from, to] of pairsOf(ranges).sort((one, other) => one[0] - other[0])) {
+    counted += Math.max(0, to - Math.max(from - 1, last));
+    last = Math.max(last, to);
+  }
+  return counted;
+}
+
+export function maskCount(mask: Uint8Array): number {
+  let counted = 0;
+  for (const marked of mask) counted += marked;
+  return counted;
+}
+
+function pairsOf(ranges: string): [number, number][] {
+  return ranges
+    .split(",")
+    .filter((part) => part !== "")
+    .map((part) => {
+      const [from = 0, to = from] = part.split("-").map(Number);
+      return [from, to];
+    });
+}
