@@ -55,7 +55,10 @@ pub use error::{Fault, FormatError};
 pub use group::{Group, groups};
 pub use input::{Input, Storage};
 pub use npz::{read_arrays, write_arrays};
-pub use write::{write_npz, write_ply, write_statismo};
+pub use write::{
+    write_csv, write_draws_csv, write_draws_json, write_glb, write_hdf5_json, write_json, write_npz,
+    write_obj, write_ply, write_statismo,
+};
 
 use crate::model::{BasisCheck, LinearModel};
 use hdf5_json::Hdf5Json;

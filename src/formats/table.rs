@@ -25,10 +25,8 @@ pub(super) fn parse(text: &[u8], what: &str) -> Result<Array, Fault> {
         let mut words = line
             .split(|byte| matches!(byte, b' ' | b'\t' | b',' | b';'))
             .filter(|word| !word.is_empty());
-        let wrong = words.find_map(|word| {
-            let number = core::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
-            number.map(|number| values.push(number)).is_none().then_some(word)
-        });
+        let number = |word: &[u8]| core::str::from_utf8(word).ok()?.parse().ok();
+        let wrong = words.find(|word| number(word).map(|number| values.push(number)).is_none());
         if let Some(word) = wrong {
             if rows == 0 {
                 values.clear();
