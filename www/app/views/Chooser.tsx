@@ -5,13 +5,13 @@ import { SIDES, type Side, slots } from "../state";
 
 /** More models than two were dropped: which of them are A and B. */
 export function Chooser() {
-  const found = choosing.value;
-  return found && <Dialog key={found.models[0]?.name} models={found.models} side={found.side} />;
+  const models = choosing.value;
+  return models && <Dialog models={models} />;
 }
 
 const KEEP = "keep";
 
-function Dialog({ models, side }: { models: NamedSource[]; side: Side }) {
+function Dialog({ models }: { models: NamedSource[] }) {
   const dialog = useRef<HTMLDialogElement>(null);
   const chosen = useSignal<Record<Side, string>>({ a: "0", b: "1" });
   useEffect(() => dialog.current?.showModal(), []);
@@ -21,13 +21,7 @@ function Dialog({ models, side }: { models: NamedSource[]; side: Side }) {
   const source = (side: Side) => models[Number(chosen.value[side])]?.source ?? null;
   const nothing = SIDES.every((side) => chosen.value[side] === KEEP);
   return (
-    <dialog
-      ref={dialog}
-      class="chooser-dialog"
-      aria-labelledby="chooser-title"
-      onClose={close}
-      data-side={side}
-    >
+    <dialog ref={dialog} class="chooser-dialog" aria-labelledby="chooser-title" onClose={close}>
       <form
         onSubmit={(event) => {
           event.preventDefault();
