@@ -200,9 +200,9 @@ test("by keyboard alone: to the file chooser, two files, and their comparison", 
     // A file with several models: the shape first, the others to choose from.
     const parts = page.getByRole("combobox", { name: "Part of bfm-groups.h5" });
     assert.deepEqual(await parts.locator("option").allInnerTexts(), [
-      "shape",
+      "shape (identity)",
       "expression",
-      "color",
+      "colour",
     ]);
     await parts.selectOption("expression");
     await typeSetting(page, "Seed", "4");

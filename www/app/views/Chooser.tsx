@@ -1,12 +1,14 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { choosing, type NamedSource, nameOf, openChosen } from "../models";
-import { SIDES, type Side, slots } from "../state";
+import { SIDES, type Side, slots, sourceKey } from "../state";
 
 /** More models than two were dropped: which of them are A and B. */
 export function Chooser() {
   const models = choosing.value;
-  return models && <Dialog models={models} />;
+  const [first] = models ?? [];
+  // Another question is another dialog, shown anew.
+  return models && first && <Dialog key={sourceKey(first.source)} models={models} />;
 }
 
 const KEEP = "keep";
@@ -15,8 +17,9 @@ function Dialog({ models }: { models: NamedSource[] }) {
   const dialog = useRef<HTMLDialogElement>(null);
   const chosen = useSignal<Record<Side, string>>({ a: "0", b: "1" });
   useEffect(() => dialog.current?.showModal(), []);
+  // The browser tells of a close some time after it; by then another drop may have asked anew.
   const close = () => {
-    choosing.value = null;
+    if (choosing.peek() === models) choosing.value = null;
   };
   const source = (side: Side) => models[Number(chosen.value[side])]?.source ?? null;
   const nothing = SIDES.every((side) => chosen.value[side] === KEEP);
