@@ -187,7 +187,9 @@ fn the_corpus_gives_the_format_or_the_exact_sentence() {
     let rows: Vec<Row> = json("corpus/models.json");
     let mut missing: Vec<String> = std::fs::read_dir(tests().join("fixtures"))
         .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .map(Result::unwrap)
+        .filter(|entry| entry.file_type().unwrap().is_file())
+        .map(|entry| entry.file_name().into_string().unwrap())
         .filter(|name| !name.ends_with(".py") && !name.ends_with(".json"))
         .collect();
     for row in rows {
