@@ -184,7 +184,7 @@ fn broken_files_give_the_exact_sentence() {
     missing.retain(|name| !good.contains_key(name));
     for Row { file, origin, format, error } in rows {
         assert!(!origin.is_empty(), "{file}: a case has an origin");
-        match (open(&[file.clone()], None), format, error) {
+        match (open(core::slice::from_ref(&file), None), format, error) {
             (Ok(opened), Some(format), None) => assert_eq!(opened.format, format, "{file}"),
             (Err(error), None, Some(expected)) => {
                 let found = Failure {
@@ -204,17 +204,18 @@ fn broken_files_give_the_exact_sentence() {
 
 /// Names and displacements of an eos file of blendshapes.
 fn blendshapes(bytes: &[u8]) -> Vec<(String, Vec<f32>)> {
-    let number = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap()) as usize;
+    let number =
+        |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().expect("a number")) as usize;
     let mut at = 8;
     let mut list = Vec::new();
     for _ in 0..number(0) {
-        let name = String::from_utf8(bytes[at + 8..at + 8 + number(at)].to_vec()).unwrap();
+        let name = String::from_utf8(bytes[at + 8..at + 8 + number(at)].to_vec()).expect("a name");
         at += 8 + name.len();
         let end = at + 8 + 4 * number(at);
         let values = bytes[at + 8..end].chunks(4);
         list.push((
             name,
-            values.map(|value| f32::from_le_bytes(value.try_into().unwrap())).collect(),
+            values.map(|value| f32::from_le_bytes(value.try_into().expect("a number"))).collect(),
         ));
         at = end;
     }
