@@ -127,20 +127,20 @@ fn read_elsewhere(test: &str, exports: Vec<Export>) -> Vec<ReadBack> {
     );
     let name = format!("shapevenn-export-{test}-{}", std::process::id());
     let folder = std::env::temp_dir().join(name);
-    std::fs::create_dir_all(&folder).unwrap();
+    std::fs::create_dir_all(&folder).expect("a folder");
     let count = exports.len();
     let write = |(index, export): (usize, Export)| {
         let path = folder.join(format!("{index}.{}", export.end));
-        std::fs::write(&path, export.bytes).unwrap();
+        std::fs::write(&path, export.bytes).expect("a file");
         path
     };
     let paths: Vec<PathBuf> = exports.into_iter().enumerate().map(write).collect();
     let script = fixtures().join("read_back_export.py");
-    let output = Command::new(&python).arg(script).args(&paths).output().unwrap();
+    let output = Command::new(&python).arg(script).args(&paths).output().expect("Python runs");
     let complaint = String::from_utf8_lossy(&output.stderr);
     assert!(output.status.success(), "{test}: {complaint}");
-    std::fs::remove_dir_all(&folder).unwrap();
-    let found: Vec<ReadBack> = serde_json::from_slice(&output.stdout).unwrap();
+    std::fs::remove_dir_all(&folder).expect("the folder goes");
+    let found: Vec<ReadBack> = serde_json::from_slice(&output.stdout).expect("numbers");
     assert_eq!(found.len(), count, "{test}: all files");
     found
 }
@@ -196,6 +196,21 @@ fn shapes_are_read_back_by_trimesh() {
         assert_close(&found.mean, &expected, 1e-6, &what);
         assert_eq!(found.cells, corners(model.cells()), "{what}: faces");
     }
+}
+
+#[test]
+fn a_model_without_faces_gets_those_of_the_exported_mesh() {
+    let model = model_of("variable-text.h5", None);
+    #[allow(clippy::cast_possible_truncation, reason = "shapes are in single precision")]
+    let points: Vec<f32> = model.mean().iter().map(|&value| value as f32).collect();
+    let mesh = formats::write_obj(&points, model.dimension(), model.cells());
+    let bare = model.clone().with_cells(Cells::None).unwrap();
+    let files = [
+        Input::of_bytes("model.json", formats::write_json(&bare).unwrap()),
+        Input::of_bytes("mean.obj", mesh),
+    ];
+    let opened = formats::open(&files, &Options::default()).unwrap();
+    assert_eq!(opened.part.model.cells(), model.cells(), "faces");
 }
 
 #[test]

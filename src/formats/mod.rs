@@ -17,6 +17,7 @@ mod blendshapes;
 mod bytes;
 mod cells;
 mod clmtrackr;
+mod columns;
 mod companions;
 mod components;
 mod container;

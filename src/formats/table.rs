@@ -3,12 +3,14 @@
 //! Lines that start with `#`, and a first line of words, are skipped.
 
 use super::array::{Array, Data};
+use super::container;
 use super::error::Fault;
 use super::input::Input;
 
-/// The table in a file, rows × columns.
+/// The table in a file, rows × columns; the file may be compressed.
 pub(super) fn read(input: &Input, what: &str) -> Result<Array, Fault> {
-    parse(&input.bytes().map_err(|error| error.fault)?, what)
+    let bytes = container::unpacked(input).and_then(|input| input.bytes());
+    parse(&bytes.map_err(|error| error.fault)?, what)
 }
 
 /// The table that text writes.
