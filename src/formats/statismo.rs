@@ -20,20 +20,23 @@
 //! A file may hold several models, listed in `/catalog/<name>/modelPath`, or in groups. An expression
 //! model stores displacements; its mean becomes shape mean + displacement.
 //!
-//! **Limits.** A mesh embedded as VTK bytes (old representers) is shown as points. Landmarks are not
-//! read.
+//! Version 0.8 may hold its mesh as the bytes of a VTK file.
+//!
+//! **Limits.** Landmarks are not read.
 //!
 //! **References.** Lüthi et al., "Statismo – a framework for PCA based statistical models", Insight
 //! Journal 2012; Gerig et al., "Morphable face models – an open framework", FG 2018.
 
 use nalgebra::DVector;
 
-use super::array::Array;
+use super::array::{Array, Data};
 use super::assemble::{Ingredients, Named, Scaling, assemble, mesh_of, not_numbers};
 use super::cells::Habit;
 use super::error::{Fault, short};
 use super::hdf5::Hdf5;
 use super::input::Input;
+use super::mesh::{self, Mesh};
+use super::sniff::Content;
 use super::tree::Tree;
 use super::{FormatError, Opened, Options, Origin, Part};
 use crate::model::{Cells, Kind, Unit};
@@ -268,14 +271,46 @@ fn drawing(tree: &dyn Tree, place: &Place, notes: &mut Vec<String>) -> Drawing {
             notes.push(format!("The faces could not be read, points are shown instead. {fault}"));
             None
         });
-    if cells.is_none() && tree.has_array(&format!("{representer}/reference")) {
-        notes.push(
-            "The mesh is embedded as a VTK file, which is not read; points are shown instead."
-                .to_owned(),
-        );
-    }
     let names = ["points", "reference-mesh/vertex-coordinates"];
-    Drawing { points: first_array(tree, &representer, names).ok().flatten(), cells }
+    let points = first_array(tree, &representer, names).ok().flatten();
+    if cells.is_some() {
+        return Drawing { points, cells };
+    }
+    match embedded_mesh(tree, &format!("{representer}/reference")) {
+        None => Drawing { points, cells },
+        Some(Ok(mesh)) => {
+            let (dimension, count) = (mesh.dimension, mesh.point_count());
+            let embedded = Array { shape: vec![count, dimension], data: Data::F64(mesh.points) };
+            let cells = by_corner(&mesh.cells);
+            Drawing { points: points.or(Some(embedded)), cells }
+        }
+        Some(Err(fault)) => {
+            notes.push(format!(
+                "The mesh embedded in the file could not be read, points are shown instead. {fault}"
+            ));
+            Drawing { points, cells }
+        }
+    }
+}
+
+/// The mesh that representers of version 0.8 store as the bytes of a VTK file.
+fn embedded_mesh(tree: &dyn Tree, path: &str) -> Option<Result<Mesh, Fault>> {
+    let bytes = tree.array(path).ok().flatten()?.to_integers()?;
+    // Signed bytes in the file: the lowest eight bits are what was meant.
+    let bytes: Vec<u8> = bytes.iter().map(|byte| byte.to_le_bytes()[0]).collect();
+    Some(mesh::read(Content::Vtk, &bytes))
+}
+
+/// Cells as the format stores them: k × m.
+fn by_corner(cells: &Cells) -> Option<Array> {
+    let (corners, flat) = match cells {
+        Cells::None => return None,
+        Cells::Segments(segments) => (2, segments.as_flattened()),
+        Cells::Triangles(triangles) => (3, triangles.as_flattened()),
+    };
+    let count = flat.len() / corners;
+    let at = |place: usize| i64::from(flat[place % count * corners + place / count]);
+    Some(Array { shape: vec![corners, count], data: Data::I64((0..flat.len()).map(at).collect()) })
 }
 
 /// The file's shape part, where it has as many points: what expressions and colours lie on.
