@@ -120,17 +120,11 @@ fn read_all(inputs: &[Input], options: &Options) -> Result<Opened, FormatError> 
     } else {
         let names: Vec<&str> =
             displaced.iter().map(|input| group::stem(input.file_name())).collect();
-        let (weights, factor) = sampled_weights(&names);
-        mean += &columns * weights;
-        columns = product(&columns, &factor);
-        notes.insert(
-            0,
-            format!(
-                "{count} displacements have no law of their own: {SAMPLED} shapes were drawn with two to \
-                 six of them at weights from 0.2 to 1, and the model is their principal components."
-            ),
-        );
-        Origin::Blendshapes { count, sampled: SAMPLED }
+        let sampled = sample(&names, &columns);
+        mean += sampled.mean;
+        columns = sampled.basis;
+        notes.insert(0, sampled.note);
+        sampled.origin
     };
     let (model, check) = LinearModel::from_scaled_basis(dimension, mean, columns)
         .map_err(|error| refused(Fault::Model(error)))?;
@@ -148,6 +142,32 @@ fn with_faces(model: LinearModel, drawn: Cells, unit: Unit) -> Result<LinearMode
 fn unit(neutral: &Input) -> Unit {
     let is_ict = group::stem(neutral.file_name()) == "generic_neutral_mesh";
     if is_ict { Unit::Centimetre } else { Unit::Unknown }
+}
+
+/// What a population of displaced shapes is like.
+pub(super) struct Sampled {
+    /// Its mean displacement (D).
+    pub(super) mean: DVector<f64>,
+    /// Its scaled basis (D × at most k).
+    pub(super) basis: DMatrix<f64>,
+    /// The sentence that says so.
+    pub(super) note: String,
+    pub(super) origin: Origin,
+}
+
+/// The population of shapes that are displaced by `columns` (D × k), whose names say which are partners.
+pub(super) fn sample(names: &[&str], columns: &DMatrix<f64>) -> Sampled {
+    let count = names.len();
+    let (weights, factor) = sampled_weights(names);
+    Sampled {
+        mean: columns * weights,
+        basis: product(columns, &factor),
+        note: format!(
+            "{count} displacements have no law of their own: {SAMPLED} shapes were drawn with two to six \
+             of them at weights from 0.2 to 1, and the model is their principal components."
+        ),
+        origin: Origin::Blendshapes { count, sampled: SAMPLED },
+    }
 }
 
 /// Mean of the sampled weights (k), and the factor P·diag(s) of their covariance (k × k).

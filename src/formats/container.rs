@@ -252,7 +252,7 @@ fn unpack(input: &Input, bytes: &[u8], members: &[Member]) -> Result<Vec<Input>,
     let mut left = limit;
     let mut files = Vec::new();
     for member in members {
-        let name = format!("{}/{}", input.file_name(), member.name);
+        let name = format!("{}/{}", input.name, member.name);
         let unpacked = zip
             .by_index(member.index)
             .map_err(damaged)

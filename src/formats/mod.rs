@@ -17,6 +17,7 @@ mod blendshapes;
 mod bytes;
 mod cells;
 mod clmtrackr;
+mod columns;
 mod companions;
 mod components;
 mod container;
@@ -55,7 +56,10 @@ pub use error::{Fault, FormatError};
 pub use group::{Group, groups};
 pub use input::{Input, Storage};
 pub use npz::{read_arrays, write_arrays};
-pub use write::{write_npz, write_ply, write_statismo};
+pub use write::{
+    DrawnSet, write_csv, write_draws_csv, write_draws_json, write_glb, write_hdf5_json, write_json,
+    write_npz, write_obj, write_ply, write_statismo, write_values,
+};
 
 use crate::model::{BasisCheck, LinearModel};
 use hdf5_json::Hdf5Json;

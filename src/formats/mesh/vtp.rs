@@ -31,8 +31,7 @@ pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
     let mut file = Document { coding: Coding::new(bytes.len()), appended: None, pieces: 0 };
     let mut section = String::new();
     let mut arrays: BTreeMap<(String, String), DataArray<'_>> = BTreeMap::new();
-    let mut tags = Tags { rest: bytes };
-    while let Some(tag) = tags.next() {
+    for tag in (Tags { rest: bytes }) {
         match tag.name.as_str() {
             "VTKFile" => file.coding.declare(&tag)?,
             "Piece" => file.pieces += 1,
