@@ -31,6 +31,9 @@ use super::npy::Header;
 const MATRIX: u32 = 14;
 const COMPRESSED: u32 = 15;
 
+/// The class of an object that MATLAB stores in its own way.
+const OPAQUE: u32 = 17;
+
 /// Structures and cells in one another that are followed.
 const DEEPEST: usize = 12;
 
@@ -213,11 +216,20 @@ impl Walk {
         }
         let end = self.place.saturating_add(tag.size);
         let flags = self.numbers(16)?.first().copied().ok_or(Trouble::Damaged)?;
-        let shape: Vec<u64> = self.numbers(4 * 32)?.into_iter().map(u64::from).collect();
+        let (class, complex) = (flags & 0xff, flags & 0x800 != 0);
+        // What MATLAB stores in its own way (text objects, tables) has no sides.
+        let shape: Vec<u64> = if class == OPAQUE {
+            Vec::new()
+        } else {
+            self.numbers(4 * 32)?.into_iter().map(u64::from).collect()
+        };
         let own = self.content(LONGEST_NAME)?;
         let own = String::from_utf8_lossy(&own);
         let name = if depth == 0 { own.trim_end_matches('\0') } else { name };
-        let (class, complex) = (flags & 0xff, flags & 0x800 != 0);
+        // Behind the variables MATLAB keeps what its objects consist of, without a name.
+        if name.is_empty() {
+            return Ok(());
+        }
         let variable = match class {
             1..=3 if depth == DEEPEST => Variable::Other("structures too deep in one another"),
             1 => {
