@@ -31,7 +31,7 @@ use super::{FormatError, Opened, Options, Origin, Part, cells, container, group,
 use crate::model::{Cells, LinearModel, Unit, product, thin_svd};
 
 /// Shapes of the sampled population.
-const SAMPLED: usize = 600;
+pub(super) const SAMPLED: usize = 600;
 const KEY: &[u8; 32] = b"Shapevenn blendshapes, version 1";
 const SHARE_OF_PARTNERS: f64 = 0.75;
 
@@ -120,16 +120,9 @@ fn read_all(inputs: &[Input], options: &Options) -> Result<Opened, FormatError> 
     } else {
         let names: Vec<&str> =
             displaced.iter().map(|input| group::stem(input.file_name())).collect();
-        let (weights, factor) = sampled_weights(&names);
-        mean += &columns * weights;
-        columns = product(&columns, &factor);
-        notes.insert(
-            0,
-            format!(
-                "{count} displacements have no law of their own: {SAMPLED} shapes were drawn with two to \
-                 six of them at weights from 0.2 to 1, and the model is their principal components."
-            ),
-        );
+        let note;
+        (mean, columns, note) = sampled(mean, &columns, &names);
+        notes.insert(0, note);
         Origin::Blendshapes { count, sampled: SAMPLED }
     };
     let (model, check) = LinearModel::from_scaled_basis(dimension, mean, columns)
@@ -148,6 +141,22 @@ fn with_faces(model: LinearModel, drawn: Cells, unit: Unit) -> Result<LinearMode
 fn unit(neutral: &Input) -> Unit {
     let is_ict = group::stem(neutral.file_name()) == "generic_neutral_mesh";
     if is_ict { Unit::Centimetre } else { Unit::Unknown }
+}
+
+/// Mean and scaled basis of the population sampled from `neutral` (D) and its displacements (D × k), and
+/// the sentence that says so.
+pub(super) fn sampled(
+    neutral: DVector<f64>,
+    displacements: &DMatrix<f64>,
+    names: &[&str],
+) -> (DVector<f64>, DMatrix<f64>, String) {
+    let (weights, factor) = sampled_weights(names);
+    let note = format!(
+        "{} displacements have no law of their own: {SAMPLED} shapes were drawn with two to six of them \
+         at weights from 0.2 to 1, and the model is their principal components.",
+        names.len()
+    );
+    (neutral + displacements * weights, product(displacements, &factor), note)
 }
 
 /// Mean of the sampled weights (k), and the factor P·diag(s) of their covariance (k × k).

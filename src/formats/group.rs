@@ -20,7 +20,7 @@ use super::error::Fault;
 use super::input::Input;
 use super::mesh;
 use super::sniff::Content;
-use super::{FormatError, Opened, Options, blendshapes, companions, open_one, population};
+use super::{FormatError, Opened, Options, blendshapes, cells, companions, open_one, population};
 use crate::model::Cells;
 
 /// A format whose model may lie in several files.
@@ -289,21 +289,26 @@ fn with_faces(mut opened: Opened, input: &Input) -> Opened {
         let content = super::sniff::sniff(&input)?;
         mesh::read(content, &input.bytes()?).map_err(|fault| fault.of(&input.name))
     });
+    let points = part.model.point_count();
     let note = match mesh {
         Err(error) => error.to_string(),
-        Ok(mesh) if mesh.point_count() != part.model.point_count() => format!(
-            "{} has {} points, the model {}: its faces were left out.",
+        Ok(mesh) if mesh.point_count() != points => format!(
+            "{} has {} points, the model {points}: its faces were left out.",
             input.name,
             mesh.point_count(),
-            part.model.point_count()
         ),
-        Ok(mesh) => match part.model.clone().with_cells(mesh.cells) {
-            Ok(model) => {
-                part.model = model;
-                format!("The faces are those of {}.", input.name)
+        Ok(mut mesh) => {
+            let mean = part.model.mean().as_slice();
+            let turned = cells::turn_outwards(&mut mesh.cells, mean, part.model.dimension());
+            part.notes.extend(turned);
+            match part.model.clone().with_cells(mesh.cells) {
+                Ok(model) => {
+                    part.model = model;
+                    format!("The faces are those of {}.", input.name)
+                }
+                Err(error) => error.to_string(),
             }
-            Err(error) => error.to_string(),
-        },
+        }
     };
     part.notes.push(note);
     opened
