@@ -28,8 +28,10 @@ struct Together {
     /// Which files make one model; empty when none do. Called again on the rest.
     companions: fn(&[Input]) -> Vec<usize>,
     /// Reads the model of exactly these files; `None` when they are something else.
-    read: fn(&[Input], &Options) -> Option<Result<Opened, FormatError>>,
+    read: Read,
 }
+
+type Read = fn(&[Input], &Options) -> Option<Result<Opened, FormatError>>;
 
 /// Formats of several files, asked in this order before anything else is tried.
 const TOGETHER: &[Together] = &[
