@@ -20,7 +20,7 @@ use super::error::Fault;
 use super::input::Input;
 use super::mesh;
 use super::sniff::Content;
-use super::{FormatError, Opened, Options, blendshapes, companions, open_one, population};
+use super::{FormatError, Opened, Options, blendshapes, cells, companions, open_one, population};
 use crate::model::Cells;
 
 /// A format whose model may lie in several files.
@@ -28,8 +28,10 @@ struct Together {
     /// Which files make one model; empty when none do. Called again on the rest.
     companions: fn(&[Input]) -> Vec<usize>,
     /// Reads the model of exactly these files; `None` when they are something else.
-    read: fn(&[Input], &Options) -> Option<Result<Opened, FormatError>>,
+    read: Read,
 }
+
+type Read = fn(&[Input], &Options) -> Option<Result<Opened, FormatError>>;
 
 /// Formats of several files, asked in this order before anything else is tried.
 const TOGETHER: &[Together] = &[
@@ -289,21 +291,26 @@ fn with_faces(mut opened: Opened, input: &Input) -> Opened {
         let content = super::sniff::sniff(&input)?;
         mesh::read(content, &input.bytes()?).map_err(|fault| fault.of(&input.name))
     });
+    let points = part.model.point_count();
     let note = match mesh {
         Err(error) => error.to_string(),
-        Ok(mesh) if mesh.point_count() != part.model.point_count() => format!(
-            "{} has {} points, the model {}: its faces were left out.",
+        Ok(mesh) if mesh.point_count() != points => format!(
+            "{} has {} points, the model {points}: its faces were left out.",
             input.name,
             mesh.point_count(),
-            part.model.point_count()
         ),
-        Ok(mesh) => match part.model.clone().with_cells(mesh.cells) {
-            Ok(model) => {
-                part.model = model;
-                format!("The faces are those of {}.", input.name)
+        Ok(mut mesh) => {
+            let mean = part.model.mean().as_slice();
+            let turned = cells::turn_outwards(&mut mesh.cells, mean, part.model.dimension());
+            part.notes.extend(turned);
+            match part.model.clone().with_cells(mesh.cells) {
+                Ok(model) => {
+                    part.model = model;
+                    format!("The faces are those of {}.", input.name)
+                }
+                Err(error) => error.to_string(),
             }
-            Err(error) => error.to_string(),
-        },
+        }
     };
     part.notes.push(note);
     opened
