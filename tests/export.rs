@@ -268,7 +268,9 @@ fn gltf_files_are_those_that_were_validated() {
 #[test]
 fn tables_are_read_back_by_others() {
     let columns = [("σ, in mm", vec![0.1, 1e-9, 1e300]), ("a \"b\"", vec![-1.0, f64::NAN])];
-    let draws = Array { shape: vec![2, 3], data: Data::F32(vec![0.1, 2.0, -3.0, 4.0, 5.5, 6.0]) };
+    let coefficients = [0.1, 2.0, -3.0, 4.0, 5.5, 6.0];
+    let draws =
+        [formats::DrawnSet { name: "7", coefficients: &coefficients, distances: &[0.5, 0.25] }];
     let exports = [formats::write_csv(&columns), formats::write_draws_csv(&draws)];
     let exports = exports.map(|bytes| Export { end: "csv", bytes }).into();
     let found = read_elsewhere("tables", exports);
@@ -276,8 +278,10 @@ fn tables_are_read_back_by_others() {
     let expected =
         [[Some(0.1), Some(-1.0)], [Some(1e-9), None], [Some(1e300), None]].map(Vec::from);
     assert_eq!(found[0].rows, expected, "to the last bit");
-    assert_eq!(found[1].names, ["coefficient 1", "coefficient 2", "coefficient 3"], "names");
-    let expected = [[0.1, 2.0, -3.0], [4.0, 5.5, 6.0]].map(|row| row.map(Some).to_vec());
+    let names = ["draws", "distance", "coefficient 1", "coefficient 2", "coefficient 3"];
+    assert_eq!(found[1].names, names, "names");
+    let expected =
+        [[7.0, 0.5, 0.1, 2.0, -3.0], [7.0, 0.25, 4.0, 5.5, 6.0]].map(|row| row.map(Some).to_vec());
     assert_eq!(found[1].rows, expected, "rows");
 }
 

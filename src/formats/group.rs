@@ -228,8 +228,9 @@ fn named(inputs: &[Input], contents: &[Option<Content>], groups: Vec<Vec<usize>>
 /// What to call files that make one model: the file's name, the model's, the folder's.
 pub(super) fn name_of(inputs: &[Input]) -> String {
     let Some(first) = inputs.first() else { return String::new() };
-    let is_shape = |input: &Input| container::content(input).is_ok_and(mesh::is_shape);
-    if let Some(model) = inputs.iter().find(|input| !is_shape(input)).filter(|_| inputs.len() == 2)
+    let is_shape = |input: &&Input| container::content(input).is_ok_and(mesh::is_shape);
+    if inputs.len() == 2
+        && let Some(model) = inputs.iter().find(|input| !is_shape(input))
     {
         return model.file_name().to_owned();
     }

@@ -57,8 +57,8 @@ pub use group::{Group, groups};
 pub use input::{Input, Storage};
 pub use npz::{read_arrays, write_arrays};
 pub use write::{
-    write_csv, write_draws_csv, write_draws_json, write_glb, write_hdf5_json, write_json, write_npz,
-    write_obj, write_ply, write_statismo,
+    DrawnSet, write_csv, write_draws_csv, write_draws_json, write_glb, write_hdf5_json, write_json,
+    write_npz, write_obj, write_ply, write_statismo, write_values,
 };
 
 use crate::model::{BasisCheck, LinearModel};

@@ -10,6 +10,9 @@ use super::input::Input;
 /// Bytes that are looked at; headers of HDF5 may also stand further on.
 const LOOKED_AT: usize = 4096;
 
+/// With what HDF5 begins; it stands at 0, 512, 1024, 2048 …
+const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
+
 /// What a file turned out to be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Content {
@@ -89,7 +92,8 @@ pub(super) fn sniff(input: &Input) -> Result<Content, FormatError> {
 
 fn content_of(input: &Input, start: &[u8]) -> Option<Content> {
     let length = input.len();
-    if is_hdf5(input, start) {
+    let is_signature = |offset: &usize| start.get(*offset..).is_some_and(|at| at.starts_with(HDF5));
+    if [0, 512, 1024, 2048].iter().any(is_signature) {
         return Some(Content::Hdf5);
     }
     for (magic, content) in [
@@ -121,20 +125,20 @@ fn content_of(input: &Input, start: &[u8]) -> Option<Content> {
     if let Some(content) = text_of(start, length) {
         return Some(content);
     }
+    if is_hdf5_further_on(input) {
+        return Some(Content::Hdf5);
+    }
     chain_of_sizes(start, length)
 }
 
-/// HDF5's signature stands at 0, 512, 1024, 2048 …
-fn is_hdf5(input: &Input, start: &[u8]) -> bool {
-    const SIGNATURE: &[u8] = b"\x89HDF\r\n\x1a\n";
-    if start.starts_with(SIGNATURE) {
-        return true;
-    }
-    core::iter::successors(Some(512_u64), |offset| offset.checked_mul(2))
+/// HDF5's signature may stand at any power of two. Files are not asked that are something else for
+/// sure: each place is a read, and a population has hundreds of files.
+fn is_hdf5_further_on(input: &Input) -> bool {
+    core::iter::successors(Some(LOOKED_AT as u64), |offset| offset.checked_mul(2))
         .take_while(|offset| offset + 8 <= input.len())
         .any(|offset| {
             let mut found = [0; 8];
-            input.storage().read_at(offset, &mut found).is_ok() && found == SIGNATURE
+            input.storage().read_at(offset, &mut found).is_ok() && found == HDF5
         })
 }
 

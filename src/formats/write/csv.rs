@@ -5,8 +5,6 @@
 
 use core::fmt::Write;
 
-use super::super::array::{Array, Data};
-
 /// Writes columns under their names; a shorter column ends in empty cells.
 pub fn write_csv(columns: &[(&str, Vec<f64>)]) -> Vec<u8> {
     let mut text = line(columns.iter().map(|(name, _)| quoted(name)));
@@ -19,26 +17,47 @@ pub fn write_csv(columns: &[(&str, Vec<f64>)]) -> Vec<u8> {
     text.into_bytes()
 }
 
-/// Writes draws (rows of coefficients) with a column for each coefficient.
-pub fn write_draws(draws: &Array) -> Vec<u8> {
-    let columns = match *draws.shape.as_slice() {
-        [_, columns] => columns,
-        _ => 1,
-    };
-    let mut text = line((1..=columns).map(|column| format!("coefficient {column}")));
-    let count = draws.data.len().checked_div(columns).unwrap_or(0);
-    for row in 0..count {
-        let places = row * columns..(row + 1) * columns;
-        let row = places.map(|place| match &draws.data {
-            Data::F64(values) => cell(values[place]),
-            // With the digits of a single-precision number.
-            Data::F32(values) if values[place].is_finite() => values[place].to_string(),
-            Data::F32(values) => cell(f64::from(values[place])),
-            Data::I64(values) => values[place].to_string(),
-            Data::I32(values) => values[place].to_string(),
-            Data::Text(values) => quoted(&values[place]),
-        });
-        text.push_str(&line(row));
+/// Draws of one region: what to call them, their coefficients (… × q) and, of each, its distance.
+#[derive(Debug, Clone, Copy)]
+pub struct DrawnSet<'a> {
+    /// "intersection_a", "a_without_b" …
+    pub name: &'a str,
+    /// Draws × q, flat.
+    pub coefficients: &'a [f32],
+    /// One for each draw.
+    pub distances: &'a [f32],
+}
+
+/// Writes draws, one a line: which they belong to, their distance, their coefficients. Sets with fewer
+/// coefficients end in empty cells.
+pub fn write_draws(sets: &[DrawnSet<'_>]) -> Vec<u8> {
+    let modes =
+        |set: &DrawnSet<'_>| set.coefficients.len().checked_div(set.distances.len()).unwrap_or(0);
+    let most = sets.iter().map(modes).max().unwrap_or(0);
+    let names = ["draws".to_owned(), "distance".to_owned()].into_iter();
+    let mut text = line(names.chain((1..=most).map(|mode| format!("coefficient {mode}"))));
+    // With the digits of a single-precision number.
+    let single =
+        |value: f32| if value.is_finite() { value.to_string() } else { cell(f64::from(value)) };
+    for set in sets {
+        let modes = modes(set);
+        for (index, &distance) in set.distances.iter().enumerate() {
+            let row = &set.coefficients[index * modes..(index + 1) * modes];
+            let padding = core::iter::repeat_n(String::new(), most - modes);
+            let cells = [quoted(set.name), single(distance)].into_iter();
+            text.push_str(&line(
+                cells.chain(row.iter().map(|&value| single(value))).chain(padding),
+            ));
+        }
+    }
+    text.into_bytes()
+}
+
+/// Writes names and what belongs to them, one pair a line.
+pub fn write_values(values: &[(String, String)]) -> Vec<u8> {
+    let mut text = line(["name", "value"].map(str::to_owned).into_iter());
+    for (name, value) in values {
+        text.push_str(&line([quoted(name), quoted(value)].into_iter()));
     }
     text.into_bytes()
 }
@@ -91,8 +110,11 @@ mod tests {
 
     #[test]
     fn draws_have_a_column_for_each_coefficient() {
-        let draws = Array { shape: vec![2, 2], data: Data::F32(vec![0.1, -1.0, 2.5, 1e-3]) };
-        let text = String::from_utf8(write_draws(&draws)).unwrap();
-        assert_eq!(text, "coefficient 1,coefficient 2\r\n0.1,-1\r\n2.5,0.001\r\n", "two rows");
+        let two =
+            DrawnSet { name: "a", coefficients: &[0.1, -1.0, 2.5, 1e-3], distances: &[1.0, 2.0] };
+        let one = DrawnSet { name: "b", coefficients: &[4.0], distances: &[f32::NAN] };
+        let text = String::from_utf8(write_draws(&[two, one])).unwrap();
+        let expected = "draws,distance,coefficient 1,coefficient 2\r\na,1,0.1,-1\r\na,2,2.5,0.001\r\nb,,4,\r\n";
+        assert_eq!(text, expected, "three draws");
     }
 }

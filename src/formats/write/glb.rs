@@ -75,23 +75,27 @@ fn file_of(model: &LinearModel) -> Result<Vec<u8>, Fault> {
         };
         names.push(format!("mode {} ({length})", index + 1));
     }
-    primitive["targets"] = Value::from(targets);
+    let mut mesh = json!({
+        "name": model.name(),
+        "extras": {
+            "targetNames": names,
+            "unit": unit,
+            "standardDeviations": model.standard_deviations().as_slice()[..count],
+            "modes": model.mode_count(),
+        },
+    });
+    // A shape alone has no targets; the format allows no empty list of them.
+    if count > 0 {
+        primitive["targets"] = Value::from(targets);
+        mesh["weights"] = json!(vec![0.0; count]);
+    }
+    mesh["primitives"] = json!([primitive]);
     let document = json!({
         "asset": {"version": "2.0", "generator": concat!("Shapevenn ", env!("CARGO_PKG_VERSION"))},
         "scene": 0,
         "scenes": [{"nodes": [0]}],
         "nodes": [{"mesh": 0, "name": model.name()}],
-        "meshes": [{
-            "name": model.name(),
-            "primitives": [primitive],
-            "weights": vec![0.0; count],
-            "extras": {
-                "targetNames": names,
-                "unit": unit,
-                "standardDeviations": model.standard_deviations().as_slice()[..count],
-                "modes": model.mode_count(),
-            },
-        }],
+        "meshes": [mesh],
         "accessors": file.accessors,
         "bufferViews": file.views,
         "buffers": [{"byteLength": file.bytes.len()}],

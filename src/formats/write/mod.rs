@@ -9,7 +9,7 @@ mod obj;
 mod ply;
 mod statismo;
 
-pub use csv::{write_csv, write_draws as write_draws_csv};
+pub use csv::{DrawnSet, write_csv, write_draws as write_draws_csv, write_values};
 pub use glb::write_model as write_glb;
 pub use hdf5_json::write_model as write_hdf5_json;
 pub use json::{write_draws as write_draws_json, write_model as write_json};
