@@ -11,11 +11,11 @@
 //! leads to is found by its alias. A value is bare, or a list of one, or nested lists row by row.
 //!
 //! **Limits.** The types are not looked at: numbers are read in double precision. At most 10,000
-//! groups and datasets, 16 groups inside one another.
+//! groups and datasets, 16 groups inside one another, each group under one of its paths.
 //!
 //! **References.** The HDF Group, HDF5/JSON; unibas-gravis, scalismo-hdf5-json.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::array::{Array, Data, trimmed};
 use super::error::{Fault, shape_text};
@@ -24,6 +24,7 @@ use super::tree::Tree;
 
 const DEEPEST: usize = 16;
 const MOST_PATHS: usize = 10_000;
+const LONGEST_PATH: usize = 1000;
 
 /// A file of this format, indexed.
 #[derive(Debug)]
@@ -45,14 +46,23 @@ impl<'a> Hdf5Json<'a> {
     pub(super) fn new(document: Document<'a>) -> Result<Self, Fault> {
         let mut tree = Self { document, datasets: BTreeMap::new(), groups: BTreeMap::new() };
         if let Some(root) = tree.document.text(&["root"]) {
-            tree.follow(&root, "", 0)?;
+            tree.follow(&root, "", &mut BTreeSet::new())?;
         }
         tree.add_aliases()?;
         Ok(tree)
     }
 
-    fn follow(&mut self, id: &str, path: &str, depth: usize) -> Result<(), Fault> {
-        if depth > DEEPEST || self.groups.len() + self.datasets.len() > MOST_PATHS {
+    /// Goes through a group, unless it was visited: links may lead in circles.
+    fn follow(
+        &mut self,
+        id: &str,
+        path: &str,
+        visited: &mut BTreeSet<String>,
+    ) -> Result<(), Fault> {
+        if visited.len() > MOST_PATHS || path.matches('/').count() > DEEPEST {
+            return Ok(());
+        }
+        if !visited.insert(id.to_owned()) {
             return Ok(());
         }
         let links = self.document.read(&["groups", id, "links"], path)?;
@@ -62,13 +72,14 @@ impl<'a> Hdf5Json<'a> {
             let part = |name: &str| link.get(name).and_then(Value::text);
             let (Some(title), Some(id)) = (part("title"), part("id")) else { continue };
             let inner = if path.is_empty() { title.to_owned() } else { format!("{path}/{title}") };
-            if self.groups.contains_key(&inner) {
+            let is_full = self.datasets.len() > MOST_PATHS || inner.len() > LONGEST_PATH;
+            if is_full || self.groups.contains_key(&inner) {
                 continue;
             }
             if part("collection") == Some("datasets") || self.document.has(&["datasets", id]) {
                 self.datasets.insert(inner, id.to_owned());
             } else {
-                self.follow(id, &inner, depth + 1)?;
+                self.follow(id, &inner, visited)?;
             }
         }
         Ok(())
@@ -94,6 +105,9 @@ impl<'a> Hdf5Json<'a> {
                 };
                 let Some(path) = list.items().first().and_then(Value::text) else { continue };
                 let path = path.trim_matches('/').to_owned();
+                if path.len() > LONGEST_PATH {
+                    continue;
+                }
                 if self.groups.contains_key(&path) || self.datasets.contains_key(&path) {
                     continue;
                 }
@@ -169,15 +183,13 @@ impl Tree for Hdf5Json<'_> {
 
     fn groups(&self, path: &str) -> Vec<String> {
         let path = path.trim_matches('/');
-        let inside = |group: &String| {
-            let rest = if path.is_empty() {
-                group
-            } else {
-                group.strip_prefix(path)?.strip_prefix('/')?
-            };
-            (!rest.is_empty() && !rest.contains('/')).then(|| rest.to_owned())
-        };
-        self.groups.keys().filter_map(inside).collect()
+        let begin = if path.is_empty() { String::new() } else { format!("{path}/") };
+        self.groups
+            .range(begin.clone()..)
+            .map_while(|(group, _)| group.strip_prefix(&begin))
+            .filter(|rest| !rest.is_empty() && !rest.contains('/'))
+            .map(str::to_owned)
+            .collect()
     }
 
     fn contents(&self, most: usize) -> Vec<String> {

@@ -19,7 +19,8 @@ use super::array::{Array, Data};
 use super::error::Fault;
 use super::input::Input;
 
-/// Bytes read at a time.
+/// Bytes read at a time: few at first, since most values are short, then more and more.
+const FIRST_CHUNK: usize = 1 << 12;
 const CHUNK: usize = 1 << 18;
 /// Levels of objects whose members are indexed.
 const INDEXED: usize = 3;
@@ -196,7 +197,8 @@ impl<'a> Reader<'a> {
         self.start += self.buffer.len() as u64;
         self.at = 0;
         let left = self.input.len().saturating_sub(self.start);
-        let length = usize::try_from(left).unwrap_or(usize::MAX).min(CHUNK);
+        let wanted = (2 * self.buffer.len()).clamp(FIRST_CHUNK, CHUNK);
+        let length = usize::try_from(left).unwrap_or(usize::MAX).min(wanted);
         self.buffer.resize(length, 0);
         self.input
             .storage()
