@@ -343,7 +343,7 @@ fn bad_inputs_exit_with_2_a_sentence_and_a_hint() {
         (
             &["convert", "demo:planes-a", &no_ending],
             "has no ending",
-            "End it in .h5, .npz or .ply.",
+            "End it in .h5, .h5.json, .npz, .json, .glb, .ply or .obj.",
         ),
         (&["compare", "demo:planes-a"], "<B>", "--help"),
         (&["reproduce", "table3"], "invalid value 'table3'", "table1, table2, sigma"),
@@ -375,7 +375,7 @@ fn what_the_machine_cannot_do_exits_with_1() {
 fn everything_that_can_be_taken_away_is_written_beside_the_report() {
     let folder = folder("everything");
     let out = folder.to_string_lossy().into_owned();
-    printed(&[&STARS[..], &["--draws", "200", "--out", &out]].concat());
+    printed(&[&STARS[..], &["--out", &out]].concat());
     let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
     let report: Value = serde_json::from_slice(&read("report.json")).unwrap();
     let table = text(&read("report.csv"));

@@ -150,8 +150,10 @@ impl Hdf5 {
 
     /// Paths and sides of the arrays of the file, at most `most`.
     pub(super) fn arrays(&self, most: usize) -> Vec<(String, Result<Vec<u64>, Fault>)> {
-        let mut found = Vec::new();
-        self.collect("", 0, most, &mut found);
+        /// Groups looked into: a group may contain itself, many times over.
+        const MOST_GROUPS: usize = 200;
+        let (mut found, mut groups) = (Vec::new(), MOST_GROUPS);
+        self.collect("", 0, most, &mut groups, &mut found);
         found
     }
 
@@ -160,12 +162,14 @@ impl Hdf5 {
         path: &str,
         depth: usize,
         most: usize,
+        groups: &mut usize,
         found: &mut Vec<(String, Result<Vec<u64>, Fault>)>,
     ) {
         const DEEPEST: usize = 6;
-        if depth > DEEPEST || found.len() >= most {
+        if depth > DEEPEST || found.len() >= most || *groups == 0 {
             return;
         }
+        *groups -= 1;
         let group = if path.is_empty() { Ok(self.file.root()) } else { self.file.group(path) };
         let Ok(group) = group else { return };
         let inside =
@@ -182,7 +186,7 @@ impl Hdf5 {
             found.push((full, shape));
         }
         for name in self.groups(path) {
-            self.collect(&inside(&name), depth + 1, most, found);
+            self.collect(&inside(&name), depth + 1, most, groups, found);
         }
     }
 }

@@ -41,6 +41,9 @@ use super::tree::Tree;
 use super::{FormatError, Opened, Options, Origin, Part};
 use crate::model::{Cells, Kind, Unit};
 
+/// Groups looked into, of each group.
+const MOST_GROUPS: usize = 100;
+
 /// Names listed when there is no model.
 const MOST_NAMES: usize = 20;
 
@@ -154,9 +157,10 @@ fn places(tree: &dyn Tree) -> Vec<Place> {
     for name in ["", "shape", "expression", "color"] {
         add(name, if name.is_empty() { "shape" } else { name });
     }
-    for group in tree.groups("") {
+    // Groups may contain themselves many times over: not all of them are looked into.
+    for group in tree.groups("").into_iter().take(MOST_GROUPS) {
         add(&group, &group);
-        for inner in tree.groups(&group) {
+        for inner in tree.groups(&group).into_iter().take(MOST_GROUPS) {
             add(&format!("{group}/{inner}"), &inner);
         }
     }
