@@ -11,7 +11,7 @@ import { change, dryRun, installPackages, isDebian, isDebianRoot } from "./steps
 import { ensureLinters, ensureRust, ensureWasm } from "./steps/toolchain.mjs";
 
 /** What the Rust tests compare with. */
-const pythonPackages = ["numpy", "scipy", "h5py"];
+const pythonPackages = ["numpy", "scipy", "h5py", "h5json", "trimesh"];
 
 /** Node itself, then the packages that the lock file names. */
 export async function ensureNode() {

@@ -6,12 +6,11 @@
 use core::fmt;
 
 use serde::Deserialize;
+use serde_json::Value;
 
-use crate::comparison::{
-    Comparison, ComparisonError, Picture, Region, Results, StoredArray, guessed_unit,
-};
+use crate::comparison::{Comparison, ComparisonError, Picture, Region, StoredArray, guessed_unit};
 use crate::demos;
-use crate::formats::{self, Array, Data, FormatError, Input, Options, Origin};
+use crate::formats::{self, Array, Data, DrawnSet, FormatError, Input, Options, Origin};
 use crate::model::{LinearModel, Unit};
 use crate::report::{ModelReport, Report, Seconds};
 
@@ -155,14 +154,30 @@ pub fn open_demo(name: &str, bytes: Option<&[u8]>) -> Result<Described, Error> {
 pub enum Download {
     /// The intersection model as statismo HDF5.
     IntersectionH5,
+    /// The intersection model as Scalismo's HDF5-JSON.
+    IntersectionJson,
     /// The intersection model as `.npz`.
     IntersectionNpz,
+    /// The intersection model as plain numbers in JSON.
+    IntersectionPlainJson,
+    /// The intersection model as glTF: the mean, and the modes as morph targets.
+    IntersectionGlb,
     /// All draws as `.npz`.
     DrawsNpz,
+    /// All draws as lists of lists.
+    DrawsJson,
+    /// All draws as a table.
+    DrawsCsv,
     /// The report.
     ReportJson,
+    /// The numbers of the report as a table.
+    ReportCsv,
     /// A shape of a region as PLY.
     Ply(ShownShape),
+    /// A shape of a region as OBJ.
+    Obj(ShownShape),
+    /// A shape of a region as glTF.
+    Glb(ShownShape),
 }
 
 /// The mean or a sample of a region, exactly as it is shown.
@@ -239,6 +254,9 @@ pub fn write(
     what: &Download,
 ) -> Result<Written, Error> {
     const BINARY: &str = "application/octet-stream";
+    const JSON: &str = "application/json";
+    const CSV: &str = "text/csv";
+    const GLTF: &str = "model/gltf-binary";
     let intersection = |comparison: &Comparison| comparison.intersection().ok_or(Error::NothingYet);
     let written = |name: &str, mime: &'static str, bytes: Vec<u8>| Written {
         name: name.to_owned(),
@@ -253,13 +271,32 @@ pub fn write(
         Download::IntersectionNpz => {
             written("intersection.npz", BINARY, formats::write_npz(&intersection(comparison)?)?)
         }
-        Download::DrawsNpz => {
-            comparison.report(seconds).ok_or(Error::NothingYet)?;
-            written("draws.npz", BINARY, write_draws(&comparison.results()))
+        Download::IntersectionJson => {
+            let bytes = formats::write_hdf5_json(&intersection(comparison)?)?;
+            written("intersection.h5.json", JSON, bytes)
         }
+        Download::IntersectionPlainJson => {
+            written("intersection.json", JSON, formats::write_json(&intersection(comparison)?)?)
+        }
+        Download::IntersectionGlb => {
+            written("intersection.glb", GLTF, formats::write_glb(&intersection(comparison)?)?)
+        }
+        Download::DrawsNpz => {
+            let arrays = draws(comparison, seconds)?;
+            written("draws.npz", BINARY, formats::write_arrays(&named(&arrays)))
+        }
+        Download::DrawsJson => {
+            let arrays = draws(comparison, seconds)?;
+            written("draws.json", JSON, formats::write_draws_json(&named(&arrays)))
+        }
+        Download::DrawsCsv => written("draws.csv", CSV, draws_as_csv(&draws(comparison, seconds)?)),
         Download::ReportJson => {
             let report = comparison.report(seconds).ok_or(Error::NothingYet)?;
-            written("report.json", "application/json", json(&report).into_bytes())
+            written("report.json", JSON, json(&report).into_bytes())
+        }
+        Download::ReportCsv => {
+            let report = comparison.report(seconds).ok_or(Error::NothingYet)?;
+            written("report.csv", CSV, report_as_csv(&report))
         }
         Download::Ply(shape) => {
             let (points, map) = shape.points(comparison)?;
@@ -267,6 +304,18 @@ pub fn write(
             let bytes =
                 formats::write_ply(&points, model.dimension(), model.cells(), map.as_deref());
             written(&format!("{}.ply", shape.name()), BINARY, bytes)
+        }
+        Download::Obj(shape) => {
+            let (points, _) = shape.points(comparison)?;
+            let model = comparison.pair().a();
+            let bytes = formats::write_obj(&points, model.dimension(), model.cells());
+            written(&format!("{}.obj", shape.name()), "model/obj", bytes)
+        }
+        Download::Glb(shape) => {
+            let (points, _) = shape.points(comparison)?;
+            let alone = LinearModel::of_shape(comparison.pair().a(), &points);
+            let bytes = formats::write_glb(&alone.with_name(shape.name()))?;
+            written(&format!("{}.glb", shape.name()), GLTF, bytes)
         }
     })
 }
@@ -277,14 +326,61 @@ pub fn json(report: &Report) -> String {
         .unwrap_or_else(|fault| unreachable!("a report is JSON: {fault}"))
 }
 
-fn write_draws(results: &Results) -> Vec<u8> {
-    let (names, arrays): (Vec<String>, Vec<Array>) = results
-        .to_arrays()
-        .into_iter()
-        .map(|stored| (stored.name, Array { shape: stored.shape, data: Data::F32(stored.values) }))
-        .unzip();
-    let named: Vec<(&str, Array)> = names.iter().map(String::as_str).zip(arrays).collect();
-    formats::write_arrays(&named)
+/// The draws of a finished run.
+fn draws(comparison: &Comparison, seconds: Seconds) -> Result<Vec<StoredArray>, Error> {
+    comparison.report(seconds).ok_or(Error::NothingYet)?;
+    Ok(comparison.results().to_arrays())
+}
+
+fn named(arrays: &[StoredArray]) -> Vec<(&str, Array)> {
+    let array = |stored: &StoredArray| Array {
+        shape: stored.shape.clone(),
+        data: Data::F32(stored.values.clone()),
+    };
+    arrays.iter().map(|stored| (stored.name.as_str(), array(stored))).collect()
+}
+
+fn draws_as_csv(arrays: &[StoredArray]) -> Vec<u8> {
+    let sets: Vec<DrawnSet<'_>> = arrays
+        .iter()
+        .filter_map(|stored| {
+            let distances = format!("{}_distance", stored.name);
+            let distances = arrays.iter().find(|other| other.name == distances)?;
+            Some(DrawnSet {
+                name: &stored.name,
+                coefficients: &stored.values,
+                distances: &distances.values,
+            })
+        })
+        .collect();
+    formats::write_draws_csv(&sets)
+}
+
+/// Every number and word of the report under its path: "intersection.meanDistance.mean".
+fn report_as_csv(report: &Report) -> Vec<u8> {
+    fn collect(path: &str, value: &Value, rows: &mut Vec<(String, String)>) {
+        let inside = |name: &str| {
+            if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
+        };
+        match value {
+            Value::Object(members) => {
+                for (name, member) in members {
+                    collect(&inside(name), member, rows);
+                }
+            }
+            Value::Array(members) => {
+                for (index, member) in members.iter().enumerate() {
+                    collect(&inside(&(index + 1).to_string()), member, rows);
+                }
+            }
+            Value::String(text) => rows.push((path.to_owned(), text.clone())),
+            Value::Null => rows.push((path.to_owned(), String::new())),
+            other => rows.push((path.to_owned(), other.to_string())),
+        }
+    }
+    let mut rows = Vec::new();
+    collect("", &serde_json::to_value(report).unwrap_or_default(), &mut rows);
+    formats::write_values(&rows)
 }
 
 /// A finished run, put back from its report (JSON) and its draws (`.npz`).

@@ -370,3 +370,88 @@ fn what_the_machine_cannot_do_exits_with_1() {
     assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
     assert_eq!(text(&output.stdout), "", "no report of a run that could not be kept");
 }
+
+#[test]
+fn everything_that_can_be_taken_away_is_written_beside_the_report() {
+    let folder = folder("everything");
+    let out = folder.to_string_lossy().into_owned();
+    printed(&[&STARS[..], &["--draws", "200", "--out", &out]].concat());
+    let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    let report: Value = serde_json::from_slice(&read("report.json")).unwrap();
+    let table = text(&read("report.csv"));
+    let modes = report["intersection"]["modes"].as_u64().unwrap();
+    assert!(table.contains(&format!("intersection.modes,{modes}\r\n")), "numbers by their path");
+    let deviation = report["intersection"]["standardDeviations"][0].as_f64().unwrap();
+    let line = format!("intersection.standardDeviations.1,{deviation}\r\n");
+    assert!(table.contains(&line), "to the last digit: {line}");
+
+    let model = |name: &str| model_of(name, &read(name));
+    let expected = model("intersection.npz");
+    for (name, tolerance) in [("intersection.json", 1e-12), ("intersection.h5.json", 1e-6)] {
+        let found = model(name);
+        let difference = (found.scaled_basis() * found.scaled_basis().transpose()
+            - expected.scaled_basis() * expected.scaled_basis().transpose())
+        .amax();
+        assert!(difference < tolerance * expected.total_variance(), "{name}: {difference}");
+    }
+
+    let draws: Value = serde_json::from_slice(&read("draws.json")).unwrap();
+    let arrays = formats::read_arrays("draws.npz", &read("draws.npz")).unwrap();
+    let Data::F32(values) = &arrays["a_without_b"].data else { panic!("single precision") };
+    let first = draws["a_without_b"][0][0].as_f64().unwrap();
+    assert!((first - f64::from(values[0])).abs() < 1e-6 * first.abs(), "the same first draw");
+    let rows = text(&read("draws.csv"));
+    let count: usize = ["intersection_a", "intersection_b", "a_without_b", "b_without_a"]
+        .iter()
+        .map(|name| arrays[&format!("{name}_distance")].data.len())
+        .sum();
+    assert_eq!(rows.lines().count(), count + 1, "one line for each draw, and the names");
+    for name in ["intersection-mean.obj", "intersection-mean.glb", "intersection.glb"] {
+        assert!(!read(name).is_empty(), "{name}");
+    }
+}
+
+#[test]
+fn what_is_in_the_way_of_a_comparison_is_said() {
+    let found: Value = serde_json::from_str(&printed(&[
+        "inspect",
+        &fixture("plain.npz"),
+        "demo:stars-1-a",
+        "--json",
+    ]))
+    .unwrap();
+    assert_eq!(found["problem"]["code"], "dimension-mismatch", "{found}");
+    let crop = fixture("tables/lsfm-cropped.mat");
+    let whole = fixture("tables/lsfm.mat");
+    let words = printed(&["inspect", &whole, &crop]);
+    assert!(words.contains("Use the crop's own map"), "{words}");
+    let words = printed(&["inspect", &whole, &crop, "--crop-map"]);
+    assert!(
+        words.contains("points in common") && words.contains("✓ The crop's own map"),
+        "{words}"
+    );
+}
+
+#[test]
+fn a_folder_of_meshes_is_a_population() {
+    let folder = folder("population");
+    let at = |name: &str| folder.join(name).to_string_lossy().into_owned();
+    std::fs::create_dir_all(folder.join("male")).unwrap();
+    for index in 0..5 {
+        let corners: [(f64, f64); 5] = [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (2.0, 5.0), (0.0, 3.0)];
+        let points: String = corners
+            .iter()
+            .enumerate()
+            .map(|(k, (x, y))| {
+                let wobble = f64::from(u32::try_from((7 * k + 3 * index) % 5).unwrap());
+                format!("v {} {} {}\n", x + 0.1 * wobble, y - 0.2 * wobble, 0.1 * wobble * x)
+            })
+            .collect();
+        let text = format!("{points}f 1 2 3\nf 1 3 4\nf 1 4 5\n");
+        std::fs::write(folder.join(format!("male/{index}.obj")), text).unwrap();
+    }
+    let described: Vec<ModelReport> =
+        serde_json::from_str(&printed(&["info", &at("male"), "--json"])).unwrap();
+    assert_eq!((described[0].points, described[0].cells), (5, 3), "points and faces");
+    assert!(described[0].notes.iter().any(|note| note.contains('5')), "{:?}", described[0].notes);
+}

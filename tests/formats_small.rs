@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use proptest::prelude::*;
 use serde::Deserialize;
-use shapevenn::formats::{self, FormatError, Input, Opened, Options};
+use shapevenn::formats::{self, FormatError, Input, Opened, Options, Origin};
 use shapevenn::model::{Cells, Kind, LinearModel, Unit};
 
 /// What `make_small.py` noted about files that belong together.
@@ -184,7 +184,7 @@ fn broken_files_give_the_exact_sentence() {
     missing.retain(|name| !good.contains_key(name));
     for Row { file, origin, format, error } in rows {
         assert!(!origin.is_empty(), "{file}: a case has an origin");
-        match (open(&[file.clone()], None), format, error) {
+        match (open(core::slice::from_ref(&file), None), format, error) {
             (Ok(opened), Some(format), None) => assert_eq!(opened.format, format, "{file}"),
             (Err(error), None, Some(expected)) => {
                 let found = Failure {
@@ -202,13 +202,54 @@ fn broken_files_give_the_exact_sentence() {
     assert!(missing.is_empty(), "not in the corpus: {missing:?}");
 }
 
+/// Names and displacements of an eos file of blendshapes.
+fn blendshapes(bytes: &[u8]) -> Vec<(String, Vec<f32>)> {
+    let number =
+        |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().expect("a number")) as usize;
+    let mut at = 8;
+    let mut list = Vec::new();
+    for _ in 0..number(0) {
+        let name = String::from_utf8(bytes[at + 8..at + 8 + number(at)].to_vec()).expect("a name");
+        at += 8 + name.len();
+        let end = at + 8 + 4 * number(at);
+        let values = bytes[at + 8..end].chunks(4);
+        list.push((
+            name,
+            values.map(|value| f32::from_le_bytes(value.try_into().expect("a number"))).collect(),
+        ));
+        at = end;
+    }
+    list
+}
+
 #[test]
-fn the_parts_of_a_model_that_can_be_read_do_not_need_the_others() {
-    let file = ["blendshapes.bin".to_owned()];
-    let opened = open(&file, None).unwrap();
-    assert_eq!(opened.parts, ["shape", "expression", "color"], "all are listed");
-    assert_eq!(opened.part.name, "shape", "the shape is read");
-    assert_eq!(open(&file, Some("color")).unwrap().part.name, "color", "so is the colour");
+fn blendshapes_of_eos_are_sampled_as_those_in_meshes_are() {
+    let opened = open(&["blendshapes.bin".to_owned()], Some("expression")).unwrap();
+    assert_eq!(opened.parts, ["shape", "expression", "color"], "parts");
+    let Origin::Blendshapes { count: 3, .. } = opened.part.origin else { panic!("sampled") };
+    assert_eq!(opened.part.notes.len(), 1, "one sentence says so");
+    let found = opened.part.model;
+    let shape = open(&["blendshapes.bin".to_owned()], None).unwrap().part.model;
+    let obj = |displacement: &[f32]| -> Vec<u8> {
+        let mean = shape.mean().as_slice().chunks(3).zip(displacement.chunks(3));
+        let vertex = |(mean, by): (&[f64], &[f32])| {
+            let [x, y, z] = core::array::from_fn(|axis| mean[axis] + f64::from(by[axis]));
+            format!("v {x} {y} {z}\n")
+        };
+        let Cells::Triangles(triangles) = shape.cells() else { panic!("triangles") };
+        let face = |[a, b, c]: &[u32; 3]| format!("f {} {} {}\n", a + 1, b + 1, c + 1);
+        mean.map(vertex).chain(triangles.iter().map(face)).collect::<String>().into_bytes()
+    };
+    let list = blendshapes(&fixture("only-blendshapes.bin"));
+    let mut files = vec![("face/neutral.obj".to_owned(), obj(&[0.0; 36]))];
+    files.extend(list.iter().map(|(name, values)| (format!("face/{name}.obj"), obj(values))));
+    let files: Vec<(&str, &[u8])> =
+        files.iter().map(|(name, bytes)| (name.as_str(), bytes.as_slice())).collect();
+    let expected = read(&files, None).unwrap().part.model;
+    assert_close(found.mean().as_slice(), expected.mean().as_slice(), 1e-6, "mean");
+    let what = "covariance";
+    assert_close(&covariance_of_probe(&found), &covariance_of_probe(&expected), 1e-5, what);
+    assert_eq!(found.cells(), expected.cells(), "faces");
 }
 
 #[test]

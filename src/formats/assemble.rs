@@ -39,6 +39,8 @@ pub(super) enum Scaling {
     Unit(Vec<f64>),
     /// Columns are already multiplied by √λ; the λ beside them serve as a check.
     Scaled(Vec<f64>),
+    /// Columns are already multiplied by √λ, and no λ stand beside them.
+    AlreadyScaled,
     /// Columns are to be multiplied by these numbers, whatever their length.
     Factors(Vec<f64>),
     /// Nothing: unit columns are taken with standard deviation 1, others as already scaled.
@@ -229,10 +231,11 @@ fn columns(basis: Named, length: usize) -> Result<DMatrix<f64>, Fault> {
     let (modes, by_mode) = match *array.shape.as_slice() {
         [rows, modes] if rows == length => (modes, false),
         [modes, columns] if columns == length => (modes, true),
-        [points, dimension, modes] if points.checked_mul(dimension) == Some(length) => {
+        // Points have few coordinates: 3 modes of 12 points are no 3 points of 12 coordinates.
+        [points, dimension @ 1..=3, modes] if points.checked_mul(dimension) == Some(length) => {
             (modes, false)
         }
-        [modes, points, dimension] if points.checked_mul(dimension) == Some(length) => {
+        [modes, points, dimension @ 1..=3] if points.checked_mul(dimension) == Some(length) => {
             (modes, true)
         }
         [count] if length > 0 && count.is_multiple_of(length) => (count / length, false),
@@ -311,7 +314,7 @@ fn scale(basis: &mut DMatrix<f64>, scaling: Scaling, notes: &mut Vec<String>) ->
             );
             return Ok(());
         }
-        Scaling::Unstated => return Ok(()),
+        Scaling::Unstated | Scaling::AlreadyScaled => return Ok(()),
         Scaling::Unit(variances) => {
             let deviations = standard_deviations(norms.len(), &variances, notes)?;
             if !all_unit && equal_norms(&norms, &deviations) {

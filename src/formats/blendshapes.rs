@@ -31,7 +31,7 @@ use super::{FormatError, Opened, Options, Origin, Part, cells, container, group,
 use crate::model::{Cells, LinearModel, Unit, product, thin_svd};
 
 /// Shapes of the sampled population.
-pub(super) const SAMPLED: usize = 600;
+const SAMPLED: usize = 600;
 const KEY: &[u8; 32] = b"Shapevenn blendshapes, version 1";
 const SHARE_OF_PARTNERS: f64 = 0.75;
 
@@ -120,10 +120,11 @@ fn read_all(inputs: &[Input], options: &Options) -> Result<Opened, FormatError> 
     } else {
         let names: Vec<&str> =
             displaced.iter().map(|input| group::stem(input.file_name())).collect();
-        let note;
-        (mean, columns, note) = sampled(mean, &columns, &names);
-        notes.insert(0, note);
-        Origin::Blendshapes { count, sampled: SAMPLED }
+        let sampled = sample(&names, &columns);
+        mean += sampled.mean;
+        columns = sampled.basis;
+        notes.insert(0, sampled.note);
+        sampled.origin
     };
     let (model, check) = LinearModel::from_scaled_basis(dimension, mean, columns)
         .map_err(|error| refused(Fault::Model(error)))?;
@@ -143,20 +144,30 @@ fn unit(neutral: &Input) -> Unit {
     if is_ict { Unit::Centimetre } else { Unit::Unknown }
 }
 
-/// Mean and scaled basis of the population sampled from `neutral` (D) and its displacements (D × k), and
-/// the sentence that says so.
-pub(super) fn sampled(
-    neutral: DVector<f64>,
-    displacements: &DMatrix<f64>,
-    names: &[&str],
-) -> (DVector<f64>, DMatrix<f64>, String) {
+/// What a population of displaced shapes is like.
+pub(super) struct Sampled {
+    /// Its mean displacement (D).
+    pub(super) mean: DVector<f64>,
+    /// Its scaled basis (D × at most k).
+    pub(super) basis: DMatrix<f64>,
+    /// The sentence that says so.
+    pub(super) note: String,
+    pub(super) origin: Origin,
+}
+
+/// The population of shapes that are displaced by `columns` (D × k), whose names say which are partners.
+pub(super) fn sample(names: &[&str], columns: &DMatrix<f64>) -> Sampled {
+    let count = names.len();
     let (weights, factor) = sampled_weights(names);
-    let note = format!(
-        "{} displacements have no law of their own: {SAMPLED} shapes were drawn with two to six of them \
-         at weights from 0.2 to 1, and the model is their principal components.",
-        names.len()
-    );
-    (neutral + displacements * weights, product(displacements, &factor), note)
+    Sampled {
+        mean: columns * weights,
+        basis: product(columns, &factor),
+        note: format!(
+            "{count} displacements have no law of their own: {SAMPLED} shapes were drawn with two to six \
+             of them at weights from 0.2 to 1, and the model is their principal components."
+        ),
+        origin: Origin::Blendshapes { count, sampled: SAMPLED },
+    }
 }
 
 /// Mean of the sampled weights (k), and the factor P·diag(s) of their covariance (k × k).

@@ -101,7 +101,7 @@ impl Components {
 }
 
 /// A list of 3-D points.
-fn points(name: String, values: Vec<f64>) -> Named {
+pub(super) fn points(name: String, values: Vec<f64>) -> Named {
     let shape = vec![values.len() / 3, 3];
     Named { name, array: Array { shape, data: Data::F64(values) } }
 }

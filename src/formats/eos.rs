@@ -13,19 +13,23 @@
 //! (D × 1), orthonormal modes (D × q), variances λ (q × 1), and `u64` m triangles of 3 `i32`, counted
 //! from 0. A name is `u64` length and bytes. Nothing may follow the end, which is how the file is known.
 //!
-//! Also read is a PCA model that was saved alone. Blendshapes that were saved alone lack the face that
-//! they displace. Lengths are in millimetres.
+//! Blendshapes become a sampled population, see `blendshapes.rs`. Also read is a PCA model that was saved
+//! alone. Blendshapes that were saved alone lack the face that they displace. Lengths are in millimetres.
 //!
 //! **References.** Huber et al., "A multiresolution 3D morphable face model and fitting framework",
 //! VISAPP 2016; the eos library.
 
+use nalgebra::{DMatrix, DVector};
+
 use super::array::{Array, Data};
+use super::assemble::mesh_of;
 use super::bytes::{Bytes, f32s, i32s, singles};
-use super::components::{Components, choose};
+use super::cells::Habit;
+use super::components::{Components, choose, points};
 use super::error::{Fault, counted};
 use super::input::Input;
-use super::{FormatError, Opened, Options};
-use crate::model::Unit;
+use super::{FormatError, Opened, Options, Part, blendshapes};
+use crate::model::{LinearModel, Unit};
 
 /// Reads one part of a file.
 pub(super) fn read(input: &Input, options: &Options) -> Result<Opened, FormatError> {
@@ -35,6 +39,10 @@ pub(super) fn read(input: &Input, options: &Options) -> Result<Opened, FormatErr
         let names = file.parts();
         let part = choose(&names, options.part.as_deref(), |index| {
             let title = title(input, &names, index);
+            if let ("expression", Expression::Blendshapes(list)) = (names[index], &file.expression)
+            {
+                return file.sampled_part(list, &title);
+            }
             let triangles = file.triangles.clone();
             let (pca, name, shape) = match (names[index], &file.expression) {
                 ("shape", _) => (&file.shape, "shape", None),
@@ -42,10 +50,7 @@ pub(super) fn read(input: &Input, options: &Options) -> Result<Opened, FormatErr
                 (_, Expression::Pca(pca)) => {
                     (pca, "expression", Some(f32s(file.shape.mean.numbers)))
                 }
-                (_, Expression::Blendshapes(list)) => {
-                    return Err(Fault::NoFace { count: list.len() });
-                }
-                (_, Expression::None) => return Err(Fault::Empty),
+                _ => return Err(Fault::NoFace { count: 0 }),
             };
             pca.components(name).into_part(shape, triangles, Unit::Millimetre, &title)
         })?;
@@ -115,7 +120,7 @@ impl<'a> File<'a> {
             [_, 1, _] => Self::bare(&mut bytes)?,
             // Blendshapes start with their number and the length of a name, in 64 bits.
             [_, 0, name] if name > 0 => {
-                return Err(Fault::NoFace { count: blendshapes(&mut bytes)?.len() });
+                return Err(Fault::NoFace { count: read_blendshapes(&mut bytes)?.len() });
             }
             [version, ..] => Self::versioned(&mut bytes, version)?,
         };
@@ -151,7 +156,7 @@ impl<'a> File<'a> {
         if version >= 2 && bytes.u8("the expression")? == 0 {
             expression = match bytes.i32("the expression")? {
                 0 => Expression::Pca(pca(bytes, "expression")?.0),
-                1 => Expression::Blendshapes(blendshapes(bytes)?),
+                1 => Expression::Blendshapes(read_blendshapes(bytes)?),
                 kind => {
                     return Err(Fault::Damaged {
                         what: "the expression".to_owned(),
@@ -193,6 +198,48 @@ impl<'a> File<'a> {
     }
 }
 
+impl File<'_> {
+    /// The model of a population that is sampled from blendshapes.
+    fn sampled_part(&self, list: &[(String, Matrix<'_>)], title: &str) -> Result<Part, Fault> {
+        const MOST: usize = 1000;
+        let mean = points("the shape mean".to_owned(), f32s(self.shape.mean.numbers));
+        let triangles = (!self.triangles.data.is_empty()).then(|| self.triangles.clone());
+        let (mean, cells) = mesh_of(mean, None, triangles, Habit::CellsFirst)?;
+        if list.len() > MOST {
+            let reason = format!("there are {}, and at most {MOST} are read", list.len());
+            return Err(Fault::Damaged { what: "The list of blendshapes".to_owned(), reason });
+        }
+        if let Some((name, matrix)) =
+            list.iter().find(|(_, matrix)| matrix.numbers.len() != 4 * mean.len())
+        {
+            return Err(Fault::Shape {
+                first: format!("The shape mean has {} numbers", mean.len()),
+                second: format!("blendshape {name} is {} × {}", matrix.rows, matrix.columns),
+            });
+        }
+        let columns = list.iter().flat_map(|(_, matrix)| f32s(matrix.numbers)).collect();
+        let columns = DMatrix::from_vec(mean.len(), list.len(), columns);
+        let count = columns.iter().filter(|value| !value.is_finite()).count();
+        if count > 0 {
+            return Err(Fault::NotFinite { what: "the blendshapes".to_owned(), count });
+        }
+        let names: Vec<&str> = list.iter().map(|(name, _)| name.as_str()).collect();
+        let sampled = blendshapes::sample(&names, &columns);
+        let mean = DVector::from_vec(mean) + sampled.mean;
+        let (model, check) =
+            LinearModel::from_scaled_basis(3, mean, sampled.basis).map_err(Fault::Model)?;
+        let model = model.with_cells(cells).map_err(Fault::Model)?;
+        Ok(Part {
+            name: "expression".to_owned(),
+            model: model.with_unit(Unit::Millimetre).with_name(title),
+            check,
+            origin: sampled.origin,
+            map: None,
+            notes: vec![sampled.note],
+        })
+    }
+}
+
 /// A PCA model and its triangles.
 fn pca<'a>(bytes: &mut Bytes<'a>, what: &str) -> Result<(Pca<'a>, Array), Fault> {
     let mean = matrix(bytes, &format!("the {what} mean"))?;
@@ -229,7 +276,7 @@ fn matrix<'a>(bytes: &mut Bytes<'a>, what: &str) -> Result<Matrix<'a>, Fault> {
     Ok(Matrix { rows, columns, numbers })
 }
 
-fn blendshapes<'a>(bytes: &mut Bytes<'a>) -> Result<Vec<(String, Matrix<'a>)>, Fault> {
+fn read_blendshapes<'a>(bytes: &mut Bytes<'a>) -> Result<Vec<(String, Matrix<'a>)>, Fault> {
     let count = bytes.u64("the blendshapes")?;
     let mut list = Vec::new();
     for _ in 0..count {

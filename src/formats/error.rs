@@ -161,6 +161,23 @@ pub enum Fault {
         /// What it is.
         format: &'static str,
     },
+    /// Modes of two kinds multiplied with one another: no linear model.
+    Bilinear {
+        /// Name of the array that shows it.
+        what: String,
+    },
+    /// An object of a Python class that is not an array.
+    PickleClass {
+        /// What needs it.
+        what: String,
+        /// The class, with its module.
+        class: String,
+    },
+    /// A single array without a name.
+    OneArray {
+        /// Its sides.
+        shape: Vec<u64>,
+    },
     /// A model whose other files are missing.
     Companion {
         /// What is missing.
@@ -265,6 +282,9 @@ impl FormatError {
             Fault::Damaged { .. } => "damaged",
             Fault::Unreadable { .. } => "unreadable",
             Fault::NoPart { .. } => "unknown-part",
+            Fault::Bilinear { .. } => "bilinear",
+            Fault::PickleClass { .. } => "pickle-class",
+            Fault::OneArray { .. } => "nomodel",
             Fault::Alone { .. } | Fault::Companion { .. } => "companion",
             Fault::JsonNumber { .. } => "jsonnan",
             Fault::TextEnds { .. } => "trunc",
@@ -335,6 +355,20 @@ impl FormatError {
             Fault::NoPart { .. } => "Choose one of the parts that the file has.",
             Fault::Alone { .. } => {
                 "Drop it together with the other files of its set: a population needs at least three shapes."
+            }
+            Fault::Bilinear { .. } => {
+                "Fix the expression or the identity, and save what is left as `mean` and `basis` with \
+                 `numpy.savez`."
+            }
+            Fault::PickleClass { .. } => {
+                "Save its arrays as plain numbers where that class is installed:\n\
+                 import numpy, pickle\n\
+                 model = pickle.load(open('model.pkl', 'rb'), encoding='latin1')\n\
+                 numpy.savez('model.npz', **{name: numpy.array(model[name]) for name in \
+                 ('v_template', 'shapedirs', 'f')})"
+            }
+            Fault::OneArray { .. } => {
+                "Save mean and basis together: `numpy.savez('model.npz', mean=mean, basis=basis)`."
             }
             Fault::Companion { .. } => "Choose or drop all files of the model together.",
             Fault::JsonNumber { .. } => {
@@ -471,6 +505,21 @@ impl fmt::Display for Fault {
                 write!(f, "There is no part “{part}”, only {}.", parts.join(", "))
             }
             Self::Alone { format } => write!(f, "One {format} alone makes no model."),
+            Self::Bilinear { what } => write!(
+                f,
+                "This is a bilinear model ({what}): identity and expression multiply one another, \
+                 and only linear models can be compared."
+            ),
+            Self::PickleClass { what, class } => write!(
+                f,
+                "{what} needs the Python class {class}; numbers were expected, and code in files is \
+                 never run."
+            ),
+            Self::OneArray { shape } => write!(
+                f,
+                "This is a single array ({}); a model needs a mean and a basis.",
+                shape_text(shape)
+            ),
             Self::Companion { what, expected } => {
                 write!(f, "The {what} are not in this file; they are expected in {expected}.")
             }

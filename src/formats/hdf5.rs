@@ -148,7 +148,20 @@ impl Hdf5 {
         })
     }
 
-    fn collect(&self, path: &str, depth: usize, most: usize, found: &mut Vec<String>) {
+    /// Paths and sides of the arrays of the file, at most `most`.
+    pub(super) fn arrays(&self, most: usize) -> Vec<(String, Result<Vec<u64>, Fault>)> {
+        let mut found = Vec::new();
+        self.collect("", 0, most, &mut found);
+        found
+    }
+
+    fn collect(
+        &self,
+        path: &str,
+        depth: usize,
+        most: usize,
+        found: &mut Vec<(String, Result<Vec<u64>, Fault>)>,
+    ) {
         const DEEPEST: usize = 6;
         if depth > DEEPEST || found.len() >= most {
             return;
@@ -165,10 +178,8 @@ impl Hdf5 {
             }
             let full = inside(&name);
             let shape = self.file.dataset(&full).and_then(|dataset| dataset.shape());
-            found.push(match shape {
-                Ok(shape) => format!("{full} ({})", shape_text(&shape)),
-                Err(_) => full,
-            });
+            let shape = shape.map_err(|error| fault_of(&error, &full, self.length));
+            found.push((full, shape));
         }
         for name in self.groups(path) {
             self.collect(&inside(&name), depth + 1, most, found);
@@ -225,9 +236,11 @@ impl Tree for Hdf5 {
     }
 
     fn contents(&self, most: usize) -> Vec<String> {
-        let mut found = Vec::new();
-        self.collect("", 0, most, &mut found);
-        found
+        let described = |(path, shape): (String, Result<Vec<u64>, Fault>)| match shape {
+            Ok(shape) => format!("{path} ({})", shape_text(&shape)),
+            Err(_) => path,
+        };
+        self.arrays(most).into_iter().map(described).collect()
     }
 
     fn cut_off(&self) -> Option<Fault> {

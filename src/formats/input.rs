@@ -4,6 +4,7 @@
 //! command line reads a file on disk, the page a file that the browser holds, tests a list of bytes.
 
 use core::fmt;
+use std::io::{self, Read, Seek, SeekFrom};
 use std::sync::Arc;
 
 use super::FormatError;
@@ -99,9 +100,43 @@ impl Input {
         Ok(bytes)
     }
 
+    /// A reader of the bytes from `offset` on, which holds only some of them.
+    pub(super) fn reader(&self, offset: u64) -> Reader {
+        Reader { storage: self.storage(), position: offset }
+    }
+
     /// Where the bytes are.
     pub(super) fn storage(&self) -> Arc<dyn Storage> {
         Arc::clone(&self.storage)
+    }
+}
+
+/// Bytes of a [`Storage`], one after the other.
+#[derive(Debug, Clone)]
+pub(super) struct Reader {
+    storage: Arc<dyn Storage>,
+    position: u64,
+}
+
+impl Read for Reader {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let left = self.storage.len().saturating_sub(self.position);
+        let count = usize::try_from(left).unwrap_or(usize::MAX).min(buffer.len());
+        self.storage.read_at(self.position, &mut buffer[..count]).map_err(io::Error::other)?;
+        self.position += count as u64;
+        Ok(count)
+    }
+}
+
+impl Seek for Reader {
+    fn seek(&mut self, place: SeekFrom) -> io::Result<u64> {
+        self.position = match place {
+            SeekFrom::Start(position) => Some(position),
+            SeekFrom::Current(distance) => self.position.checked_add_signed(distance),
+            SeekFrom::End(distance) => self.storage.len().checked_add_signed(distance),
+        }
+        .ok_or(io::ErrorKind::InvalidInput)?;
+        Ok(self.position)
     }
 }
 

@@ -17,6 +17,7 @@ mod blendshapes;
 mod bytes;
 mod cells;
 mod clmtrackr;
+mod columns;
 mod companions;
 mod components;
 mod container;
@@ -28,10 +29,17 @@ mod hdf5;
 mod hdf5_json;
 mod input;
 mod json;
+mod mat;
+mod mat4;
+mod mat5;
+mod mat73;
 mod mesh;
+mod named;
 mod npy;
 mod npz;
 mod numpy_model;
+mod pickle;
+mod pickle_arrays;
 mod plain_json;
 mod point_pca;
 mod population;
@@ -48,7 +56,10 @@ pub use error::{Fault, FormatError};
 pub use group::{Group, groups};
 pub use input::{Input, Storage};
 pub use npz::{read_arrays, write_arrays};
-pub use write::{write_npz, write_ply, write_statismo};
+pub use write::{
+    DrawnSet, write_csv, write_draws_csv, write_draws_json, write_glb, write_hdf5_json, write_json,
+    write_npz, write_obj, write_ply, write_statismo, write_values,
+};
 
 use crate::model::{BasisCheck, LinearModel};
 use hdf5_json::Hdf5Json;
@@ -135,7 +146,16 @@ fn open_within(inputs: &[Input], options: &Options, depth: u8) -> Result<Opened,
 /// Reads a file that stands alone.
 fn open_one(input: &Input, options: &Options, depth: u8) -> Result<Opened, FormatError> {
     match sniff(input)? {
-        Content::Hdf5 => statismo::read(input, options),
+        Content::Hdf5 => match statismo::read(input, options) {
+            Err(FormatError { fault: fault @ Fault::NoModel { .. }, .. }) => {
+                mat73::read(input, options, fault)
+            }
+            read => read,
+        },
+        Content::Mat5 => mat::read(input, options, mat5::index),
+        Content::Mat4 => mat::read(input, options, mat4::index),
+        Content::Npy => numpy_model::read_npy(input, options),
+        Content::Pickle => pickle::read(input, options),
         Content::Json => open_json(input, options),
         Content::Clmtrackr => clmtrackr::read(input, options),
         Content::Eos => eos::read(input, options),

@@ -10,6 +10,7 @@
 use std::io::Read;
 
 use super::array::{Array, Data, count_of, half_to_single};
+use super::error::Fault;
 
 /// First bytes of every `.npy` file.
 pub(super) const MAGIC: &[u8] = b"\x93NUMPY";
@@ -28,6 +29,19 @@ pub(super) enum NpyError {
     Truncated(u64, u64),
     /// More bytes than allowed.
     TooLarge(u64),
+}
+
+impl NpyError {
+    /// The fault of the array `what`, of which at most `limit` bytes are read.
+    pub(super) fn into_fault(self, what: &str, limit: u64) -> Fault {
+        let what = what.to_owned();
+        match self {
+            Self::Damaged(reason) => Fault::Damaged { what, reason: reason.to_owned() },
+            Self::NotNumbers(found) => Fault::NotNumbers { what, found },
+            Self::Truncated(needed, present) => Fault::Truncated { what, needed, present },
+            Self::TooLarge(claimed) => Fault::Size { what, claimed, limit },
+        }
+    }
 }
 
 /// What stands before the values.
@@ -94,6 +108,21 @@ fn parse(text: &str) -> Option<Header> {
 }
 
 impl Header {
+    /// The header of values that stand elsewhere: in a pickle, in a MATLAB file.
+    pub(super) fn new(shape: Vec<u64>, kind: impl Into<String>, fortran: bool) -> Self {
+        Self { shape, kind: kind.into(), fortran }
+    }
+
+    /// Whether the values are Python objects, and a pickle stands behind the header.
+    pub(super) fn is_pickle(&self) -> bool {
+        self.kind.trim_start_matches(['<', '>', '|', '=']).starts_with('O')
+    }
+
+    /// Bytes of all values in the file; `None` when they hold no numbers or overflow.
+    pub(super) fn bytes(&self) -> Option<u64> {
+        count_of(&self.shape)?.checked_mul(self.element().ok()?.width as u64)
+    }
+
     /// How the values are to be read; the error names a type that holds no numbers.
     fn element(&self) -> Result<Element, NpyError> {
         let other = || NpyError::NotNumbers(format!("values of the type {}", self.kind));
@@ -271,6 +300,12 @@ fn in_c_order(data: Data, shape: &[usize]) -> Data {
     fn reordered<T: Clone>(values: &[T], shape: &[usize]) -> Vec<T> {
         let mut index = vec![0; shape.len()];
         let mut result = Vec::with_capacity(values.len());
+        if let &[rows, columns] = shape {
+            for row in 0..rows {
+                result.extend((0..columns).map(|column| values[column * rows + row].clone()));
+            }
+            return result;
+        }
         for _ in 0..values.len() {
             let place = index.iter().zip(shape).rev().fold(0, |place, (i, side)| place * side + i);
             result.push(values[place].clone());
@@ -284,6 +319,10 @@ fn in_c_order(data: Data, shape: &[usize]) -> Data {
         }
         result
     }
+    // A list is the same in both orders.
+    if shape.iter().filter(|&&side| side != 1).count() <= 1 {
+        return data;
+    }
     match data {
         Data::F64(values) => Data::F64(reordered(&values, shape)),
         Data::F32(values) => Data::F32(reordered(&values, shape)),
@@ -291,6 +330,12 @@ fn in_c_order(data: Data, shape: &[usize]) -> Data {
         Data::I32(values) => Data::I32(reordered(&values, shape)),
         Data::Text(values) => Data::Text(reordered(&values, shape)),
     }
+}
+
+/// An array whose sides are reversed, as a column-major array looks in a row-major file.
+pub(super) fn transposed(array: Array) -> Array {
+    let shape: Vec<usize> = array.shape.iter().rev().copied().collect();
+    Array { data: in_c_order(array.data, &shape), shape }
 }
 
 /// The `.npy` file of an array.

@@ -6,28 +6,29 @@
 //! can reasonably hold is refused.
 
 use std::collections::BTreeMap;
-use std::io::{Cursor, Read, Write};
+use std::io::{BufReader, Cursor, Read, Seek, Write};
 
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
 use super::FormatError;
 use super::array::{Array, largest_array};
-use super::error::{Fault, shape_text};
+use super::error::Fault;
+use super::named::NamedArrays;
 use super::npy::{self, Header, NpyError};
 
 /// An open archive: what its members hold, not yet unpacked.
-pub(super) struct Archive<'a> {
-    zip: ZipArchive<Cursor<&'a [u8]>>,
+pub(super) struct Archive<R> {
+    zip: ZipArchive<BufReader<R>>,
     members: BTreeMap<String, (usize, Result<Header, NpyError>)>,
     limit: u64,
 }
 
-impl<'a> Archive<'a> {
-    /// Opens an archive held in memory and reads the headers of its arrays.
-    pub(super) fn open(bytes: &'a [u8]) -> Result<Self, Fault> {
-        let mut zip = ZipArchive::new(Cursor::new(bytes)).map_err(|error| {
-            if bytes.windows(4).any(|window| window == b"PK\x05\x06") {
+impl<R: Read + Seek + Clone> Archive<R> {
+    /// Opens an archive of `length` bytes and reads the headers of its arrays.
+    pub(super) fn open(source: R, length: u64) -> Result<Self, Fault> {
+        let mut zip = ZipArchive::new(BufReader::new(source.clone())).map_err(|error| {
+            if has_directory(source) {
                 damaged("The ZIP archive", error)
             } else {
                 Fault::TruncatedArchive
@@ -42,67 +43,63 @@ impl<'a> Archive<'a> {
                 members.insert(name.to_owned(), (index, npy::read_header(&mut member)));
             }
         }
-        Ok(Self { zip, members, limit: largest_array(bytes.len()) })
+        Ok(Self {
+            zip,
+            members,
+            limit: largest_array(usize::try_from(length).unwrap_or(usize::MAX)),
+        })
+    }
+}
+
+impl<R: Read + Seek> NamedArrays for Archive<R> {
+    fn container(&self) -> &'static str {
+        "NumPy archive"
     }
 
-    /// Names of the arrays.
-    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
-        self.members.keys().map(String::as_str)
+    fn names(&self) -> Vec<String> {
+        self.members.keys().cloned().collect()
     }
 
-    /// Names and shapes of the arrays, at most `most`.
-    pub(super) fn contents(&self, most: usize) -> Vec<String> {
-        let described =
-            |(name, (_, header)): (&String, &(usize, Result<Header, NpyError>))| match header {
-                Ok(header) => format!("{name} ({})", shape_text(&header.shape)),
-                Err(_) => name.clone(),
-            };
-        self.members.iter().take(most).map(described).collect()
+    fn shape(&self, name: &str) -> Option<Result<Vec<u64>, Fault>> {
+        let header = self.members.get(name)?.1.as_ref();
+        let readable = header
+            .map_err(Clone::clone)
+            .and_then(|header| header.check_readable().map(|()| header.shape.clone()));
+        Some(readable.map_err(|error| error.into_fault(name, self.limit)))
     }
 
-    /// The sides of an array of numbers or text; `None` when there is none of that name.
-    pub(super) fn shape(&self, name: &str) -> Option<&[u64]> {
-        let header = self.members.get(name)?.1.as_ref().ok()?;
-        header.check_readable().is_ok().then_some(header.shape.as_slice())
-    }
-
-    /// Why an array that is there holds no numbers and no text; `None` when it does or is absent.
-    pub(super) fn unreadable(&self, name: &str) -> Option<Fault> {
-        let error = match &self.members.get(name)?.1 {
-            Ok(header) => header.check_readable().err()?,
-            Err(error) => error.clone(),
-        };
-        Some(self.fault(name, error))
-    }
-
-    /// Unpacks an array; `None` when there is none of that name.
-    pub(super) fn array(&mut self, name: &str) -> Result<Option<Array>, Fault> {
-        let Some((index, header)) = self.members.get(name) else { return Ok(None) };
-        let fault = |error| self.fault(name, error);
-        let header = header.as_ref().map_err(|error| fault(error.clone()))?.clone();
-        let (index, limit) = (*index, self.limit);
+    fn read(&mut self, name: &str) -> Result<Array, Fault> {
+        const CORRUPT: NpyError = NpyError::Damaged("its compressed bytes are corrupt");
+        let limit = self.limit;
         let mut read = || -> Result<Array, NpyError> {
-            const CORRUPT: NpyError = NpyError::Damaged("its compressed bytes are corrupt");
-            let mut member = self.zip.by_index(index).map_err(|_| CORRUPT)?;
+            const ABSENT: NpyError = NpyError::Damaged("it is not there");
+            let (index, header) = self.members.get(name).ok_or(ABSENT)?;
+            let header = header.clone()?;
+            let mut member = self.zip.by_index(*index).map_err(|_| CORRUPT)?;
             npy::read_header(&mut member)?;
             let array = npy::read_values(&header, &mut member, limit)?;
             // The checksum is compared when the end of the member is read.
             member.read(&mut [0]).map_err(|_| CORRUPT)?;
             Ok(array)
         };
-        let array = read();
-        array.map(Some).map_err(|error| self.fault(name, error))
+        read().map_err(|error| error.into_fault(name, limit))
     }
+}
 
-    fn fault(&self, name: &str, error: NpyError) -> Fault {
-        let what = name.to_owned();
-        match error {
-            NpyError::Damaged(reason) => Fault::Damaged { what, reason: reason.to_owned() },
-            NpyError::NotNumbers(found) => Fault::NotNumbers { what, found },
-            NpyError::Truncated(needed, present) => Fault::Truncated { what, needed, present },
-            NpyError::TooLarge(claimed) => Fault::Size { what, claimed, limit: self.limit },
+/// Whether the end of an archive's directory is anywhere in it.
+fn has_directory(mut source: impl Read + Seek) -> bool {
+    let mut bytes = Vec::new();
+    let mut found = source.rewind().is_ok();
+    while found {
+        // The last three bytes of a block may begin what the next one ends.
+        bytes.drain(..bytes.len().saturating_sub(3));
+        let read = source.by_ref().take(1 << 16).read_to_end(&mut bytes).unwrap_or(0);
+        if bytes.windows(4).any(|window| window == b"PK\x05\x06") {
+            return true;
         }
+        found = read > 0;
     }
+    false
 }
 
 fn damaged(what: &str, error: impl core::fmt::Display) -> Fault {
@@ -119,17 +116,15 @@ fn damaged(what: &str, error: impl core::fmt::Display) -> Fault {
 /// would take more memory than a file of this size may.
 pub fn read_arrays(name: &str, bytes: &[u8]) -> Result<BTreeMap<String, Array>, FormatError> {
     let read = || -> Result<BTreeMap<String, Array>, Fault> {
-        let mut archive = Archive::open(bytes)?;
-        let names: Vec<String> = archive.names().map(str::to_owned).collect();
+        let mut archive = Archive::open(Cursor::new(bytes), bytes.len() as u64)?;
         let mut arrays = BTreeMap::new();
-        for member in names {
-            if let Some(Fault::NotNumbers { .. }) = archive.unreadable(&member) {
+        for member in archive.names() {
+            if let Some(Err(Fault::NotNumbers { .. })) = archive.shape(&member) {
                 continue;
             }
-            if let Some(array) = archive.array(&member)? {
-                archive.limit = archive.limit.saturating_sub(4 * array.data.len() as u64);
-                arrays.insert(member, array);
-            }
+            let array = archive.read(&member)?;
+            archive.limit = archive.limit.saturating_sub(4 * array.data.len() as u64);
+            arrays.insert(member, array);
         }
         Ok(arrays)
     };

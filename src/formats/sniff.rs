@@ -144,9 +144,26 @@ fn is_hdf5_further_on(input: &Input) -> bool {
 
 fn is_pickle(start: &[u8]) -> bool {
     matches!(start, [0x80, 2..=5, ..])
-        || [&b"(dp"[..], b"}q\x00(", b"ccopy_reg", b"cnumpy", b"(lp", b"]q\x00("]
+        || [&b"(dp"[..], b"}q\x00(", b"}(", b"(lp", b"]q\x00("]
             .iter()
             .any(|begin| start.starts_with(begin))
+        || names_a_class(start)
+}
+
+/// Whether this starts with a class as protocols 0 and 1 name it: `c`, module and name in two lines,
+/// then an instruction that may follow.
+fn names_a_class(start: &[u8]) -> bool {
+    let Some(rest) = start.strip_prefix(b"c") else { return false };
+    let mut lines = rest.splitn(3, |&byte| byte == b'\n');
+    let is_name = |line: Option<&[u8]>| {
+        line.is_some_and(|line| {
+            !line.is_empty()
+                && line.iter().all(|byte| byte.is_ascii_alphanumeric() || b"_.".contains(byte))
+        })
+    };
+    is_name(lines.next())
+        && is_name(lines.next())
+        && lines.next().is_some_and(|next| matches!(next, [b'p' | b'q' | b'(' | b')', ..]))
 }
 
 fn text_of(start: &[u8], length: u64) -> Option<Content> {
@@ -242,10 +259,28 @@ fn text_of(start: &[u8], length: u64) -> Option<Content> {
 fn chain_of_sizes(start: &[u8], length: u64) -> Option<Content> {
     let at = |offset: usize| integer(start, offset).map(u64::from);
     let [first, second, third] = [at(0)?, at(4)?, at(8)?];
-    // point.pca: D, q, then D·q + D + q numbers of 8 bytes.
-    let doubles = u128::from(first) * u128::from(second) + u128::from(first + second);
-    if first > 0 && second > 0 && u128::from(length) == 8 + 8 * doubles {
-        return Some(Content::PointPca);
+    // MAT v4: type, rows, columns, whether complex, length of the name, then the name and its NUL.
+    // Its name tells it from all others, so it comes first.
+    let [complex, name_length] = [at(12).unwrap_or(0), at(16).unwrap_or(0)];
+    let header = |kind: u64| kind <= 4052 && kind % 10 <= 2 && kind / 10 % 10 <= 5;
+    let swapped = |number: u64| u64::from(u32::try_from(number).unwrap_or(0).swap_bytes());
+    let plausible = |[kind, complex, name_length]: [u64; 3]| {
+        header(kind)
+            && complex <= 1
+            && (2..64).contains(&name_length)
+            && usize::try_from(name_length).is_ok_and(|name_length| {
+                start.get(20..20 + name_length).is_some_and(|name| {
+                    name[name.len() - 1] == 0
+                        && name[..name.len() - 1]
+                            .iter()
+                            .all(|byte| byte.is_ascii_alphanumeric() || *byte == b'_')
+                })
+            })
+    };
+    if plausible([first, complex, name_length])
+        || plausible([first, complex, name_length].map(swapped))
+    {
+        return Some(Content::Mat4);
     }
     // eos: version, rows D and the single column of the mean; or a bare PCA model without version.
     let fits = |rows: u64, columns: u64| {
@@ -269,27 +304,10 @@ fn chain_of_sizes(start: &[u8], length: u64) -> Option<Content> {
             return Some(Content::Scm);
         }
     }
-    // MAT v4: type, rows, columns, whether complex, length of the name, then the name and its NUL.
-    let [complex, name_length] = [at(12)?, at(16)?];
-    let header = |kind: u64| kind <= 4052 && kind % 10 <= 2 && kind / 10 % 10 <= 5;
-    let swapped = |number: u64| u64::from(u32::try_from(number).unwrap_or(0).swap_bytes());
-    let plausible = |[kind, complex, name_length]: [u64; 3]| {
-        header(kind)
-            && complex <= 1
-            && (2..64).contains(&name_length)
-            && usize::try_from(name_length).is_ok_and(|name_length| {
-                start.get(20..20 + name_length).is_some_and(|name| {
-                    name[name.len() - 1] == 0
-                        && name[..name.len() - 1]
-                            .iter()
-                            .all(|byte| byte.is_ascii_alphanumeric() || *byte == b'_')
-                })
-            })
-    };
-    if plausible([first, complex, name_length])
-        || plausible([first, complex, name_length].map(swapped))
-    {
-        return Some(Content::Mat4);
+    // point.pca: D, q, then D·q + D + q numbers of 8 bytes.
+    let doubles = u128::from(first) * u128::from(second) + u128::from(first + second);
+    if first > 0 && second > 0 && u128::from(length) == 8 + 8 * doubles {
+        return Some(Content::PointPca);
     }
     // Deep3D: q, then q + 1 times the numbers of a shape, of 4 bytes and of plausible size.
     let plausible = |number: u64| {

@@ -3,12 +3,14 @@
 //! Lines that start with `#`, and a first line of words, are skipped.
 
 use super::array::{Array, Data};
+use super::container;
 use super::error::Fault;
 use super::input::Input;
 
-/// The table in a file, rows × columns.
+/// The table in a file, rows × columns; the file may be compressed.
 pub(super) fn read(input: &Input, what: &str) -> Result<Array, Fault> {
-    parse(&input.bytes().map_err(|error| error.fault)?, what)
+    let bytes = container::unpacked(input).and_then(|input| input.bytes());
+    parse(&bytes.map_err(|error| error.fault)?, what)
 }
 
 /// The table that text writes.
@@ -25,10 +27,8 @@ pub(super) fn parse(text: &[u8], what: &str) -> Result<Array, Fault> {
         let mut words = line
             .split(|byte| matches!(byte, b' ' | b'\t' | b',' | b';'))
             .filter(|word| !word.is_empty());
-        let wrong = words.find_map(|word| {
-            let number = core::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
-            number.map(|number| values.push(number)).is_none().then_some(word)
-        });
+        let number = |word: &[u8]| core::str::from_utf8(word).ok()?.parse().ok();
+        let wrong = words.find(|word| number(word).map(|number| values.push(number)).is_none());
         if let Some(word) = wrong {
             if rows == 0 {
                 values.clear();

@@ -356,6 +356,14 @@ impl LinearModel {
         self.numbers.as_deref()
     }
 
+    /// One shape (d·n) on the mesh of a model and in its unit, without modes.
+    pub(crate) fn of_shape(model: &Self, shape: &[f32]) -> Self {
+        let mean = DVector::from_iterator(shape.len(), shape.iter().map(|&value| f64::from(value)));
+        let basis = DMatrix::zeros(shape.len(), 0);
+        let alone = Self::from_orthonormal(model.dimension, mean, basis, DVector::zeros(0));
+        Self { cells: model.cells.clone(), kind: model.kind, unit: model.unit, ..alone }
+    }
+
     /// The same modes about another mean (d·n).
     ///
     /// # Panics

@@ -1,7 +1,8 @@
 /** The whole window takes files, always. A miss never navigates away. */
 import { signal } from "@preact/signals";
 import type { DroppedFile } from "../worker/protocol";
-import { filesBelow, filesOf } from "./folders";
+import { filesBelow, filesOf, MOST_FILES } from "./folders";
+import { count } from "./format";
 import { openFiles } from "./models";
 import { notify, type Side } from "./state";
 
@@ -36,12 +37,16 @@ export function acceptDrops(): void {
 
 async function take(dropped: DataTransfer, side: Side): Promise<void> {
   const files = await droppedFiles(dropped);
-  if (files.length > 0) return openFiles(files, side);
-  const [message, hint] = [
-    "There is no file in what was dropped.",
-    "Drop models, or folders of them.",
-  ];
-  notify("page", "no-files", message, hint);
+  const refuse = (code: string, message: string) =>
+    notify(
+      "page",
+      code,
+      message,
+      "Drop models, or folders with the shapes of one population each.",
+    );
+  if (files.length === 0) refuse("no-files", "There is no file in what was dropped.");
+  else if (files.length < MOST_FILES) await openFiles(files, side);
+  else refuse("too-many-files", `More than ${count(MOST_FILES)} files were dropped.`);
 }
 
 /** Once the drop is over the browser takes its list away, so entries are asked for at once. */

@@ -33,8 +33,8 @@ export interface NamedSource {
   source: Source;
 }
 
-/** More models than two were dropped: which are meant, and where the drop fell. */
-export const choosing = signal<{ models: NamedSource[]; side: Side } | null>(null);
+/** More models than two were dropped, and nobody has said yet which are meant. */
+export const choosing = signal<NamedSource[] | null>(null);
 
 function first(source: Source): Wanted {
   return { source, part: null, scale: false };
@@ -87,7 +87,7 @@ export async function openFiles(files: DroppedFile[], side: Side): Promise<void>
   const [one, two, ...rest] = models;
   if (!one) return;
   if (rest.length > 0) {
-    choosing.value = { models, side };
+    choosing.value = models;
     spoken.value = `${models.length} models were found. Choose two of them.`;
   } else if (two) {
     await openPair(first(one.source), first(two.source), forget());

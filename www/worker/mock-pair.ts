@@ -37,7 +37,7 @@ function offersFor(a: MockModel, settings: Partial<Settings>, unlike: boolean): 
       settings: { prepare: { points: crop ? null : { by: "map" } } },
       recommended: true,
     },
-    a.dimension === 3 &&
+    (a.dimension === 3 || rigid) &&
       !unlike && {
         id: "rigid",
         done: rigid,
@@ -117,26 +117,24 @@ function differentPoints(a: number, b: number): EngineError {
 }
 
 export function mockPoints(text: string): PointSelection {
-  const rows = text.split("\n").map((line) =>
-    line
-      .trim()
-      .split(/[\s,]+/)
-      .map(Number),
-  );
-  const numbers = rows.filter((row) => row.length > 0 && row.every(Number.isInteger));
-  if (numbers.length < rows.filter((row) => row.join() !== "0").length - 1) {
+  const rows = text
+    .split("\n")
+    .filter((line) => line.trim() !== "")
+    .map((line) =>
+      line
+        .trim()
+        .split(/[\s,]+/)
+        .map(Number),
+    );
+  if (!rows.every((row) => row.every(Number.isInteger))) {
     throw {
       code: "point-list",
       message: "The list has a line that is no whole number.",
       hint: "One or two whole numbers a line are expected.",
     } satisfies EngineError;
   }
-  if (numbers.some((row) => row.length === 2)) {
-    return {
-      by: "list",
-      a: numbers.map((row) => row[0] ?? 0),
-      b: numbers.map((row) => row[1] ?? 0),
-    };
+  if (rows.some((row) => row.length === 2)) {
+    return { by: "list", a: rows.map((row) => row[0] ?? 0), b: rows.map((row) => row[1] ?? 0) };
   }
-  return { by: "region", ranges: numbers.map((row) => row[0]).join(",") };
+  return { by: "region", ranges: rows.map((row) => row[0]).join(",") };
 }

@@ -63,7 +63,7 @@ export async function mockEngine(base: string): Promise<Engine> {
           "Open a statismo or Scalismo .h5, a .mat, .npz or .pkl model.",
         );
       }
-      const parts = name.includes("parts") ? ["shape", "expression"] : ["shape"];
+      const parts = /parts|bfm/.test(name) ? ["shape", "expression"] : ["shape"];
       const which = part ?? "shape";
       const base = heads.get(
         which === "expression" ? "heads-expression" : "heads-identity",

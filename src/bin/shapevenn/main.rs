@@ -58,7 +58,7 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Write a model in another format, chosen by the ending of OUT: .h5, .npz, or .ply (mean shape)
+    /// Write a model in another format, chosen by the ending of OUT: .h5, .h5.json, .npz, .json, .glb, or .ply and .obj (mean shape)
     Convert {
         /// A file, `FILE#part` or `demo:NAME`
         input: String,
@@ -380,15 +380,24 @@ fn name_of(stage: Stage) -> &'static str {
 fn write_all(run: &mut Comparison, seconds: Seconds, folder: &Path) -> Result<(), Failure> {
     use shapevenn::comparison::Region;
     std::fs::create_dir_all(folder).map_err(|error| system(folder, &error))?;
-    let means = Region::ALL.map(|region| Download::Ply(ShownShape::mean(region)));
+    let means = Region::ALL.map(ShownShape::mean);
+    let meshes = means.into_iter().flat_map(|shape| {
+        [Download::Ply(shape.clone()), Download::Obj(shape.clone()), Download::Glb(shape)]
+    });
     let fixed = [
         Download::ReportJson,
+        Download::ReportCsv,
         Download::DrawsNpz,
+        Download::DrawsJson,
+        Download::DrawsCsv,
         Download::IntersectionH5,
+        Download::IntersectionJson,
         Download::IntersectionNpz,
+        Download::IntersectionPlainJson,
+        Download::IntersectionGlb,
     ];
-    for what in fixed.iter().chain(&means) {
-        let written = match files::write(run, seconds, what) {
+    for what in fixed.into_iter().chain(meshes) {
+        let written = match files::write(run, seconds, &what) {
             // An empty difference has no mean to write.
             Err(Error::NothingYet) => continue,
             other => other?,
@@ -450,19 +459,25 @@ fn print_in_words(report: &Report) {
 
 fn convert(input: &str, output: &Path) -> Result<(), Failure> {
     let model: LinearModel = sources::open(input, false)?.model;
-    let ending = output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-    let bytes = match ending.as_deref() {
+    let name = output.file_name().map(|name| name.to_string_lossy().to_lowercase());
+    let name = name.unwrap_or_default();
+    #[allow(clippy::cast_possible_truncation, reason = "meshes hold single precision")]
+    let points = || model.mean().iter().map(|value| *value as f32).collect::<Vec<_>>();
+    let ending = name.split_once('.').map_or("", |(_, ending)| ending);
+    let bytes = match ending.rsplit('.').next() {
         Some("h5") => formats::write_statismo(&model).map_err(Error::from)?,
         Some("npz") => formats::write_npz(&model).map_err(Error::from)?,
-        Some("ply") => {
-            #[allow(clippy::cast_possible_truncation, reason = "PLY holds single precision")]
-            let points: Vec<f32> = model.mean().iter().map(|value| *value as f32).collect();
-            formats::write_ply(&points, model.dimension(), model.cells(), None)
+        Some("json") if ending.ends_with("h5.json") => {
+            formats::write_hdf5_json(&model).map_err(Error::from)?
         }
+        Some("json") => formats::write_json(&model).map_err(Error::from)?,
+        Some("glb") => formats::write_glb(&model).map_err(Error::from)?,
+        Some("ply") => formats::write_ply(&points(), model.dimension(), model.cells(), None),
+        Some("obj") => formats::write_obj(&points(), model.dimension(), model.cells()),
         _ => {
             return Err(Failure::Input {
                 message: format!("{} has no ending that says its format.", output.display()),
-                hint: "End it in .h5, .npz or .ply.".to_owned(),
+                hint: "End it in .h5, .h5.json, .npz, .json, .glb, .ply or .obj.".to_owned(),
             });
         }
     };

@@ -3,7 +3,8 @@
 use super::super::FormatError;
 use super::super::array::{Array, Data};
 use super::super::npz::write_arrays;
-use crate::model::{Cells, Kind, LinearModel};
+use super::kind_word;
+use crate::model::{Cells, LinearModel};
 
 /// Writes a model as a NumPy archive: `mean` (n × d), orthonormal `basis` (D × q), `eigenvalues` (q),
 /// `faces` (m × k), `unit`, `name` and `kind`, numbers in double precision.
@@ -19,18 +20,13 @@ pub fn write_model(model: &LinearModel) -> Result<Vec<u8>, FormatError> {
     let variances = model.standard_deviations().iter().map(|value| value * value).collect();
     let shape = vec![model.point_count(), model.dimension()];
     let mean = Array { shape, data: Data::F64(model.mean().as_slice().to_vec()) };
-    let kind = match model.kind() {
-        Kind::Shape => "shape",
-        Kind::Color => "color",
-        Kind::Displacement => "displacement",
-    };
     let mut arrays = vec![
         ("mean", mean),
         ("basis", Array { shape: vec![length, modes], data: Data::F64(basis) }),
         ("eigenvalues", Array::list(variances)),
         ("unit", Array::text(model.unit().symbol())),
         ("name", Array::text(model.name())),
-        ("kind", Array::text(kind)),
+        ("kind", Array::text(kind_word(model.kind()))),
     ];
     match model.cells() {
         Cells::None => {}

@@ -10,8 +10,9 @@
 use hdf5_pure::{AttrValue, DatasetBuilder, FileBuilder, GroupBuilder, LibVer};
 
 use super::super::FormatError;
-use super::super::error::{Fault, short};
-use crate::model::{Cells, Kind, LinearModel, Unit};
+use super::super::error::Fault;
+use super::{Singles, cells_by_corner, metres, representer, single};
+use crate::model::LinearModel;
 
 /// Writes `model` as statismo HDF5, version 0.9.
 ///
@@ -24,16 +25,7 @@ pub fn write_model(model: &LinearModel) -> Result<Vec<u8>, FormatError> {
 fn file_of(model: &LinearModel) -> Result<Vec<u8>, Fault> {
     let refused = |error: &dyn core::fmt::Display| Fault::Write { reason: error.to_string() };
     let (dimension, points, modes) = (model.dimension(), model.point_count(), model.mode_count());
-    let mean = single(model.mean().iter().copied())?;
-    let basis = single(
-        (0..mean.len()).flat_map(|row| model.basis().row(row).iter().copied().collect::<Vec<_>>()),
-    )?;
-    let variances = single(model.standard_deviations().iter().map(|value| value * value))?;
-    if variances.contains(&0.0) {
-        return Err(Fault::Write {
-            reason: "a variance is too small for single precision".to_owned(),
-        });
-    }
+    let Singles { mean, basis, variances, points: by_axis } = Singles::of(model)?;
 
     let mut file = FileBuilder::new();
     file.with_libver_bounds(LibVer::Earliest, LibVer::V18);
@@ -51,14 +43,9 @@ fn file_of(model: &LinearModel) -> Result<Vec<u8>, Fault> {
     file.add_group(group.finish());
 
     let mut group = file.create_group("representer");
-    let (cell_type, corners, cells) = cells_of(model.cells());
-    let name = match model.kind() {
-        Kind::Shape => "itkStandardMeshRepresenter",
-        Kind::Color => "gravis::MeshColorRepresenter",
-        Kind::Displacement => "gravis::MeshExpressionRepresenter",
-    };
+    let (cell_type, corners, cells) = cells_by_corner(model.cells());
     for (key, value) in [
-        ("name", name),
+        ("name", representer(model.kind())),
         ("version/majorVersion", "0"),
         ("version/minorVersion", "9"),
         ("datasetType", cell_type),
@@ -67,16 +54,14 @@ fn file_of(model: &LinearModel) -> Result<Vec<u8>, Fault> {
         let text = AttrValue::ascii_string_array_sized(vec![value.to_owned()], width);
         group.set_attr(key, text.map_err(|error| refused(&error))?);
     }
-    let by_axis: Vec<f32> = (0..dimension)
-        .flat_map(|axis| mean.iter().skip(axis).step_by(dimension).copied())
-        .collect();
     floats(&mut group, "points", &by_axis, &[dimension, points]);
     if !cells.is_empty() {
         let shape = [corners, cells.len() / corners];
         sized(group.create_dataset("cells").with_i32_data(&cells), &shape);
     }
     if let Some(metres) = metres(model.unit()) {
-        group.create_dataset("length-unit").with_f32_data(&[metres]).with_shape(&[]);
+        let metres = single(core::iter::once(metres))?;
+        group.create_dataset("length-unit").with_f32_data(&metres).with_shape(&[]);
     }
     file.add_group(group.finish());
 
@@ -95,19 +80,6 @@ fn file_of(model: &LinearModel) -> Result<Vec<u8>, Fault> {
     file.finish().map_err(|error| refused(&error))
 }
 
-/// In single precision, refusing what overflows.
-fn single(values: impl Iterator<Item = f64>) -> Result<Vec<f32>, Fault> {
-    values
-        .map(|value| {
-            #[allow(clippy::cast_possible_truncation, reason = "the format is single precision")]
-            let narrow = value as f32;
-            narrow.is_finite().then_some(narrow).ok_or_else(|| Fault::Write {
-                reason: format!("{} does not fit into single precision", short(value)),
-            })
-        })
-        .collect()
-}
-
 fn floats(group: &mut GroupBuilder, name: &str, values: &[f32], shape: &[usize]) {
     sized(group.create_dataset(name).with_f32_data(values), shape);
 }
@@ -123,28 +95,4 @@ fn text(group: &mut GroupBuilder, name: &str, value: &str) -> Result<(), Fault> 
         .with_ascii_strings(&[value])
         .map(|_| ())
         .map_err(|error| Fault::Write { reason: error.to_string() })
-}
-
-/// Type, corners and k × m indices.
-fn cells_of(cells: &Cells) -> (&'static str, usize, Vec<i32>) {
-    #[allow(clippy::cast_possible_wrap, reason = "more than 2³¹ points do not fit into memory")]
-    fn by_corner<const K: usize>(cells: &[[u32; K]]) -> Vec<i32> {
-        (0..K).flat_map(|corner| cells.iter().map(move |cell| cell[corner] as i32)).collect()
-    }
-    match cells {
-        Cells::None => ("POINT_SET", 1, Vec::new()),
-        Cells::Segments(segments) => ("LINE_MESH", 2, by_corner(segments)),
-        Cells::Triangles(triangles) => ("POLYGON_MESH", 3, by_corner(triangles)),
-    }
-}
-
-fn metres(unit: Unit) -> Option<f32> {
-    Some(match unit {
-        Unit::Micrometre => 1e-6,
-        Unit::Millimetre => 1e-3,
-        Unit::Centimetre => 1e-2,
-        Unit::Decimetre => 1e-1,
-        Unit::Metre => 1.0,
-        Unit::Unknown => return None,
-    })
 }

@@ -352,6 +352,8 @@ function discard(objects: Object3D[]): void {
   for (const object of objects) {
     object.removeFromParent();
     const { geometry, material } = object as Mesh;
+    // Others draw with the same cells; disposing of them too would take theirs away.
+    geometry.setIndex(null);
     geometry.dispose();
     (material as Material).dispose();
   }

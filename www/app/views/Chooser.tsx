@@ -1,33 +1,30 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { choosing, type NamedSource, nameOf, openChosen } from "../models";
-import { SIDES, type Side, slots } from "../state";
+import { SIDES, type Side, slots, sourceKey } from "../state";
 
 /** More models than two were dropped: which of them are A and B. */
 export function Chooser() {
-  const found = choosing.value;
-  return found && <Dialog key={found.models[0]?.name} models={found.models} side={found.side} />;
+  const models = choosing.value;
+  const [first] = models ?? [];
+  // Another question is another dialog, shown anew.
+  return models && first && <Dialog key={sourceKey(first.source)} models={models} />;
 }
 
 const KEEP = "keep";
 
-function Dialog({ models, side }: { models: NamedSource[]; side: Side }) {
+function Dialog({ models }: { models: NamedSource[] }) {
   const dialog = useRef<HTMLDialogElement>(null);
   const chosen = useSignal<Record<Side, string>>({ a: "0", b: "1" });
   useEffect(() => dialog.current?.showModal(), []);
+  // The browser tells of a close some time after it; by then another drop may have asked anew.
   const close = () => {
-    choosing.value = null;
+    if (choosing.peek() === models) choosing.value = null;
   };
   const source = (side: Side) => models[Number(chosen.value[side])]?.source ?? null;
   const nothing = SIDES.every((side) => chosen.value[side] === KEEP);
   return (
-    <dialog
-      ref={dialog}
-      class="chooser-dialog"
-      aria-labelledby="chooser-title"
-      onClose={close}
-      data-side={side}
-    >
+    <dialog ref={dialog} class="chooser-dialog" aria-labelledby="chooser-title" onClose={close}>
       <form
         onSubmit={(event) => {
           event.preventDefault();

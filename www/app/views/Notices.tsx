@@ -2,7 +2,7 @@ import { dismiss, type Notice, notices } from "../state";
 import { CloseIcon } from "./icons";
 
 /** On a small screen what it concerns may be far away. */
-function show(element: HTMLElement | null): void {
+export function showNotice(element: HTMLElement | null): void {
   element?.scrollIntoView({ block: "nearest" });
 }
 
@@ -12,7 +12,7 @@ export function Notices({ place }: { place: Notice["place"] }) {
   return (
     <>
       {found.map((notice) => (
-        <div key={notice.id} ref={show} class="notice" role="alert" data-code={notice.code}>
+        <div key={notice.id} ref={showNotice} class="notice" role="alert" data-code={notice.code}>
           <div>
             <p class="notice-message">{notice.message}</p>
             {notice.hint && <p class="notice-hint">{notice.hint}</p>}

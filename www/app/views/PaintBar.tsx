@@ -1,4 +1,4 @@
-import { useEffect } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
 import { count } from "../format";
 import {
   BRUSHES,
@@ -24,13 +24,16 @@ const TOOLS: Record<PaintTool, { label: string; key: string }> = {
 /** In place of the toolbar while the points that are compared are painted on A. */
 export function PaintBar() {
   const found = painting.value;
+  const bar = useRef<HTMLElement>(null);
   useEffect(() => {
+    // On a small screen the shape is far from the button that begins this.
+    bar.current?.scrollIntoView({ block: "nearest" });
     addEventListener("keydown", onKey);
     return () => removeEventListener("keydown", onKey);
   }, []);
   if (!found) return null;
   return (
-    <section class="paint-bar" aria-label="Painting a region of A">
+    <section ref={bar} class="paint-bar" aria-label="Painting a region of A">
       <div class="toolbar">
         <fieldset class="segments">
           <legend class="unseen">What dragging does</legend>

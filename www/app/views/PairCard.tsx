@@ -12,7 +12,7 @@ import { alignmentWords, pairLine } from "../words";
 import { Choice } from "./Choice";
 import { Field } from "./Field";
 import { CloseIcon } from "./icons";
-import { Notices } from "./Notices";
+import { Notices, showNotice } from "./Notices";
 import { TypedField } from "./TypedField";
 
 /** Whether the two can be compared as they stand, and what can be done about it. */
@@ -32,7 +32,13 @@ export function PairCard() {
       data-stale={inspected.value?.key !== pairKey.value}
     >
       {problem && (
-        <div class="notice" role="alert" data-code={problem.code}>
+        <div
+          key={problem.message}
+          ref={showNotice}
+          class="notice"
+          role="alert"
+          data-code={problem.code}
+        >
           <div>
             <p class="notice-message">{problem.message}</p>
             <p class="notice-hint">{problem.hint}</p>
@@ -249,7 +255,7 @@ function Points() {
           title="A text file with one vertex a line, or with pairs: a vertex of A and one of B"
           onClick={() => input.current?.click()}
         >
-          Vertex list or pairs…
+          From a list…
         </button>
         <input
           ref={input}

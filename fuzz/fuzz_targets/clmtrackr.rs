@@ -1,0 +1,5 @@
+#![no_main]
+use libfuzzer_sys::fuzz_target;
+use shapevenn_fuzz::{clmtrackr, open};
+
+fuzz_target!(|data: &[u8]| open(clmtrackr(data)));

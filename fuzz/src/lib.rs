@@ -1,0 +1,168 @@
+//! What the fuzz targets share: bytes that a certain reader will take, and opening them.
+//!
+//! A reader is reached only when a file is recognised as its own. So every target forces what its
+//! format is recognised by onto the bytes, and leaves the rest to the fuzzer. Valid files keep their
+//! meaning, so fixtures serve as seeds.
+
+use shapevenn::formats::{self, Input, Options};
+
+/// Opens a file and, if it can be read, its first parts.
+pub fn open(bytes: Vec<u8>) {
+    let input = [Input::of_bytes("file", bytes)];
+    let Ok(opened) = formats::open(&input, &Options::default()) else { return };
+    for part in opened.parts.into_iter().take(3) {
+        let _ = formats::open(&input, &Options { part: Some(part), ..Options::default() });
+    }
+}
+
+/// Opens up to four files dropped together, of lengths that the first bytes say.
+pub fn open_group(data: &[u8]) {
+    const NAMES: [[&str; 4]; 4] = [
+        ["analysis.json", "mean.pts", "a.ply", "b.ply"],
+        ["Exp_Pca.bin", "std_exp.txt", "readme.txt", "x"],
+        ["set/1.ply", "set/2.ply", "set/3.obj", "set/4.vtk"],
+        ["x_mean.vtk", "x_pc_9_modes.csv", "x_var_9_modes.csv.gz", "model.h5"],
+    ];
+    let Some((&[names, first, second, third], mut rest)) = data.split_first_chunk() else { return };
+    let names = NAMES[usize::from(names) % NAMES.len()];
+    let mut inputs = Vec::new();
+    for (name, share) in names.iter().zip([first, second, third, 255]) {
+        let length = rest.len() * usize::from(share) / 255;
+        let (file, others) = rest.split_at(length);
+        rest = others;
+        if !file.is_empty() {
+            inputs.push(Input::of_bytes(*name, file));
+        }
+    }
+    let Ok(groups) = formats::groups(&inputs) else { return };
+    for group in groups {
+        let files: Vec<Input> = group.files.iter().map(|&file| inputs[file].clone()).collect();
+        let _ = formats::open(&files, &Options::default());
+    }
+    let _ = formats::open(&inputs, &Options { scale: true, ..Options::default() });
+}
+
+/// `data` with its first bytes replaced.
+pub fn forced(data: &[u8], start: &[u8]) -> Vec<u8> {
+    let mut bytes = data.to_vec();
+    put(&mut bytes, 0, start);
+    bytes
+}
+
+/// Replaces bytes, at the end of what is there if need be.
+fn put(bytes: &mut Vec<u8>, place: usize, with: &[u8]) {
+    let end = place + with.len();
+    bytes.resize(bytes.len().max(end), 0);
+    bytes[place..end].copy_from_slice(with);
+}
+
+/// MAT v5 of either endianness.
+pub fn mat5(data: &[u8]) -> Vec<u8> {
+    let mut bytes = forced(data, b"MATLAB 5.0 MAT-file");
+    let big = bytes.get(126) == Some(&b'M');
+    put(&mut bytes, 124, if big { b"\x01\0MI" } else { b"\0\x01IM" });
+    bytes
+}
+
+/// MAT v4: a header of five words that is plausible, then a name.
+pub fn mat4(data: &[u8]) -> Vec<u8> {
+    let mut bytes = data.to_vec();
+    put(&mut bytes, 12, &[u8::from(data.get(12) == Some(&1)), 0, 0, 0]);
+    let length = data.get(16).map_or(2, |byte| byte % 30 + 2);
+    put(&mut bytes, 16, &[length, 0, 0, 0]);
+    put(&mut bytes, 20 + usize::from(length) - 1, &[0]);
+    for byte in &mut bytes[20..20 + usize::from(length) - 1] {
+        if !byte.is_ascii_alphanumeric() {
+            *byte = b'_';
+        }
+    }
+    let kinds = [0_u32, 10, 20, 30, 40, 50];
+    let kind = kinds[usize::from(data.first().copied().unwrap_or(0)) % 6];
+    put(&mut bytes, 0, &kind.to_le_bytes());
+    bytes
+}
+
+/// A pickle of any protocol.
+pub fn pickle(data: &[u8]) -> Vec<u8> {
+    match data.first() {
+        Some(b'(') => forced(data, b"(dp0\n"),
+        Some(b'}') => forced(data, b"}q\0("),
+        _ => forced(data, &[0x80, data.get(1).map_or(2, |byte| 2 + byte % 4)]),
+    }
+}
+
+/// STL, as text or with the number of triangles that its length allows.
+pub fn stl(data: &[u8]) -> Vec<u8> {
+    if data.starts_with(b"solid") && data.contains(&b'\n') {
+        return forced(data, b"solid facet\n");
+    }
+    let count = data.len().saturating_sub(84) / 50 + 1;
+    let mut bytes = data.to_vec();
+    bytes.resize(84 + 50 * count, 0);
+    put(&mut bytes, 80, &(count as u32).to_le_bytes());
+    bytes
+}
+
+/// Lines of numbers: every byte stands for one that may occur there.
+pub fn points(data: &[u8]) -> Vec<u8> {
+    const USED: &[u8] = b"0123456789.-+e \n,\t;\r";
+    data.iter()
+        .map(|byte| if USED.contains(byte) { *byte } else { USED[usize::from(*byte) % USED.len()] })
+        .collect()
+}
+
+/// An eos model, of a version or bare.
+pub fn eos(data: &[u8]) -> Vec<u8> {
+    let mut bytes = data.to_vec();
+    match data.first().copied().unwrap_or(0) {
+        version @ 0..=5 => {
+            put(&mut bytes, 1, &[0, 0, 0]);
+            let length = u16::from(data.get(4).copied().unwrap_or(0)) / 3 * 3;
+            put(&mut bytes, 0, &[version]);
+            put(&mut bytes, 4, &u32::from(length.max(3)).to_le_bytes());
+            put(&mut bytes, 8, &1_u32.to_le_bytes());
+        }
+        length => {
+            put(&mut bytes, 0, &u32::from(length / 3 * 3).to_le_bytes());
+            put(&mut bytes, 4, &1_u32.to_le_bytes());
+        }
+    }
+    let needed = 4 * usize::from(bytes[4].max(bytes[0])) + 16;
+    bytes.resize(bytes.len().max(needed), 0);
+    bytes
+}
+
+/// A Surrey model: the first triangle must have corners that exist.
+pub fn scm(data: &[u8]) -> Vec<u8> {
+    let mut bytes = data.to_vec();
+    bytes.resize(bytes.len().max(24), 0);
+    let points = u32::from(bytes[0].max(3));
+    let triangles = (u32::from(bytes[4]) % 40).max(1).min((bytes.len() as u32 - 9) / 12);
+    put(&mut bytes, 0, &points.to_le_bytes());
+    put(&mut bytes, 4, &triangles.to_le_bytes());
+    for corner in 0..3 * triangles as usize {
+        let place = 8 + 4 * corner;
+        let index = u32::from(bytes.get(place).copied().unwrap_or(0)) % points;
+        put(&mut bytes, place, &index.to_le_bytes());
+    }
+    bytes
+}
+
+/// A program text round a model.
+pub fn clmtrackr(data: &[u8]) -> Vec<u8> {
+    let named = data.windows(10).take(2000).any(|window| window == b"shapeModel");
+    if named { data.to_vec() } else { [b"x = { \"shapeModel\": {", data].concat() }
+}
+
+/// Sizes that add up, of as many modes as the first byte says.
+pub fn point_pca(data: &[u8]) -> Vec<u8> {
+    let modes = usize::from(data.first().copied().unwrap_or(0)) % 8 + 1;
+    let numbers = data.len().saturating_sub(8) / 8;
+    let length = numbers.saturating_sub(modes) / (modes + 1);
+    let length = (length / 3 * 3).max(3);
+    let mut bytes = data.to_vec();
+    bytes.resize(8 + 8 * (length * modes + length + modes), 0);
+    put(&mut bytes, 0, &(length as u32).to_le_bytes());
+    put(&mut bytes, 4, &(modes as u32).to_le_bytes());
+    bytes
+}
