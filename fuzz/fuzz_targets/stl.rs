@@ -1,5 +1,5 @@
 #![no_main]
 use libfuzzer_sys::fuzz_target;
-use shapevenn_fuzz::{open, stl};
+use shapevenn_fuzz::{open_shapes, stl};
 
-fuzz_target!(|data: &[u8]| open(stl(data)));
+fuzz_target!(|data: &[u8]| open_shapes(stl(data)));

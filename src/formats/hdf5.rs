@@ -89,6 +89,17 @@ impl Hdf5 {
                 if chunk > limit {
                     return Err(too_large(chunk));
                 }
+                // The reader takes memory for what the index says is stored.
+                let chunks = dataset.chunks();
+                let chunks =
+                    chunks.map_err(|error| self.cut_off().unwrap_or_else(|| fault(&error)))?;
+                for chunk in chunks {
+                    let present = (self.length as u64).saturating_sub(chunk.address);
+                    let needed = chunk.storage_size;
+                    if needed > present {
+                        return Err(Fault::Truncated { what: what.to_owned(), needed, present });
+                    }
+                }
             }
             Layout::Virtual => {
                 return Err(Fault::Layout {
