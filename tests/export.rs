@@ -1,5 +1,6 @@
 //! What is exported, read back by ourselves and by the software of its ecosystem; `tests/unit/gltf.test.mjs`
 //! validates the glTF files that are compared here byte by byte.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,5 +1,6 @@
 //! Meshes, landmarks and archives: every set of `tests/fixtures/meshes` against the numbers that its
 //! writer noted, broken ones against the sentences that they must give.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
@@ -68,7 +69,7 @@ fn input(name: &str) -> Input {
 }
 
 fn open(inputs: &[Input], part: Option<&str>, scale: bool) -> Result<Opened, FormatError> {
-    formats::open(inputs, &Options { part: part.map(str::to_owned), scale, ..Options::default() })
+    formats::open(inputs, &Options { part: part.map(str::to_owned), scale })
 }
 
 /// The files of an archive, as if they had been dropped.

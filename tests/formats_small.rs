@@ -1,6 +1,7 @@
 //! The smaller formats: eos, Surrey, clmtrackr, ShapeWorks, HDF5-JSON, our own JSON, point.pca, Deep3D.
 //! Every file of `tests/fixtures/small` against the numbers that its writer noted, and the broken ones
 //! against the sentences that they must give.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

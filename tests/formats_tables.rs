@@ -1,5 +1,6 @@
 //! Models as arrays under names: every file of `tests/fixtures/tables` against the numbers that its
 //! writer noted, the broken ones against their sentences, and what hostile files may not do.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

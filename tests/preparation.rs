@@ -16,12 +16,13 @@ fn tube(rings: u32, size: f64, modes: usize, seed: f64) -> LinearModel {
     let count = (rings * ROUND) as usize;
     let angle = |k: usize| std::f64::consts::TAU * (k % 12) as f64 / 12.0;
     let height = |k: usize| (k / 12) as f64 / f64::from(rings);
-    let at =
-        |k: usize| [angle(k).cos() * 0.3 * size, angle(k).sin() * 0.4 * size, height(k) * size];
+    let at = |k: usize| {
+        [libm::cos(angle(k)) * 0.3 * size, libm::sin(angle(k)) * 0.4 * size, height(k) * size]
+    };
     let mean = DVector::from_vec((0..count).flat_map(at).collect());
     let basis = DMatrix::from_fn(3 * count, modes, |row, mode| {
         let (k, frequency) = (row / 3, (mode + 1) as f64);
-        let wave = (frequency * angle(k) + 3.0 * height(k) * seed + row as f64 % 3.0).sin();
+        let wave = libm::sin(frequency * angle(k) + 3.0 * height(k) * seed + row as f64 % 3.0);
         0.01 * size * wave / frequency
     });
     let quads = (0..rings - 1).flat_map(|ring| (0..ROUND).map(move |k| (ring, k)));

@@ -9,8 +9,9 @@ use core::fmt;
 use crate::model::ModelError;
 
 /// Formats that can be read, as listed to the user.
-pub(super) const ACCEPTED: &str =
-    "Accepted: statismo or Scalismo HDF5 (.h5) and NumPy archives (.npz) with a mean and a basis.";
+pub(super) const ACCEPTED: &str = "Accepted: models (.h5, .h5.json, .mat, .npz, .npy, .pkl, .bin, .scm, .js, .json, .pca), \
+     folders of meshes or landmarks (.ply, .obj, .stl, .vtk, .vtp, .tps, .particles), \
+     and .gz or .zip around them.";
 
 /// Why a file could not be read or written.
 #[derive(Debug, Clone, PartialEq)]

@@ -195,7 +195,7 @@ fn text_of(start: &[u8], length: u64) -> Option<Content> {
     if text.starts_with('{') {
         return Some(Content::Json);
     }
-    if start.iter().any(|byte| *byte == 0) {
+    if start.contains(&0) {
         return None;
     }
     let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty());

@@ -194,7 +194,8 @@ mod tests {
             .map(|k| {
                 let near = |&c: &u32| {
                     let (c, k) = (c as usize, k as usize);
-                    (0..2).map(|axis| (points[3 * c + axis] - points[3 * k + axis]).powi(2)).sum()
+                    let along = |axis: usize| points[3 * c + axis] - points[3 * k + axis];
+                    along(0) * along(0) + along(1) * along(1)
                 };
                 chosen.iter().map(near).fold(f64::INFINITY, f64::min)
             })
