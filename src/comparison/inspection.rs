@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use super::Settings;
 use super::warnings::canonical;
-use crate::compare::{PairError, PointSelection, Preparation};
+use crate::compare::{PairError, PointSelection, Preparation, SelectionError, SidePreparation};
 use crate::measure::mean_vertex_distance;
 use crate::model::{Alignment, Cells, Kind, LinearModel, Unit, procrustes};
 use crate::report::BothSides;
@@ -207,7 +207,7 @@ impl Inspector<'_> {
     }
 
     /// Why a comparison would not start, as far as that shows without its modes.
-    fn problem(&self, selection: Option<&crate::compare::SelectionError>) -> Option<Problem> {
+    fn problem(&self, selection: Option<&SelectionError>) -> Option<Problem> {
         let (a, b, prepare) = (self.a, self.b, &self.settings.prepare);
         let one_region = matches!(prepare.points, None | Some(PointSelection::Region { .. }));
         let becomes = |model: &LinearModel, rebase: bool, other: Kind| {
@@ -439,9 +439,7 @@ impl Inspector<'_> {
                 recommended: false,
             });
         }
-        let uncut = |side: &crate::compare::SidePreparation| {
-            side.modes.is_none() && side.variance.is_none()
-        };
+        let uncut = |side: &SidePreparation| side.modes.is_none() && side.variance.is_none();
         let most = self.a.mode_count().max(self.b.mode_count());
         if self.settings.modes.is_none()
             && uncut(&prepare.a)
@@ -466,122 +464,112 @@ impl Inspector<'_> {
     /// What the settings do already, each with the patch that takes it back.
     fn applied(&self) -> Vec<Remedy> {
         let Settings { prepare, align, .. } = self.settings;
-        let mut applied = Vec::new();
-        let mut add = |id, label: String, sentence: &str, settings| {
-            let sentence = sentence.to_owned();
-            applied.push(Remedy { id, label, sentence, settings, recommended: false });
-        };
-        match &prepare.points {
-            None => {}
-            Some(PointSelection::Region { .. }) => {
-                add(
-                    "region",
-                    "A region".to_owned(),
-                    "Only a region of the points is compared.",
-                    json!({ "prepare": { "points": null } }),
-                );
-            }
-            Some(PointSelection::Map) => {
-                add(
-                    "map",
-                    "The crop's own map".to_owned(),
-                    "Points correspond by the crop's own map.",
-                    json!({ "prepare": { "points": null } }),
-                );
-            }
-            Some(PointSelection::List { .. }) => {
-                add(
-                    "list",
-                    "A list of pairs".to_owned(),
-                    "Points correspond by a list of pairs.",
-                    json!({ "prepare": { "points": null } }),
-                );
-            }
-        }
-        if prepare.convert {
-            let units =
-                [prepare.a.unit.unwrap_or(self.a.unit()), prepare.b.unit.unwrap_or(self.b.unit())];
-            let [a, b] = units.map(Unit::symbol);
-            add(
-                "unit",
-                format!("B from {b} to {a}"),
-                "B is scaled into the unit of A.",
-                json!({ "prepare": {
-                "a": { "unit": null }, "b": { "unit": null }, "convert": false,
-            } }),
-            );
-        } else {
-            for (side, letter, given) in [("a", "A", prepare.a.unit), ("b", "B", prepare.b.unit)] {
-                if let Some(unit) = given {
-                    add(
-                        "declared",
-                        format!("{letter} in {}", unit.symbol()),
-                        "The unit was declared, since the file does not state it.",
-                        json!({ "prepare": { side: { "unit": null } } }),
-                    );
-                }
-            }
-        }
-        for (side, letter, other, given) in [("a", "A", "B", prepare.a), ("b", "B", "A", prepare.b)]
-        {
-            if given.rebase {
-                add(
-                    "rebase",
-                    format!("{letter} on the mean of {other}"),
-                    "The modes of one model lie on the mean of the other.",
-                    json!({ "prepare": { side: { "rebase": false } } }),
-                );
-            }
-            let cut = json!({ "prepare": { side: { "modes": null, "variance": null } } });
-            match (given.modes, given.variance) {
-                (Some(modes), _) => add(
-                    "modes",
-                    format!("{modes} modes of {letter}"),
-                    "Only the first modes are used.",
-                    cut,
-                ),
-                (None, Some(share)) => add(
-                    "modes",
-                    format!("{:.3} % of {letter}'s variance", 100.0 * share).replace(".000", ""),
-                    "Only as many modes are used as hold this share.",
-                    cut,
-                ),
-                (None, None) => {}
-            }
-        }
+        let mut applied = self.applied_points();
+        applied.extend(self.applied_units());
+        applied.extend(applied_to("a", "A", "B", prepare.a));
+        applied.extend(applied_to("b", "B", "A", prepare.b));
         match align {
             Alignment::None => {}
-            Alignment::Rigid => add(
+            Alignment::Rigid => applied.push(step(
                 "align",
-                "B aligned to A".to_owned(),
+                "B aligned to A",
                 "B was moved rigidly onto A.",
                 json!({ "align": "none" }),
-            ),
-            Alignment::Similarity => add(
+            )),
+            Alignment::Similarity => applied.push(step(
                 "align-scale",
-                "B aligned with scale".to_owned(),
+                "B aligned with scale",
                 "B was moved onto A and brought to its size.",
                 json!({ "align": "none" }),
-            ),
+            )),
         }
         if let Some(modes) = self.settings.modes {
-            add(
-                "modes",
-                format!("{modes} modes of both"),
-                "Only the first modes are used.",
-                json!({ "modes": null }),
-            );
+            let label = format!("{modes} modes of both");
+            let sentence = "Only the first modes are used.";
+            applied.push(step("modes", label, sentence, json!({ "modes": null })));
         }
         if let Some(points) = prepare.subsample {
-            add(
-                "subsample",
-                format!("{points} points"),
-                "Evenly spread points stand for all of them.",
-                json!({ "prepare": { "subsample": null } }),
-            );
+            let label = format!("{points} points");
+            let sentence = "Evenly spread points stand for all of them.";
+            let undo = json!({ "prepare": { "subsample": null } });
+            applied.push(step("subsample", label, sentence, undo));
         }
         applied
     }
+
+    fn applied_points(&self) -> Vec<Remedy> {
+        let (id, label, sentence) = match &self.settings.prepare.points {
+            None => return Vec::new(),
+            Some(PointSelection::Region { .. }) => {
+                ("region", "A region", "Only a region of the points is compared.")
+            }
+            Some(PointSelection::Map) => {
+                ("map", "The crop's own map", "Points correspond by the crop's own map.")
+            }
+            Some(PointSelection::List { .. }) => {
+                ("list", "A list of pairs", "Points correspond by a list of pairs.")
+            }
+        };
+        vec![step(id, label, sentence, json!({ "prepare": { "points": null } }))]
+    }
+
+    fn applied_units(&self) -> Vec<Remedy> {
+        let prepare = &self.settings.prepare;
+        if prepare.convert {
+            let of_a = prepare.a.unit.unwrap_or(self.a.unit()).symbol();
+            let of_b = prepare.b.unit.unwrap_or(self.b.unit()).symbol();
+            let undo = json!({ "prepare": {
+                "a": { "unit": null }, "b": { "unit": null }, "convert": false,
+            } });
+            let label = format!("B from {of_b} to {of_a}");
+            return vec![step("unit", label, "B is scaled into the unit of A.", undo)];
+        }
+        [("a", "A", "unit-a", prepare.a.unit), ("b", "B", "unit-b", prepare.b.unit)]
+            .into_iter()
+            .filter_map(|(side, letter, id, unit)| {
+                let label = format!("{letter} in {}", unit?.symbol());
+                let sentence = "The unit was declared, since the file does not state it.";
+                Some(step(id, label, sentence, json!({ "prepare": { side: { "unit": null } } })))
+            })
+            .collect()
+    }
+}
+
+/// What is done to one model alone.
+fn applied_to(
+    side: &'static str,
+    letter: &str,
+    other: &str,
+    given: SidePreparation,
+) -> Vec<Remedy> {
+    let mut applied = Vec::new();
+    let [rebase, modes] =
+        if side == "a" { ["rebase-a", "modes-a"] } else { ["rebase-b", "modes-b"] };
+    if given.rebase {
+        let label = format!("{letter} on the mean of {other}");
+        let sentence = "The modes of one model lie on the mean of the other.";
+        let undo = json!({ "prepare": { side: { "rebase": false } } });
+        applied.push(step(rebase, label, sentence, undo));
+    }
+    let (label, sentence) = match (given.modes, given.variance) {
+        (None, None) => return applied,
+        (Some(modes), _) => {
+            (format!("{modes} modes of {letter}"), "Only the first modes are used.")
+        }
+        (None, Some(share)) => (
+            format!("{} % of {letter}'s variance", figure(100.0 * share).trim_end_matches(".0")),
+            "Only as many modes are used as hold this share.",
+        ),
+    };
+    let undo = json!({ "prepare": { side: { "modes": null, "variance": null } } });
+    applied.push(step(modes, label, sentence, undo));
+    applied
+}
+
+/// A step that was taken, with the settings that take it back.
+fn step(id: &'static str, label: impl Into<String>, sentence: &str, undo: Value) -> Remedy {
+    let (label, sentence) = (label.into(), sentence.to_owned());
+    Remedy { id, label, sentence, settings: undo, recommended: false }
 }
 
 /// A length with three figures.

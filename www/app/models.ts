@@ -171,6 +171,11 @@ function show(opened: Record<Side, Slot | null>, alongside: () => void): void {
       slots[side].value = slot;
       opening[side].value = null;
     }
+    // Every population lies in the frame of its own first shape: side by side those mean nothing.
+    const populations = SIDES.every((side) => slots[side].value?.origin.kind === "shapes");
+    if ((opened.a || opened.b) && populations && settings.value.align === "none") {
+      change({ align: "rigid" });
+    }
     emptyRegions.value = {};
     lockedRange.value = null;
     compared.value = null;
