@@ -195,7 +195,7 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }`.
-    pub fn groups(files: &Array) -> Result<JsValue, JsValue> {
+    pub fn groups(&self, files: &Array) -> Result<JsValue, JsValue> {
         let groups = formats::groups(&blobs::inputs(files, None)?).map_err(thrown)?;
         Ok(plain(&groups))
     }
@@ -257,7 +257,7 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }` when a line is none.
-    pub fn points(text: &str) -> Result<JsValue, JsValue> {
+    pub fn points(&self, text: &str) -> Result<JsValue, JsValue> {
         let points = PointSelection::parse(text);
         points
             .map(|points| plain(&points))

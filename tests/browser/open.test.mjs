@@ -182,7 +182,7 @@ test("after the engine was replaced, models of files are opened anew with their 
     const parts = card(page, "A").getByRole("combobox", { name: "Part of bfm-groups.h5" });
     await parts.selectOption("expression");
     await card(page, "A")
-      .getByText(/modes\s+3/)
+      .getByText(/modes\s*3$/)
       .waitFor();
     await page.evaluate(() => {
       const data = { t: "fatal", message: "A test ended the engine." };

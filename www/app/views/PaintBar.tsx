@@ -1,4 +1,4 @@
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { count } from "../format";
 import {
   BRUSHES,
@@ -25,7 +25,8 @@ const TOOLS: Record<PaintTool, { label: string; key: string }> = {
 export function PaintBar() {
   const found = painting.value;
   const bar = useRef<HTMLElement>(null);
-  useEffect(() => {
+  // At once: the first key may follow the click that began this.
+  useLayoutEffect(() => {
     // On a small screen the shape is far from the button that begins this.
     bar.current?.scrollIntoView({ block: "nearest" });
     addEventListener("keydown", onKey);
