@@ -27,7 +27,7 @@ test("cells hold every shape and stay in their pane", () => {
 test("a frame holds a shape from every side", () => {
   const frame = frameOf([Float32Array.from([-1, -2, -3, 1, 2, 3])], 3);
   assert.deepEqual(frame.centre, [0, 0, 0]);
-  assert.equal(frame.halfWidth, 3);
+  assert.equal(frame.halfWidth, Math.hypot(1, 3));
   assert.equal(frame.halfHeight, 2);
 });
 

@@ -89,6 +89,9 @@ export function halfHeightIn(rect: Rect, frame: Frame): number {
   return MARGIN * Math.max(frame.halfHeight, frame.halfWidth / Math.max(aspect, 1e-6));
 }
 
+/** Below this nothing is seen. */
+const FADED = 0.08;
+
 /** The frame that holds all of these shapes, but for what fades away. */
 export function frameOf(
   shapes: Float32Array[],
@@ -100,7 +103,7 @@ export function frameOf(
   for (const shape of shapes) {
     for (let i = 0; i < shape.length; i += 1) {
       const axis = i % dimension;
-      if ((fade?.[(i - axis) / dimension] ?? 1) < 0.08) continue;
+      if ((fade?.[(i - axis) / dimension] ?? 1) < FADED) continue;
       const value = shape[i] ?? 0;
       if (value < (low[axis] ?? 0)) low[axis] = value;
       if (value > (high[axis] ?? 0)) high[axis] = value;
@@ -116,10 +119,22 @@ export function frameOf(
   };
   // Far from the origin, single precision cannot tell smaller frames.
   const least = Math.max(1e-9, 1e-2 * Math.hypot(middle(0), middle(1), middle(2)));
-  const across = dimension === 2 ? half(0) : Math.max(half(0), half(2));
+  const across = dimension === 2 ? half(0) : reach(shapes, fade, middle(0), middle(2));
   return {
     centre: [middle(0), middle(1), middle(2)],
     halfWidth: Math.max(across, half(1) * 0.05, least),
     halfHeight: Math.max(half(1), across * 0.05, least),
   };
+}
+
+/** How far shapes in space reach from their axis: nothing is cut off however they are turned about it. */
+function reach(shapes: Float32Array[], fade: Float32Array | null, x: number, z: number): number {
+  let farthest = 0;
+  for (const shape of shapes) {
+    for (let i = 0; i + 2 < shape.length; i += 3) {
+      if ((fade?.[i / 3] ?? 1) < FADED) continue;
+      farthest = Math.max(farthest, Math.hypot((shape[i] ?? 0) - x, (shape[i + 2] ?? 0) - z));
+    }
+  }
+  return farthest;
 }
