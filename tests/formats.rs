@@ -2,58 +2,19 @@
 //! files against the sentences that they must give, and our own exports against ourselves, h5py
 //! and numpy.
 
+#[path = "common/files.rs"]
+mod files;
+
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use files::{
+    Expected, Failure, Row, assert_close, cell_count, covariance_of_probe, fixture, json, tests,
+};
 use proptest::prelude::*;
 use serde::Deserialize;
 use shapevenn::formats::{self, Array, Data, FormatError, Input, Opened, Options, Part};
-use shapevenn::model::{Cells, Kind, LinearModel, Unit};
-
-/// What `make_fixtures.py` noted about one model.
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct Expected {
-    format: String,
-    part: String,
-    kind: Kind,
-    unit: Unit,
-    dimension: usize,
-    points: usize,
-    modes: usize,
-    cells: usize,
-    mean: Vec<f64>,
-    variances: Vec<f64>,
-    covariance_of_probe: Vec<f64>,
-    notes: Vec<String>,
-    tolerance: f64,
-}
-
-/// One row of the corpus.
-#[derive(Deserialize)]
-struct Row {
-    file: String,
-    origin: String,
-    format: Option<String>,
-    error: Option<Failure>,
-}
-
-#[derive(Deserialize, PartialEq, Debug)]
-struct Failure {
-    code: String,
-    message: String,
-    hint: String,
-}
-
-fn tests() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests")
-}
-
-fn fixture(name: &str) -> Vec<u8> {
-    std::fs::read(tests().join("fixtures").join(name))
-        .unwrap_or_else(|error| panic!("{name}: {error}"))
-}
+use shapevenn::model::{Cells, LinearModel};
 
 fn read(file: &str, bytes: &[u8], part: Option<&str>) -> Result<Opened, FormatError> {
     let options = Options { part: part.map(str::to_owned), ..Options::default() };
@@ -68,41 +29,8 @@ fn open_part(file: &str, part: &str) -> Part {
     read(file, &fixture(file), Some(part)).unwrap_or_else(|error| panic!("{error}")).part
 }
 
-fn json<T: for<'a> Deserialize<'a>>(path: &str) -> T {
-    let text = std::fs::read_to_string(tests().join(path))
-        .unwrap_or_else(|error| panic!("{path}: {error}"));
-    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"))
-}
-
 fn expected() -> BTreeMap<String, Vec<Expected>> {
     json("fixtures/expected.json")
-}
-
-fn cell_count(cells: &Cells) -> usize {
-    match cells {
-        Cells::None => 0,
-        Cells::Segments(segments) => segments.len(),
-        Cells::Triangles(triangles) => triangles.len(),
-    }
-}
-
-/// C·v for the fixed vector v of `make_fixtures.py`.
-fn covariance_of_probe(model: &LinearModel) -> Vec<f64> {
-    let length = model.mean().len();
-    let probe = nalgebra::DVector::from_fn(length, |place, _| (7 * place % 11) as f64 - 5.0);
-    let scaled = model.scaled_basis();
-    (&scaled * scaled.tr_mul(&probe)).as_slice().to_vec()
-}
-
-fn assert_close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
-    assert_eq!(found.len(), expected.len(), "{what}: length");
-    let size = expected.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
-    for (place, (found, expected)) in found.iter().zip(expected).enumerate() {
-        assert!(
-            (found - expected).abs() <= tolerance * size,
-            "{what}: {found} at {place}, {expected} was written"
-        );
-    }
 }
 
 #[test]
@@ -197,11 +125,7 @@ fn the_corpus_gives_the_format_or_the_exact_sentence() {
         match (read(&row.file, &fixture(&row.file), None), &row.format, &row.error) {
             (Ok(opened), Some(format), None) => assert_eq!(&opened.format, format, "{}", row.file),
             (Err(error), None, Some(expected)) => {
-                let found = Failure {
-                    code: error.code().to_owned(),
-                    message: error.to_string(),
-                    hint: error.hint().to_owned(),
-                };
+                let found = Failure::of(&error);
                 assert_eq!(&found, expected, "{}", row.file);
             }
             (Ok(_), ..) => panic!("{} should not have been read", row.file),

@@ -2,10 +2,13 @@
 //! writer noted, broken ones against the sentences that they must give.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+#[path = "common/files.rs"]
+mod files;
+
 use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
-use std::path::{Path, PathBuf};
 
+use files::{Failure, assert_close, cell_count, covariance_of_probe, fixture, json, tests};
 use proptest::prelude::*;
 use serde::Deserialize;
 use shapevenn::formats::{self, FormatError, Input, Opened, Options, Origin, groups};
@@ -42,28 +45,6 @@ struct Row {
     error: Failure,
 }
 
-#[derive(Deserialize, PartialEq, Debug)]
-struct Failure {
-    code: String,
-    message: String,
-    hint: String,
-}
-
-fn tests() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests")
-}
-
-fn fixture(name: &str) -> Vec<u8> {
-    std::fs::read(tests().join("fixtures").join(name))
-        .unwrap_or_else(|error| panic!("{name}: {error}"))
-}
-
-fn json<T: for<'a> Deserialize<'a>>(path: &str) -> T {
-    let text = std::fs::read_to_string(tests().join(path))
-        .unwrap_or_else(|error| panic!("{path}: {error}"));
-    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"))
-}
-
 fn input(name: &str) -> Input {
     Input::of_bytes(name, fixture(&format!("meshes/{name}")))
 }
@@ -85,33 +66,6 @@ fn dropped(archive: &str) -> Vec<Input> {
             Input::of_bytes(format!("{archive}/{name}"), bytes)
         })
         .collect()
-}
-
-fn cell_count(cells: &Cells) -> usize {
-    match cells {
-        Cells::None => 0,
-        Cells::Segments(segments) => segments.len(),
-        Cells::Triangles(triangles) => triangles.len(),
-    }
-}
-
-/// C·v for the fixed vector v of `make_meshes.py`.
-fn covariance_of_probe(model: &LinearModel) -> Vec<f64> {
-    let length = model.mean().len();
-    let probe = nalgebra::DVector::from_fn(length, |place, _| (7 * place % 11) as f64 - 5.0);
-    let scaled = model.scaled_basis();
-    (&scaled * scaled.tr_mul(&probe)).as_slice().to_vec()
-}
-
-fn assert_close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
-    assert_eq!(found.len(), expected.len(), "{what}: length");
-    let size = expected.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
-    for (place, (found, expected)) in found.iter().zip(expected).enumerate() {
-        assert!(
-            (found - expected).abs() <= tolerance * size,
-            "{what}: {found} at {place}, {expected} was expected"
-        );
-    }
 }
 
 #[test]

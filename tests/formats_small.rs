@@ -3,53 +3,23 @@
 //! against the sentences that they must give.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+#[path = "common/files.rs"]
+mod files;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use files::{Expected, Failure, Row, assert_close, cell_count, covariance_of_probe, json};
 use proptest::prelude::*;
 use serde::Deserialize;
 use shapevenn::formats::{self, FormatError, Input, Opened, Options, Origin};
-use shapevenn::model::{Cells, Kind, LinearModel, Unit};
+use shapevenn::model::Cells;
 
 /// What `make_small.py` noted about files that belong together.
 #[derive(Deserialize)]
-struct Expected {
+struct ExpectedFiles {
     files: Vec<String>,
-    parts: Vec<ExpectedPart>,
-}
-
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct ExpectedPart {
-    format: String,
-    part: String,
-    kind: Kind,
-    unit: Unit,
-    dimension: usize,
-    points: usize,
-    modes: usize,
-    cells: usize,
-    mean: Vec<f64>,
-    variances: Vec<f64>,
-    covariance_of_probe: Vec<f64>,
-    notes: Vec<String>,
-    tolerance: f64,
-}
-
-/// One row of the corpus.
-#[derive(Deserialize)]
-struct Row {
-    file: String,
-    origin: String,
-    format: Option<String>,
-    error: Option<Failure>,
-}
-
-#[derive(Deserialize, PartialEq, Debug)]
-struct Failure {
-    code: String,
-    message: String,
-    hint: String,
+    parts: Vec<Expected>,
 }
 
 fn folder() -> PathBuf {
@@ -57,16 +27,11 @@ fn folder() -> PathBuf {
 }
 
 fn fixture(name: &str) -> Vec<u8> {
-    std::fs::read(folder().join(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    files::fixture(&format!("small/{name}"))
 }
 
-fn json<T: for<'a> Deserialize<'a>>(path: &Path) -> T {
-    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{path:?}: {error}"));
-    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{path:?}: {error}"))
-}
-
-fn expected() -> BTreeMap<String, Expected> {
-    json(&folder().join("expected.json"))
+fn expected() -> BTreeMap<String, ExpectedFiles> {
+    json("fixtures/small/expected.json")
 }
 
 fn read(files: &[(&str, &[u8])], part: Option<&str>) -> Result<Opened, FormatError> {
@@ -84,38 +49,11 @@ fn open(names: &[String], part: Option<&str>) -> Result<Opened, FormatError> {
     read(&files, part)
 }
 
-fn cell_count(cells: &Cells) -> usize {
-    match cells {
-        Cells::None => 0,
-        Cells::Segments(segments) => segments.len(),
-        Cells::Triangles(triangles) => triangles.len(),
-    }
-}
-
-/// C·v for the fixed vector v of `make_fixtures.py`.
-fn covariance_of_probe(model: &LinearModel) -> Vec<f64> {
-    let length = model.mean().len();
-    let probe = nalgebra::DVector::from_fn(length, |place, _| (7 * place % 11) as f64 - 5.0);
-    let scaled = model.scaled_basis();
-    (&scaled * scaled.tr_mul(&probe)).as_slice().to_vec()
-}
-
-fn assert_close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
-    assert_eq!(found.len(), expected.len(), "{what}: length");
-    let size = expected.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
-    for (place, (found, expected)) in found.iter().zip(expected).enumerate() {
-        assert!(
-            (found - expected).abs() <= tolerance * size,
-            "{what}: {found} at {place}, {expected} was written"
-        );
-    }
-}
-
 #[test]
 fn every_file_gives_the_numbers_that_were_written() {
     let all = expected();
     assert!(all.len() > 30, "all variants are there");
-    for (name, Expected { files, parts }) in &all {
+    for (name, ExpectedFiles { files, parts }) in &all {
         let names: Vec<&String> = parts.iter().map(|part| &part.part).collect();
         for (index, expected) in parts.iter().enumerate() {
             // The first part is read unless another is wanted.
@@ -172,8 +110,7 @@ fn all_parts_are_drawn_with_the_faces_of_the_shape() {
 
 #[test]
 fn broken_files_give_the_exact_sentence() {
-    let rows: Vec<Row> =
-        json(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/corpus/small.json"));
+    let rows: Vec<Row> = json("corpus/small.json");
     let mut missing: Vec<String> = std::fs::read_dir(folder())
         .unwrap()
         .map(|entry| entry.unwrap())
@@ -188,11 +125,7 @@ fn broken_files_give_the_exact_sentence() {
         match (open(core::slice::from_ref(&file), None), format, error) {
             (Ok(opened), Some(format), None) => assert_eq!(opened.format, format, "{file}"),
             (Err(error), None, Some(expected)) => {
-                let found = Failure {
-                    code: error.code().to_owned(),
-                    message: error.to_string(),
-                    hint: error.hint().to_owned(),
-                };
+                let found = Failure::of(&error);
                 assert_eq!(found, expected, "{file}");
             }
             (Ok(_), ..) => panic!("{file} should not have been read"),
@@ -280,7 +213,7 @@ fn companions_are_found_by_what_they_hold_and_checked() {
 #[test]
 fn files_that_end_anywhere_give_a_sentence() {
     let mut tried = 0;
-    for (name, Expected { files, .. }) in expected() {
+    for (name, ExpectedFiles { files, .. }) in expected() {
         let [file] = files.as_slice() else { continue };
         let bytes = fixture(file);
         let step = bytes.len() / 60 + 1;

@@ -1,0 +1,101 @@
+//! What tests of model files need: fixtures, what their writers noted, and the corpus of sentences.
+#![allow(dead_code, unreachable_pub, reason = "every test file uses its own part")]
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use shapevenn::formats::FormatError;
+use shapevenn::model::{Cells, Kind, LinearModel, Unit};
+
+/// What a `make_….py` noted about one model.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Expected {
+    pub format: String,
+    pub part: String,
+    pub kind: Kind,
+    pub unit: Unit,
+    pub dimension: usize,
+    pub points: usize,
+    pub modes: usize,
+    pub cells: usize,
+    pub mean: Vec<f64>,
+    pub variances: Vec<f64>,
+    pub covariance_of_probe: Vec<f64>,
+    pub notes: Vec<String>,
+    pub tolerance: f64,
+}
+
+/// One row of the corpus.
+#[derive(Deserialize)]
+pub struct Row {
+    pub file: String,
+    pub origin: String,
+    pub format: Option<String>,
+    pub error: Option<Failure>,
+}
+
+/// What the user is told.
+#[derive(Deserialize, PartialEq, Debug)]
+pub struct Failure {
+    pub code: String,
+    pub message: String,
+    pub hint: String,
+}
+
+impl Failure {
+    pub fn of(error: &FormatError) -> Self {
+        Self {
+            code: error.code().to_owned(),
+            message: error.to_string(),
+            hint: error.hint().to_owned(),
+        }
+    }
+}
+
+/// The folder of the tests.
+pub fn tests() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests")
+}
+
+/// The bytes of a file below `tests/fixtures`.
+pub fn fixture(name: &str) -> Vec<u8> {
+    std::fs::read(tests().join("fixtures").join(name))
+        .unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+/// A JSON document below `tests`.
+pub fn json<T: for<'a> Deserialize<'a>>(path: &str) -> T {
+    let text = std::fs::read_to_string(tests().join(path))
+        .unwrap_or_else(|error| panic!("{path}: {error}"));
+    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+pub fn cell_count(cells: &Cells) -> usize {
+    match cells {
+        Cells::None => 0,
+        Cells::Segments(segments) => segments.len(),
+        Cells::Triangles(triangles) => triangles.len(),
+    }
+}
+
+/// C·v for the fixed vector v of the scripts.
+pub fn covariance_of_probe(model: &LinearModel) -> Vec<f64> {
+    let length = model.mean().len();
+    let probe = nalgebra::DVector::from_fn(length, |place, _| (7 * place % 11) as f64 - 5.0);
+    let scaled = model.scaled_basis();
+    (&scaled * scaled.tr_mul(&probe)).as_slice().to_vec()
+}
+
+/// Equal to a share of the largest number.
+pub fn assert_close(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
+    assert_eq!(found.len(), expected.len(), "{what}: length");
+    let size = expected.iter().fold(0.0_f64, |size, value| size.max(value.abs()));
+    for (place, (found, expected)) in found.iter().zip(expected).enumerate() {
+        assert!(
+            (found - expected).abs() <= tolerance * size,
+            "{what}: {found} at {place}, {expected} was expected"
+        );
+    }
+}
