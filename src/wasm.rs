@@ -1,4 +1,4 @@
-//! The engine as the page's worker sees it: the only file that names wasm-bindgen.
+//! The engine as the page's worker sees it: the only place that names wasm-bindgen.
 //!
 //! Small things cross as plain objects, shapes as typed arrays (copies, since views into this
 //! memory die when it grows), errors as `{ code, message, hint }`. The worker owns the one
