@@ -27,6 +27,15 @@ pub enum ComparisonError {
         /// Name of the array.
         array: String,
     },
+    /// There is nothing of what was asked for yet.
+    NothingYet,
+    /// The points are not joined in a way that has normals.
+    NoNormals,
+    /// What was asked for does not exist.
+    Asked {
+        /// One sentence.
+        message: String,
+    },
 }
 
 impl ComparisonError {
@@ -38,6 +47,9 @@ impl ComparisonError {
             Self::Fit { .. } => "not-finite",
             Self::FlatIntersection => "flat-intersection",
             Self::StoredDraws { .. } => "stored-draws",
+            Self::NothingYet => "nothing-yet",
+            Self::NoNormals => "no-normals",
+            Self::Asked { .. } => "asked",
         }
     }
 
@@ -51,6 +63,9 @@ impl ComparisonError {
                 "Try a larger σ, or align B to A: a constant offset between the models empties the intersection."
             }
             Self::StoredDraws { .. } => "Load the two models with which the draws were made.",
+            Self::NothingYet => "Wait until the run has drawn some.",
+            Self::NoNormals => "Choose a map that needs no normals.",
+            Self::Asked { .. } => "Ask for one that there is.",
         }
     }
 }
@@ -71,6 +86,12 @@ impl fmt::Display for ComparisonError {
             Self::StoredDraws { array } => {
                 write!(f, "The stored draws “{array}” do not fit the two models.")
             }
+            Self::NothingYet => write!(f, "There are no shapes of this region yet."),
+            Self::NoNormals => write!(
+                f,
+                "The points are not joined to a surface or an outline, so that they have no normals."
+            ),
+            Self::Asked { message } => write!(f, "{message}"),
         }
     }
 }

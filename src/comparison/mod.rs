@@ -10,24 +10,32 @@
 
 mod accuracy;
 mod error;
+mod exploring;
 mod fitting;
 mod inference;
 mod inspection;
+mod maps;
 mod preview;
 mod regions;
+mod relation;
 mod results;
 mod settings;
 mod summary;
 mod warnings;
 
 pub use error::ComparisonError;
+pub use exploring::{Axes, AxesKind, Explored, Nearest, Space};
 pub use inspection::{
     Agreement, Inspection, MeanDistance, Problem, Remedy, UnitFound, guessed_unit, inspect,
 };
+pub use maps::{Ellipsoid, MapName, VertexMap};
 pub use preview::{Prediction, SweepPoint};
 pub use regions::{Picture, Region, RegionShapes, ShapeSource};
+pub use relation::{Relation, relate};
 pub use results::{Results, StoredArray};
 pub use settings::{FitChoice, Plausibility, Pooling, Sampler, Settings, SettingsError};
+
+use std::collections::BTreeMap;
 
 use serde::Serialize;
 
@@ -106,6 +114,8 @@ pub struct Comparison {
     outside: Vec<DifferenceReport>,
     cancelled: bool,
     finished: Option<Finished>,
+    /// Axes of A and B that were asked for.
+    axes: BTreeMap<(Space, AxesKind), Axes>,
 }
 
 /// What a finished run holds beside its draws.
@@ -155,6 +165,7 @@ impl Comparison {
             outside: Vec::new(),
             cancelled: false,
             finished: None,
+            axes: BTreeMap::new(),
         })
     }
 
