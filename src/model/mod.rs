@@ -10,6 +10,7 @@
 //! **Limits.** All numbers are held in `f64`; a model of 53,490 points and 199 modes takes 255 MB, once
 //! for all its copies.
 
+mod fingerprint;
 mod linear_model;
 mod points;
 mod population;
