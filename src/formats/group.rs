@@ -248,9 +248,7 @@ pub(super) fn name_of(inputs: &[Input]) -> String {
 
 /// Makes one model of several files.
 pub(super) fn open(inputs: &[Input], options: &Options, depth: u8) -> Result<Opened, FormatError> {
-    let mut inputs: Vec<Input> =
-        inputs.iter().filter(|input| !is_junk(&input.name)).cloned().collect();
-    inputs.sort_by(|a, b| natural_order(&a.name, &b.name));
+    let inputs = in_order(inputs);
     if let [input] = inputs.as_slice() {
         return open_one(input, options, depth);
     }
@@ -314,6 +312,14 @@ fn with_faces(mut opened: Opened, input: &Input) -> Opened {
     };
     part.notes.push(note);
     opened
+}
+
+/// Files that people meant, in natural order.
+pub(super) fn in_order(inputs: &[Input]) -> Vec<Input> {
+    let mut inputs: Vec<Input> =
+        inputs.iter().filter(|input| !is_junk(&input.name)).cloned().collect();
+    inputs.sort_by(|a, b| natural_order(&a.name, &b.name));
+    inputs
 }
 
 /// What systems and programs leave behind in folders and archives.
