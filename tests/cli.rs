@@ -411,6 +411,123 @@ fn everything_that_can_be_taken_away_is_written_beside_the_report() {
     }
 }
 
+/// A report as JSON, without the seconds.
+fn timeless(text: &str) -> Value {
+    let mut report: Value = serde_json::from_str(text).unwrap();
+    report["seconds"] = Value::Null;
+    report
+}
+
+#[test]
+fn a_run_file_makes_the_same_report_to_the_last_digit() {
+    let folder = folder("again");
+    let out = folder.join("out").to_string_lossy().into_owned();
+    let at = |name: &str| folder.join("out").join(name).to_string_lossy().into_owned();
+    // σ is recommended, and much is not as it is when nothing is chosen.
+    let chosen = ["--draws", "400", "--seed", "7", "--chains", "4", "--modes", "3", "--json"];
+    let first = [&STARS[..3], &chosen, &["--out", &out]].concat();
+    let first = timeless(&printed(&first));
+    assert_eq!(first["settings"]["sigmaRecommended"], true, "recommended");
+    for file in ["run.json", "report.json"] {
+        let models: &[&str] =
+            if file == "run.json" { &[] } else { &["demo:stars-1-a", "demo:stars-1-b"] };
+        let place = at(file);
+        let again = [&["compare", "--run", &place, "--json"], models].concat();
+        assert_eq!(timeless(&printed(&again)), first, "{file}");
+    }
+    let run: Value =
+        serde_json::from_str(&std::fs::read_to_string(at("run.json")).unwrap()).unwrap();
+    assert_eq!(run["shapevenn"], 1, "layout");
+    assert_eq!(run["models"]["b"]["source"], "demo:stars-1-b", "a demo");
+    assert_eq!(run["models"]["a"]["fingerprint"], first["models"]["a"]["fingerprint"], "the same");
+    assert_eq!(run["settings"], first["settings"], "all settings");
+}
+
+#[test]
+fn a_run_of_files_needs_them_and_knows_them() {
+    let folder = folder("own");
+    let out = folder.join("out").to_string_lossy().into_owned();
+    let catalog = fixture("bfm-catalog.h5");
+    let part = |name: &str| format!("{catalog}#{name}");
+    let first = printed(&[
+        "compare",
+        &part("shape"),
+        &part("expression"),
+        "--draws",
+        "200",
+        "--json",
+        "--out",
+        &out,
+    ]);
+    let run = folder.join("out/run.json").to_string_lossy().into_owned();
+    let again = ["compare", "--json", "--run", &run];
+    let refused = |arguments: &[&str]| {
+        let output = shapevenn(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        text(&output.stderr)
+    };
+    let complaint = refused(&again);
+    assert!(
+        complaint.contains("bfm-catalog.h5#shape as A, and bfm-catalog.h5#expression as B"),
+        "{complaint}"
+    );
+    // The parts are known: the file is enough.
+    let same = printed(&[&again[..], &[&catalog, &catalog]].concat());
+    assert_eq!(timeless(&same), timeless(&first), "the same files");
+    let complaint = refused(&[&again[..], &[&part("expression"), &part("shape")]].concat());
+    assert!(complaint.contains("The run was made with bfm-catalog.h5#shape ("), "{complaint}");
+    assert!(complaint.contains("as model A; this is bfm-catalog.h5#expression ("), "{complaint}");
+    assert!(complaint.contains("other order"), "{complaint}");
+    let complaint = refused(&[&again[..], &["--sigma", "1"]].concat());
+    assert!(complaint.contains("'--run <RUN.json>' cannot be used with '--sigma"), "{complaint}");
+    let complaint = refused(&["compare", "--run", &fixture("small/plain.json")]);
+    assert!(complaint.contains("is neither a run file nor a report"), "{complaint}");
+}
+
+#[test]
+fn a_model_is_evaluated_by_shapes_in_a_folder() {
+    let folder = folder("evaluation");
+    let at = |name: &str| folder.join(name).to_string_lossy().into_owned();
+    let write = |name: &str, count: u32, first: u32| {
+        std::fs::create_dir_all(folder.join(name)).unwrap();
+        for index in first..first + count {
+            let wave = |k: u32| f64::from((index * index * (k + 3) + 5 * index + k) % 17) / 17.0;
+            let points: String = (0..6_u32)
+                .map(|point| {
+                    let (x, y) = (f64::from(point % 3), f64::from(point / 3));
+                    format!("{} {} {}\n", 3.0 * x + wave(0) * y, 4.0 * y + wave(1) * x, x * y)
+                })
+                .collect();
+            std::fs::write(folder.join(name).join(format!("{index}.txt")), points).unwrap();
+        }
+        for other in [".DS_Store", "README.md"] {
+            std::fs::write(folder.join(name).join(other), "Not a shape.").unwrap();
+        }
+    };
+    write("training", 9, 0);
+    write("test", 4, 9);
+    let model = at("training");
+    let found: Value =
+        serde_json::from_str(&printed(&["evaluate", &model, &at("test"), "--json"])).unwrap();
+    assert_eq!((&found["shapes"], &found["method"]), (&4.into(), &"test".into()), "{found}");
+    let count = found["modes"].as_array().unwrap().len();
+    for name in ["generalization", "generalizationError", "specificity", "specificityError"] {
+        let values = found[name].as_array().unwrap();
+        assert_eq!(values.len(), count, "{name}");
+        assert!(values.iter().all(|value| value.as_f64().unwrap() >= 0.0), "{name}: {values:?}");
+    }
+    let words = printed(&["evaluate", &model, &model, "--training"]);
+    assert!(words.contains("9 shapes, each left out in turn"), "{words}");
+    for (shapes, message) in [
+        (fixture("plain.npz"), "It is a ZIP archive; a mesh, landmarks or a list of points"),
+        (fixture("meshes/alone.ply"), "The shapes have"),
+    ] {
+        let output = shapevenn(&["evaluate", &model, &shapes]);
+        assert_eq!(output.status.code(), Some(2), "{shapes}");
+        assert!(text(&output.stderr).contains(message), "{}", text(&output.stderr));
+    }
+}
+
 #[test]
 fn what_is_in_the_way_of_a_comparison_is_said() {
     let found: Value = serde_json::from_str(&printed(&[

@@ -194,6 +194,19 @@ pub(super) fn open_zip(input: &Input, options: &Options, depth: u8) -> Result<Op
     }
 }
 
+/// The files in a ZIP archive; any other file is alone.
+pub(super) fn files_in(input: &Input) -> Result<Vec<Input>, FormatError> {
+    if sniff(input).ok() != Some(Content::Zip) {
+        return Ok(vec![input.clone()]);
+    }
+    let bytes = input.bytes()?;
+    let members = members(&bytes).map_err(|fault| fault.of(&input.name))?;
+    if members.is_empty() || members.iter().any(|member| member.name.ends_with(".npy")) {
+        return Ok(vec![input.clone()]);
+    }
+    unpack(input, &bytes, &members)
+}
+
 /// Opens the part that is wanted, or the first that can be read.
 fn open_part(
     input: &Input,

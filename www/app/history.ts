@@ -8,15 +8,19 @@ import {
   camera,
   demo,
   exaggeration,
+  mapMode,
   painting,
   picture,
   region,
+  room,
   SIDES,
   type Side,
   settings,
   shapesSeed,
   slotKey,
   slots,
+  vertex,
+  vertexMap,
   view,
   type Wanted,
 } from "./state";
@@ -56,7 +60,11 @@ export function currentLink(): string {
     urls: urls(),
     parts: parts(),
     settings: settings.value,
+    room: room.value,
     view: view.value,
+    map: vertexMap.value,
+    mapMode: mapMode.value,
+    vertex: vertex.value,
     region: region.value,
     picture: picture.value,
     exaggeration: exaggeration.value,
@@ -73,7 +81,17 @@ export function writeAddress(): void {
 /** Steps that Back undoes; the camera and the like only follow along. */
 const step = computed(() => {
   const models = SIDES.map((side) => slots[side].value && slotKey(slots[side].value));
-  return JSON.stringify([models, settings.value, view.value, region.value, picture.value]);
+  return JSON.stringify([
+    models,
+    settings.value,
+    room.value,
+    view.value,
+    vertexMap.value,
+    mapMode.value,
+    vertex.value,
+    region.value,
+    picture.value,
+  ]);
 });
 
 let applied = "";
@@ -171,7 +189,11 @@ export function modelsOf(link: LinkState): Record<Side, Wanted> | null {
 export function apply(link: LinkState): void {
   batch(() => {
     settings.value = link.settings;
+    room.value = link.room;
     view.value = link.view;
+    vertexMap.value = link.map;
+    mapMode.value = link.mapMode;
+    vertex.value = link.vertex;
     region.value = link.region;
     picture.value = link.picture;
     exaggeration.value = link.exaggeration;

@@ -5,6 +5,7 @@
  * back to the default, and what is not given is the default.
  */
 import type {
+  MapName,
   Picture,
   PointSelection,
   Preparation,
@@ -41,6 +42,19 @@ export const LINK_VERSION = 1;
 
 export type ViewMode = "mean" | "samples" | "sd";
 export const VIEW_MODES: ViewMode[] = ["mean", "samples", "sd"];
+/** Parts of the page, each with its own look at the same comparison. */
+export type Room = "regions" | "explore" | "measures" | "diagnostics" | "models";
+export const ROOMS: Room[] = ["regions", "explore", "measures", "diagnostics", "models"];
+/** What can be coloured onto the vertices in the view "sd", which older links know by that name alone. */
+export const MAPS: MapName[] = [
+  "sd",
+  "sd-normal",
+  "sd-tangential",
+  "distance",
+  "means",
+  "ratio",
+  "mode",
+];
 export const REGIONS: Region[] = ["a", "aWithoutB", "intersection", "bWithoutA", "b"];
 
 /** What of a link is settings of the run. */
@@ -52,6 +66,8 @@ export const SETTING_KEYS = (
 
 /** Longer links are cut by the programs that pass them on. */
 const LONGEST_RANGES = 2000;
+
+const MOST_VERTICES = 1e7;
 
 /** As the slider has it. */
 export const MOST_EXAGGERATION = 5;
@@ -65,7 +81,13 @@ export interface LinkState {
   /** Parts of the files at these addresses; null for the first. */
   parts: { a: string | null; b: string | null };
   settings: Settings;
+  room: Room;
   view: ViewMode;
+  map: MapName;
+  /** Which mode the map "mode" is of, from 0. */
+  mapMode: number;
+  /** The vertex that is looked at. */
+  vertex: number | null;
   /** The region shown alone, if one is. */
   region: Region | null;
   picture: Picture;
@@ -82,7 +104,11 @@ export function defaultLink(): LinkState {
     urls: null,
     parts: { a: null, b: null },
     settings: DEFAULTS,
+    room: "regions",
     view: "mean",
+    map: "sd",
+    mapMode: 0,
+    vertex: null,
     region: null,
     picture: "draws",
     exaggeration: 0,
@@ -113,6 +139,10 @@ export function writeLink(state: LinkState): string {
     ...preparationPairs(settings.prepare),
     ["view", state.view],
   );
+  if (state.room !== "regions") pairs.push(["room", state.room]);
+  if (state.map !== "sd") pairs.push(["map", state.map]);
+  if (state.mapMode !== 0) pairs.push(["mode", state.mapMode + 1]);
+  if (state.vertex !== null) pairs.push(["vertex", state.vertex]);
   if (state.region) pairs.push(["region", state.region]);
   if (state.picture !== "draws") pairs.push(["picture", state.picture]);
   if (state.exaggeration !== 0) pairs.push(["exaggerate", state.exaggeration]);
@@ -175,6 +205,10 @@ export function readLink(fragment: string): LinkState {
     urls: a && b && isAddress(a) && isAddress(b) ? { a, b } : null,
     parts: { a: given.get("part-a"), b: given.get("part-b") },
     settings: readSettings(given),
+    room: oneOf(given.get("room"), ROOMS) ?? fallback.room,
+    map: oneOf(given.get("map"), MAPS) ?? fallback.map,
+    mapMode: valid(parseCount(given.get("mode") ?? "", ...RANGES.modes), 1) - 1,
+    vertex: valid<number | null>(parseCount(given.get("vertex") ?? "", 0, MOST_VERTICES), null),
     view: oneOf(given.get("view"), VIEW_MODES) ?? fallback.view,
     region: oneOf(given.get("region"), REGIONS) ?? null,
     picture: oneOf(given.get("picture"), PICTURES) ?? fallback.picture,

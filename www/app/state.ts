@@ -6,6 +6,7 @@ import type {
   DroppedFile,
   Geometry,
   Inspection,
+  MapName,
   OpenedModel,
   Prediction,
   Progress,
@@ -16,7 +17,7 @@ import type {
   SettingsPatch,
 } from "../worker/protocol";
 import { FIRST_DEMO, findDemo, type Nouns, nounsOf } from "./demos";
-import { defaultLink, type LinkState, type ViewMode } from "./link";
+import { defaultLink, type LinkState, type Room, type ViewMode } from "./link";
 import { patched } from "./preparation";
 import { DEFAULTS, settingsKey } from "./settings";
 import { type Camera, HOME } from "./viewer/camera";
@@ -97,7 +98,14 @@ export const engine = signal<EngineInfo | null>(null);
 /** What a screen reader is told. */
 export const spoken = signal("");
 
+/** The part of the page that is looked at. */
+export const room = signal<Room>(first.room);
 export const view = signal<ViewMode>(first.view);
+/** What is coloured onto the vertices, and of which mode where it is of one. */
+export const vertexMap = signal<MapName>(first.map);
+export const mapMode = signal(first.mapMode);
+/** The vertex that is looked at, as a number of the points that are compared. */
+export const vertex = signal<number | null>(first.vertex);
 export const region = signal<Region | null>(null);
 export const shapesSeed = signal(first.shapes);
 /** What is shown of the differences, and how far they are exaggerated. */

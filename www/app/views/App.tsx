@@ -1,13 +1,18 @@
-import { demo, spoken } from "../state";
+import { demo, room, spoken } from "../state";
 import { About } from "./About";
 import { Chooser } from "./Chooser";
+import { Diagnostics } from "./Diagnostics";
 import { Downloads } from "./Downloads";
 import { DropOverlay } from "./DropOverlay";
+import { Explorer } from "./Explorer";
 import { Header } from "./Header";
+import { Measures } from "./Measures";
 import { ModelCard } from "./ModelCard";
+import { ModelTable } from "./ModelTable";
 import { Notices } from "./Notices";
 import { PairCard } from "./PairCard";
 import { Headline, Results } from "./Results";
+import { Rooms } from "./Rooms";
 import { RunPanel } from "./RunPanel";
 import { SettingsPanel } from "./SettingsPanel";
 import { Stage } from "./Stage";
@@ -21,7 +26,11 @@ export function App() {
           <Notices place="page" />
           <Notices place="link" />
           <Headline />
+          <Rooms />
           <Stage />
+          {room.value === "measures" && <Measures />}
+          {room.value === "diagnostics" && <Diagnostics />}
+          {room.value === "models" && <ModelTable />}
         </div>
         <div class="rail models">
           <ModelCard side="a" />
@@ -35,6 +44,7 @@ export function App() {
           <SettingsPanel />
         </div>
         <div class="rail reading">
+          {room.value === "explore" && <Explorer />}
           <Results />
           <Downloads />
           <About />

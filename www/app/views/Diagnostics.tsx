@@ -1,0 +1,3 @@
+export function Diagnostics() {
+  return <section class="room" aria-label="Diagnostics" />;
+}

@@ -1,0 +1,3 @@
+export function Measures() {
+  return <section class="room" aria-label="Measures" />;
+}

@@ -1,0 +1,3 @@
+export function ModelTable() {
+  return <section class="room" aria-label="Models" />;
+}
