@@ -7,6 +7,8 @@ import { demoModels, openPair } from "./models";
 import {
   camera,
   demo,
+  diagnosedMode,
+  diagnosedSide,
   exaggeration,
   mapMode,
   painting,
@@ -65,6 +67,8 @@ export function currentLink(): string {
     map: vertexMap.value,
     mapMode: mapMode.value,
     vertex: vertex.value,
+    side: diagnosedSide.value,
+    coefficient: diagnosedMode.value,
     region: region.value,
     picture: picture.value,
     exaggeration: exaggeration.value,
@@ -89,6 +93,8 @@ const step = computed(() => {
     vertexMap.value,
     mapMode.value,
     vertex.value,
+    diagnosedSide.value,
+    diagnosedMode.value,
     region.value,
     picture.value,
   ]);
@@ -194,6 +200,8 @@ export function apply(link: LinkState): void {
     vertexMap.value = link.map;
     mapMode.value = link.mapMode;
     vertex.value = link.vertex;
+    diagnosedSide.value = link.side;
+    diagnosedMode.value = link.coefficient;
     region.value = link.region;
     picture.value = link.picture;
     exaggeration.value = link.exaggeration;
