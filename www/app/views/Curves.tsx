@@ -1,4 +1,4 @@
-import { linear, ticks } from "../plots";
+import { linear, type Scale, ticks } from "../plots";
 import { Mark } from "./Mark";
 import { PlotAxes, wholeTicks } from "./PlotAxes";
 
@@ -11,6 +11,8 @@ export interface Curve {
   at?: readonly number[];
   /** Half of the error bars. */
   errors?: readonly number[];
+  /** Whether the marks are joined. */
+  line?: boolean;
 }
 
 interface Props {
@@ -21,6 +23,7 @@ interface Props {
   upName: string;
   /** The top of the plot, where it is known beforehand. */
   top?: number;
+  up?: readonly number[];
   showUp?: (value: number) => string;
 }
 
@@ -28,13 +31,22 @@ interface Props {
 const MOST_MARKS = 60;
 
 /** Curves over numbers of modes, from 0 upwards. They differ in shape and dash, not only in colour. */
-export function Curves({ width, height, curves, acrossName, upName, top, showUp }: Props) {
+export function Curves({
+  width,
+  height,
+  curves,
+  acrossName,
+  upName,
+  top,
+  showUp,
+  ...props
+}: Props) {
   const box = { left: 46, right: width - 10, top: 24, bottom: height - 36 };
   const ends = curves.flatMap(({ values, errors }) =>
     values.map((value, i) => value + (errors?.[i] ?? 0)),
   );
   const highest = top ?? Math.max(...ends, 0);
-  const up = ticks(0, highest, 4).filter((value) => top === undefined || value <= top);
+  const up = props.up ?? ticks(0, highest, 4).filter((value) => top === undefined || value <= top);
   const last = Math.max(2, ...curves.flatMap(({ values, at }) => at ?? [values.length]));
   const x = linear(1, last, box.left + 8, box.right - 4);
   const y = linear(0, Math.max(highest, up.at(-1) ?? 0), box.bottom, box.top);
@@ -51,31 +63,40 @@ export function Curves({ width, height, curves, acrossName, upName, top, showUp 
         showAcross={String}
         {...(showUp ? { showUp } : {})}
       />
-      {curves.map(({ key, mark, values, at, errors }) => {
-        const points = values.map((value, i) => [x(at?.[i] ?? i + 1), value, errors?.[i] ?? 0]);
-        return (
-          <g key={key} class="series" data-series={key}>
-            <polyline
-              points={points.map(([left = 0, value = 0]) => `${left},${y(value)}`).join(" ")}
-            />
-            {points.map(([left = 0, value = 0, error = 0], i) => (
-              <g key={i}>
-                {error > 0 && (
-                  <line
-                    class="error"
-                    x1={left}
-                    x2={left}
-                    y1={y(value - error)}
-                    y2={y(value + error)}
-                  />
-                )}
-                {points.length <= MOST_MARKS && <Mark kind={mark} x={left} y={y(value)} />}
-              </g>
-            ))}
-          </g>
-        );
-      })}
+      {curves.map((curve) => (
+        <CurveMarks key={curve.key} curve={curve} x={x} y={y} />
+      ))}
     </>
+  );
+}
+
+function CurveMarks({ curve, x, y }: { curve: Curve; x: Scale; y: Scale }) {
+  const { key, mark, values, at, errors, line = true } = curve;
+  const points = values.map((value, i) => ({
+    across: x(at?.[i] ?? i + 1),
+    value,
+    error: errors?.[i] ?? 0,
+  }));
+  return (
+    <g class="series" data-series={key}>
+      {line && (
+        <polyline points={points.map(({ across, value }) => `${across},${y(value)}`).join(" ")} />
+      )}
+      {points.map(({ across, value, error }, i) => (
+        <g key={i}>
+          {error > 0 && (
+            <line
+              class="error"
+              x1={across}
+              x2={across}
+              y1={y(value - error)}
+              y2={y(value + error)}
+            />
+          )}
+          {(!line || points.length <= MOST_MARKS) && <Mark kind={mark} x={across} y={y(value)} />}
+        </g>
+      ))}
+    </g>
   );
 }
 

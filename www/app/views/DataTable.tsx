@@ -5,7 +5,7 @@ export interface Column {
   title: string;
   show?: (value: number) => string;
   /** Paths in the report, where the values are from there. */
-  metric?: (row: number) => string;
+  metric?: (row: number) => string | undefined;
 }
 
 export interface DataRow {
