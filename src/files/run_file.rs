@@ -217,10 +217,10 @@ mod tests {
         let swapped = run.check(&b, &a).unwrap_err();
         assert_eq!(swapped.code(), "other-model", "code");
         assert!(swapped.hint().contains("other order"), "{}", swapped.hint());
-        let other = open_demo("stars-2-b", None).unwrap().report;
+        let other = open_demo("stars-5-b", None).unwrap().report;
         let message = run.check(&a, &other).unwrap_err().to_string();
         let fingerprint = |report: &ModelReport| report.fingerprint.clone().unwrap();
-        for part in ["stars-1-b", &fingerprint(&b), "stars-2-b", &fingerprint(&other), "model B"] {
+        for part in ["stars-1-b", &fingerprint(&b), "stars-5-b", &fingerprint(&other), "model B"] {
             assert!(message.contains(part), "{part} in {message}");
         }
         let mut old = run.clone();

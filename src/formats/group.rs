@@ -342,7 +342,7 @@ pub(super) fn stem(file_name: &str) -> &str {
 }
 
 /// What follows the last full stop, small.
-fn ending(name: &str) -> String {
+pub(super) fn ending(name: &str) -> String {
     let name = name.strip_suffix(".gz").unwrap_or(name);
     name.rsplit_once('.').map_or(String::new(), |(_, ending)| ending.to_lowercase())
 }

@@ -58,13 +58,32 @@ pub struct ShapeSet {
     pub shapes: DMatrix<f64>,
 }
 
-/// Reads the shapes of files, one or several in each, without making a model of them.
+/// Reads the shapes of files or archives, one or several in each, without making a model of them. Files of
+/// no known format beside shapes are left out, unless their names end as theirs do.
 ///
 /// # Errors
 /// [`FormatError`] of the first file that has none, or that does not correspond to the first.
 pub fn read_shapes(inputs: &[Input]) -> Result<ShapeSet, FormatError> {
     let name = group::name_of(inputs);
-    let inputs = group::in_order(inputs);
+    let mut files = Vec::new();
+    for input in inputs {
+        files.extend(container::files_in(input)?);
+    }
+    let mut inputs = group::in_order(&files);
+    let contents: Vec<_> = inputs.iter().map(|input| container::content(input).ok()).collect();
+    let shape_endings: Vec<String> = inputs
+        .iter()
+        .zip(&contents)
+        .filter(|(_, content)| content.is_some_and(mesh::is_shape))
+        .map(|(input, _)| group::ending(input.file_name()))
+        .collect();
+    if !shape_endings.is_empty() {
+        let mut contents = contents.iter();
+        inputs.retain(|input| {
+            contents.next().is_some_and(Option::is_some)
+                || shape_endings.contains(&group::ending(input.file_name()))
+        });
+    }
     let mut shapes = Shapes::default();
     for input in without_local(&inputs).0 {
         shapes.add_file(input)?;

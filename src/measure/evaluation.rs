@@ -316,7 +316,7 @@ mod tests {
         }
         // A shape is near itself where it is not left out: what leave-one-out is for.
         let itself = evaluate(&model, 3, few, false, rigid).unwrap();
-        assert!(itself.generalization[20] < 0.5 * alone.generalization[20], "trained on them");
+        assert!(itself.generalization[9] < 0.8 * alone.generalization[9], "trained on them");
         assert_eq!(itself.specificity[..5], alone.specificity[..5], "the same random shapes");
     }
 
