@@ -12,6 +12,8 @@ import { demoSource, first, isOpen, wantedOf } from "./sources";
 import {
   camera,
   demo,
+  diagnosedMode,
+  diagnosedSide,
   exaggeration,
   mapMode,
   painting,
@@ -92,6 +94,8 @@ export function currentLink(): string {
     map: vertexMap.value,
     mapMode: mapMode.value,
     vertex: vertex.value,
+    side: diagnosedSide.value,
+    coefficient: diagnosedMode.value,
     region: region.value,
     picture: picture.value,
     exaggeration: settledExaggeration.value,
@@ -118,6 +122,8 @@ const step = computed(() => {
     vertexMap.value,
     mapMode.value,
     vertex.value,
+    diagnosedSide.value,
+    diagnosedMode.value,
     region.value,
     picture.value,
     settledExaggeration.value,
@@ -273,6 +279,8 @@ export function apply(link: LinkState): void {
     vertexMap.value = link.map;
     mapMode.value = link.mapMode;
     vertex.value = link.vertex;
+    diagnosedSide.value = link.side;
+    diagnosedMode.value = link.coefficient;
     region.value = link.region;
     picture.value = link.picture;
     exaggeration.value = link.exaggeration;

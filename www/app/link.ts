@@ -90,6 +90,9 @@ export interface LinkState {
   mapMode: number;
   /** The vertex that is looked at. */
   vertex: number | null;
+  /** Whose draws are diagnosed, and which coefficient, from 0; null for the worst. */
+  side: "a" | "b" | null;
+  coefficient: number | null;
   /** The region shown alone, if one is. */
   region: Region | null;
   picture: Picture;
@@ -115,6 +118,8 @@ export function defaultLink(): LinkState {
     map: "sd",
     mapMode: 0,
     vertex: null,
+    side: null,
+    coefficient: null,
     region: null,
     picture: "draws",
     exaggeration: 0,
@@ -151,6 +156,8 @@ export function writeLink(state: LinkState): string {
   if (state.map !== "sd") pairs.push(["map", state.map]);
   if (state.mapMode !== 0) pairs.push(["mode", state.mapMode + 1]);
   if (state.vertex !== null) pairs.push(["vertex", state.vertex]);
+  if (state.side) pairs.push(["side", state.side]);
+  if (state.coefficient !== null) pairs.push(["coefficient", state.coefficient + 1]);
   if (state.region) pairs.push(["region", state.region]);
   if (state.picture !== "draws") pairs.push(["picture", state.picture]);
   if (state.exaggeration !== 0) pairs.push(["exaggerate", state.exaggeration]);
@@ -219,6 +226,8 @@ export function readLink(fragment: string): LinkState {
     map: oneOf(given.get("map"), MAPS) ?? fallback.map,
     mapMode: valid(parseCount(given.get("mode") ?? "", ...RANGES.modes), 1) - 1,
     vertex: valid<number | null>(parseCount(given.get("vertex") ?? "", 0, MOST_VERTICES), null),
+    side: oneOf(given.get("side"), ["a", "b"] as const) ?? null,
+    coefficient: readCoefficient(given.get("coefficient")),
     view: oneOf(given.get("view"), VIEW_MODES) ?? fallback.view,
     region: oneOf(given.get("region"), REGIONS) ?? null,
     picture: oneOf(given.get("picture"), PICTURES) ?? fallback.picture,
@@ -303,6 +312,11 @@ export function misread(fragment: string): string[] {
     const value = given.get(key);
     return value === null || known.includes(value) ? [] : `${key}=${value}`;
   });
+}
+
+function readCoefficient(text: string | null): number | null {
+  const mode = parseCount(text ?? "", ...RANGES.modes);
+  return mode === "invalid" ? null : mode - 1;
 }
 
 function readExaggeration(text: string | null): number {
