@@ -162,11 +162,18 @@ export function writeLink(state: LinkState): string {
   if (state.picture !== "draws") pairs.push(["picture", state.picture]);
   if (state.exaggeration !== 0) pairs.push(["exaggerate", state.exaggeration]);
   if (state.shapes !== "1") pairs.push(["shapes", state.shapes]);
-  if (state.shelf.length > 0) pairs.push(["shelf", state.shelf.join(",")]);
-  if (state.measure !== "variance") pairs.push(["measure", state.measure]);
+  pairs.push(...tablePairs(state));
   const turned = cameraText(camera);
   if (turned !== cameraText(HOME)) pairs.push(["camera", turned]);
   return pairs.map(([key, value]) => `${key}=${escapeValue(String(value))}`).join("&");
+}
+
+/** The table of several models, where there are several. */
+function tablePairs({ shelf, measure }: LinkState): [string, string][] {
+  const pairs: [string, string][] = [];
+  if (shelf.length > 0) pairs.push(["shelf", shelf.join(",")]);
+  if (measure !== "variance") pairs.push(["measure", measure]);
+  return pairs;
 }
 
 /** Settings that links leave out while they are the default, to stay short. */
