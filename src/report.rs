@@ -86,6 +86,12 @@ pub struct ModelReport {
     /// The unit that the extent of the mean shape suggests, where the file states none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit_guess: Option<Unit>,
+    /// Which model of its file it is: "shape", "expression", a group's name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub part: Option<String>,
+    /// [`LinearModel::fingerprint`] of the model as it was read, before anything was done to it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fingerprint: Option<String>,
 }
 
 impl ModelReport {
@@ -113,6 +119,8 @@ impl ModelReport {
             orthogonality: None,
             dropped_modes: None,
             unit_guess: None,
+            part: None,
+            fingerprint: None,
         }
     }
 }

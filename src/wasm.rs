@@ -5,6 +5,7 @@
 //! [`Engine`] and measures time; nothing here knows a clock.
 
 mod blobs;
+mod diagnosing;
 mod exploring;
 
 use std::collections::BTreeMap;

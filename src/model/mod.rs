@@ -11,6 +11,7 @@
 //! for all its copies.
 
 mod combination;
+mod fingerprint;
 mod linear_model;
 mod normals;
 mod points;

@@ -5,6 +5,7 @@
  * back to the default, and what is not given is the default.
  */
 import type {
+  MapName,
   Picture,
   PointSelection,
   Preparation,
@@ -12,7 +13,7 @@ import type {
   Settings,
   SidePreparation,
 } from "../worker/protocol";
-import { FIRST_DEMO, findDemo } from "./demos";
+import { DEMO_MODELS, FIRST_DEMO, findDemo } from "./demos";
 import { UNITS } from "./preparation";
 import { parseRanges } from "./ranges";
 import {
@@ -35,12 +36,26 @@ import {
   SIDES_USED,
   SUBSAMPLE,
 } from "./settings";
+import { MEASURE_NAMES, type MeasureName } from "./shelf/measures";
 import { type Camera, HOME } from "./viewer/camera";
 
 export const LINK_VERSION = 1;
 
 export type ViewMode = "mean" | "samples" | "sd";
 export const VIEW_MODES: ViewMode[] = ["mean", "samples", "sd"];
+/** Parts of the page, each with its own look at the same comparison. */
+export type Room = "regions" | "explore" | "measures" | "diagnostics" | "models";
+export const ROOMS: Room[] = ["regions", "explore", "measures", "diagnostics", "models"];
+/** What can be coloured onto the vertices in the view "sd", which older links know by that name alone. */
+export const MAPS: MapName[] = [
+  "sd",
+  "sd-normal",
+  "sd-tangential",
+  "distance",
+  "means",
+  "ratio",
+  "mode",
+];
 export const REGIONS: Region[] = ["a", "aWithoutB", "intersection", "bWithoutA", "b"];
 
 /** What of a link is settings of the run. */
@@ -53,6 +68,8 @@ export const SETTING_KEYS = (
 /** Longer links are cut by the programs that pass them on. */
 const LONGEST_RANGES = 2000;
 
+const MOST_VERTICES = 1e7;
+
 /** As the slider has it. */
 export const MOST_EXAGGERATION = 5;
 const PICTURES: Picture[] = ["draws", "exclusiveModes"];
@@ -61,11 +78,21 @@ const PICTURES: Picture[] = ["draws", "exclusiveModes"];
 export interface LinkState {
   /** A pair that comes with the page, unless both models have addresses. */
   demo: string;
+  /** `https:…`, or `demo:NAME` of one model that comes with the page. */
   urls: { a: string; b: string } | null;
   /** Parts of the files at these addresses; null for the first. */
   parts: { a: string | null; b: string | null };
   settings: Settings;
+  room: Room;
   view: ViewMode;
+  map: MapName;
+  /** Which mode the map "mode" is of, from 0. */
+  mapMode: number;
+  /** The vertex that is looked at. */
+  vertex: number | null;
+  /** Whose draws are diagnosed, and which coefficient, from 0; null for the worst. */
+  side: "a" | "b" | null;
+  coefficient: number | null;
   /** The region shown alone, if one is. */
   region: Region | null;
   picture: Picture;
@@ -73,6 +100,10 @@ export interface LinkState {
   exaggeration: number;
   /** Seed of the shapes shown in “Samples”. */
   shapes: string;
+  /** Models that come with the page and are in the table, if there are more than two. */
+  shelf: string[];
+  /** What the table shows of each pair. */
+  measure: MeasureName;
   camera: Camera;
 }
 
@@ -82,11 +113,19 @@ export function defaultLink(): LinkState {
     urls: null,
     parts: { a: null, b: null },
     settings: DEFAULTS,
+    room: "regions",
     view: "mean",
+    map: "sd",
+    mapMode: 0,
+    vertex: null,
+    side: null,
+    coefficient: null,
     region: null,
     picture: "draws",
     exaggeration: 0,
     shapes: "1",
+    shelf: [],
+    measure: "variance",
     camera: HOME,
   };
 }
@@ -113,10 +152,18 @@ export function writeLink(state: LinkState): string {
     ...preparationPairs(settings.prepare),
     ["view", state.view],
   );
+  if (state.room !== "regions") pairs.push(["room", state.room]);
+  if (state.map !== "sd") pairs.push(["map", state.map]);
+  if (state.mapMode !== 0) pairs.push(["mode", state.mapMode + 1]);
+  if (state.vertex !== null) pairs.push(["vertex", state.vertex]);
+  if (state.side) pairs.push(["side", state.side]);
+  if (state.coefficient !== null) pairs.push(["coefficient", state.coefficient + 1]);
   if (state.region) pairs.push(["region", state.region]);
   if (state.picture !== "draws") pairs.push(["picture", state.picture]);
   if (state.exaggeration !== 0) pairs.push(["exaggerate", state.exaggeration]);
   if (state.shapes !== "1") pairs.push(["shapes", state.shapes]);
+  if (state.shelf.length > 0) pairs.push(["shelf", state.shelf.join(",")]);
+  if (state.measure !== "variance") pairs.push(["measure", state.measure]);
   const turned = cameraText(camera);
   if (turned !== cameraText(HOME)) pairs.push(["camera", turned]);
   return pairs.map(([key, value]) => `${key}=${escapeValue(String(value))}`).join("&");
@@ -175,11 +222,19 @@ export function readLink(fragment: string): LinkState {
     urls: a && b && isAddress(a) && isAddress(b) ? { a, b } : null,
     parts: { a: given.get("part-a"), b: given.get("part-b") },
     settings: readSettings(given),
+    room: oneOf(given.get("room"), ROOMS) ?? fallback.room,
+    map: oneOf(given.get("map"), MAPS) ?? fallback.map,
+    mapMode: valid(parseCount(given.get("mode") ?? "", ...RANGES.modes), 1) - 1,
+    vertex: valid<number | null>(parseCount(given.get("vertex") ?? "", 0, MOST_VERTICES), null),
+    side: oneOf(given.get("side"), ["a", "b"] as const) ?? null,
+    coefficient: readCoefficient(given.get("coefficient")),
     view: oneOf(given.get("view"), VIEW_MODES) ?? fallback.view,
     region: oneOf(given.get("region"), REGIONS) ?? null,
     picture: oneOf(given.get("picture"), PICTURES) ?? fallback.picture,
     exaggeration: readExaggeration(given.get("exaggerate")),
     shapes: valid(parseSeed(given.get("shapes") ?? "1"), fallback.shapes),
+    shelf: readShelf(given.get("shelf")),
+    measure: oneOf(given.get("measure"), MEASURE_NAMES) ?? fallback.measure,
     camera: readCamera(given.get("camera")),
   };
 }
@@ -259,6 +314,11 @@ export function misread(fragment: string): string[] {
   });
 }
 
+function readCoefficient(text: string | null): number | null {
+  const mode = parseCount(text ?? "", ...RANGES.modes);
+  return mode === "invalid" ? null : mode - 1;
+}
+
 function readExaggeration(text: string | null): number {
   const value = Number(text ?? 0);
   return value >= 0 && value <= MOST_EXAGGERATION ? value : 0;
@@ -286,7 +346,13 @@ function oneOf<T extends string>(text: string | null, allowed: readonly T[]): T 
 }
 
 function isAddress(text: string): boolean {
-  return /^https?:\/\//.test(text);
+  return /^https?:\/\//.test(text) || DEMO_MODELS.some((name) => text === `demo:${name}`);
+}
+
+/** Each model once, and those that there are. */
+function readShelf(text: string | null): string[] {
+  const names = new Set((text ?? "").split(","));
+  return [...names].filter((name) => DEMO_MODELS.includes(name));
 }
 
 /** Only what would break the fragment: the rest stays readable. */

@@ -6,23 +6,36 @@
  */
 import { EngineFailure } from "./engine-errors";
 import type {
+  Axes,
+  AxesKind,
   BothSides,
+  ChainFigures,
   DroppedFile,
+  Ellipsoid,
+  Evaluation,
+  Explored,
   ExportKind,
   FileGroup,
   FromEngine,
   Geometry,
   Handle,
   Inspection,
+  MapName,
+  Nearest,
+  PairFigures,
   Picture,
   PointSelection,
   Preview,
   Progress,
   Region,
   RegionShapes,
+  Relation,
+  RunFile,
   Settings,
+  Space,
   SweepPoint,
   ToEngine,
+  VertexMap,
 } from "./protocol";
 import { Watch } from "./watch";
 
@@ -174,6 +187,98 @@ export class EngineClient {
   async sweep(signal: AbortSignal, sigmas: number[]): Promise<SweepPoint[]> {
     const request = { t: "sweep", sigmas: Float64Array.from(sigmas) } as const;
     return (await this.#ask(signal, request, "sweep")).points;
+  }
+
+  async axes(signal: AbortSignal, space: Space, kind: AxesKind): Promise<Axes> {
+    return (await this.#ask(signal, { t: "axes", space, kind }, "axes")).axes;
+  }
+
+  /** The shape so many standard deviations along each axis. */
+  async explore(
+    signal: AbortSignal,
+    space: Space,
+    kind: AxesKind,
+    coefficients: readonly number[],
+    follow: boolean,
+  ): Promise<Explored> {
+    const request = { t: "explore", space, kind, follow } as const;
+    const along = Float64Array.from(coefficients);
+    return (await this.#ask(signal, { ...request, coefficients: along }, "explored")).explored;
+  }
+
+  async place(signal: AbortSignal, shape: Float32Array): Promise<BothSides<Nearest>> {
+    return (await this.#ask(signal, { t: "place", shape }, "placed")).placed;
+  }
+
+  /** The shape nearest to the one with these coefficients whose vertex is at the target. */
+  async drag(
+    signal: AbortSignal,
+    space: Space,
+    coefficients: ArrayLike<number>,
+    vertex: number,
+    target: readonly number[],
+    follow: boolean,
+  ): Promise<Explored> {
+    const request = {
+      t: "drag",
+      space,
+      coefficients: Float64Array.from(coefficients),
+      vertex,
+      target: Float64Array.from(target),
+      follow,
+    } as const;
+    return (await this.#ask(signal, request, "explored")).explored;
+  }
+
+  async map(signal: AbortSignal, name: MapName, region: Region, mode = 0): Promise<VertexMap> {
+    return (await this.#ask(signal, { t: "map", name, region, mode }, "map")).map;
+  }
+
+  async ellipsoids(
+    signal: AbortSignal,
+    vertex: number,
+  ): Promise<Partial<Record<Region, Ellipsoid>>> {
+    return (await this.#ask(signal, { t: "ellipsoids", vertex }, "ellipsoids")).ellipsoids;
+  }
+
+  async diagnose(signal: AbortSignal, side: "a" | "b", mode: number): Promise<ChainFigures> {
+    return (await this.#ask(signal, { t: "diagnose", side, mode }, "diagnosed")).figures;
+  }
+
+  async pairs(
+    signal: AbortSignal,
+    side: "a" | "b",
+    modes: number,
+    most: number,
+  ): Promise<PairFigures> {
+    return (await this.#ask(signal, { t: "pairs", side, modes, most }, "pairs")).figures;
+  }
+
+  async relate(
+    signal: AbortSignal,
+    a: Handle,
+    b: Handle,
+    settings: Partial<Settings>,
+  ): Promise<Relation> {
+    return (await this.#ask(signal, { t: "relate", a, b, settings }, "related")).relation;
+  }
+
+  async evaluate(
+    signal: AbortSignal,
+    model: Handle,
+    files: DroppedFile[],
+    training: boolean,
+  ): Promise<Evaluation> {
+    const request = { t: "evaluate", model, files, training } as const;
+    return (await this.#ask(signal, request, "evaluated")).evaluation;
+  }
+
+  async readRun(signal: AbortSignal, text: string): Promise<RunFile> {
+    return (await this.#ask(signal, { t: "readRun", text }, "run")).run;
+  }
+
+  async runFile(signal: AbortSignal, sources: BothSides<string | null>): Promise<string> {
+    return (await this.#ask(signal, { t: "runFile", sources }, "runFile")).text;
   }
 
   async export(signal: AbortSignal, what: ExportKind): Promise<Reply<"exported">> {

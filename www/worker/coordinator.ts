@@ -48,6 +48,18 @@ const BUSY_WITH: Record<Question["t"], string> = {
   preview: "previewing",
   sweep: "trying other σ",
   export: "writing the file",
+  axes: "ordering directions",
+  explore: "drawing the shape",
+  place: "placing the shape",
+  drag: "drawing the shape",
+  map: "mapping the vertices",
+  ellipsoids: "mapping the vertex",
+  diagnose: "reading the draws",
+  pairs: "reading the draws",
+  relate: "relating the models",
+  evaluate: "reading the shapes",
+  readRun: "reading the run file",
+  runFile: "writing the run file",
 };
 
 const POST_EVERY_MS = 250;
@@ -155,6 +167,41 @@ export class Coordinator {
       case "sweep":
         this.#refuseWhileRunning();
         return { t: "sweep", id, points: engine.sweep(message.sigmas) };
+      case "axes":
+        return { t: "axes", id, axes: engine.axes(message.space, message.kind) };
+      case "explore": {
+        const { space, kind, coefficients, follow } = message;
+        return { t: "explored", id, explored: engine.explore(space, kind, coefficients, follow) };
+      }
+      case "place":
+        return { t: "placed", id, placed: engine.place(message.shape) };
+      case "drag": {
+        const { space, coefficients, vertex, target, follow } = message;
+        const explored = engine.drag(space, coefficients, vertex, target, follow);
+        return { t: "explored", id, explored };
+      }
+      case "map":
+        return { t: "map", id, map: engine.map(message.name, message.region, message.mode) };
+      case "ellipsoids":
+        return { t: "ellipsoids", id, ellipsoids: engine.ellipsoids(message.vertex) };
+      case "diagnose":
+        return { t: "diagnosed", id, figures: engine.diagnose(message.side, message.mode) };
+      case "pairs": {
+        const { side, modes, most } = message;
+        return { t: "pairs", id, figures: engine.pairs(side, modes, most) };
+      }
+      case "relate": {
+        const { a, b, settings } = message;
+        return { t: "related", id, relation: engine.relate(a, b, settings) };
+      }
+      case "evaluate": {
+        const { model, files, training } = message;
+        return { t: "evaluated", id, evaluation: engine.evaluate(model, files, training) };
+      }
+      case "readRun":
+        return { t: "run", id, run: engine.readRun(message.text) };
+      case "runFile":
+        return { t: "runFile", id, text: engine.runFile(message.sources) };
       case "export": {
         const { name, mime, bytes } = engine.export(message.what);
         // A copy of its own: what the engine hands out may be a view of its memory.
@@ -267,14 +314,11 @@ export class Coordinator {
 /** Buffers that a reply may give away instead of copying, wherever in it they are. */
 function buffersOf(reply: FromEngine): Transferable[] {
   const buffers = new Set<ArrayBuffer>();
-  for (const value of Object.values(reply) as unknown[]) {
+  const search = (value: unknown) => {
     if (value instanceof ArrayBuffer) buffers.add(value);
-    if (typeof value !== "object" || value === null) continue;
-    for (const inner of Object.values(value)) {
-      if (ArrayBuffer.isView(inner) && inner.buffer instanceof ArrayBuffer) {
-        buffers.add(inner.buffer);
-      }
-    }
-  }
+    else if (ArrayBuffer.isView(value)) search(value.buffer);
+    else if (typeof value === "object" && value !== null) Object.values(value).forEach(search);
+  };
+  search(reply);
   return [...buffers];
 }

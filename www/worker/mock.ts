@@ -2,6 +2,7 @@
  * Development only (`?mock`): an engine that invents its numbers and is slow on purpose, so that
  * loading, running, cancelling and failing can be seen without the real one.
  */
+import { mockExploring } from "./mock-exploring";
 import { type MockModel, packagedHeads, plane, selected, star } from "./mock-models";
 import { comparedPoints, mockInspection, mockPoints } from "./mock-pair";
 import { mockPrediction, mockReport, mockReportOf, mockSweepPoint } from "./mock-report";
@@ -175,6 +176,7 @@ export async function mockEngine(base: string): Promise<Engine> {
         bytes: new TextEncoder().encode(text),
       };
     },
+    ...mockExploring,
     close: (handle) => {
       models.delete(handle);
     },

@@ -3,7 +3,7 @@
  * a change of meaning raises PROTOCOL. Bulk data is typed arrays, transferred, never JSON.
  */
 
-export const PROTOCOL = 3;
+export const PROTOCOL = 4;
 
 /** A model that the engine holds, until `close`. */
 export type Handle = number;
@@ -119,6 +119,8 @@ export interface ModelReport {
   droppedModes?: number;
   /** What the size suggests where the file does not state the unit. */
   unitGuess?: string | null;
+  /** Hash of its content, before anything is done to it. */
+  fingerprint?: string;
 }
 
 export interface Spread {
@@ -229,6 +231,17 @@ export interface DifferenceReport {
     /** Share of the variance that the other model cannot make. */
     unexplained: number;
   } | null;
+  /** A∩B split out of the model as laws, by Hall's linear splitting: a baseline. */
+  linearSplit?: {
+    /** Share of the model that is A∩B. */
+    weight: number;
+    /** From the mean of the difference's draws to the split's mean. */
+    meanToMean: number;
+    /** Share of its variance that is negative: no law has such a covariance. */
+    negativeShare: number;
+    vertexSd: Spread;
+    varianceRatio: number;
+  } | null;
 }
 
 /**
@@ -263,8 +276,12 @@ export interface Report {
     varianceOfBInA: number;
     bhattacharyya: number;
     bhattacharyyaNoise: number;
+    /** With the same noise. */
+    kullbackLeibler?: { aFromB: number; bFromA: number };
     meanToMean: number;
   };
+  /** Share of the variance that the first so many modes hold. */
+  compactness?: { a: number[]; b: number[]; intersection: number[] };
   warnings: { code: string; message: string; hint: string }[];
   seconds: { load: number; prepare: number; sample: number; total: number };
 }
@@ -380,6 +397,136 @@ export interface SweepPoint extends Prediction {
   grassmann: Grassmann;
 }
 
+/** A model whose shapes can be explored: A, B, or that of A∩B. */
+export type Space = "a" | "b" | "intersection";
+
+/**
+ * Directions in which the shapes of a model are explored: its modes; what the other model cannot follow; where its
+ * variance is largest beside the other's; the principal vectors, smallest angle first. Of A∩B only its modes.
+ */
+export type AxesKind = "modes" | "exclusive" | "relative" | "angles";
+
+export interface Axes {
+  space: Space;
+  kind: AxesKind;
+  /** What orders them: SD per point, RMS residual per point, ratio of variances, or degrees. */
+  values: number[];
+  /** RMS over the points of how far one standard deviation along each moves the shape. */
+  reach: number[];
+  /** RMS over the points of what of that step the other model cannot make. */
+  residual: number[];
+  /** Noise τ that is added before variances are divided. */
+  noise: number | null;
+}
+
+/** The nearest shape x′ of a model to a shape x. */
+export interface Nearest {
+  shape: Float32Array;
+  /** ‖x_v − x′_v‖ of every vertex. */
+  residuals: Float32Array;
+  /** Their mean, d(x′, x). */
+  distance: number;
+  /** ‖a′‖. */
+  norm: number;
+  /** Share of the model's own shapes that are less plausible than x′. */
+  plausibility: number;
+  /** L_D at the σ in use. */
+  likelihood: number;
+}
+
+/** One shape of a model, and where it lies to both. */
+export interface Explored {
+  shape: Float32Array;
+  /** In the modes of its model, in standard deviations. */
+  coefficients: Float32Array;
+  norm: number;
+  plausibility: number;
+  placed: BothSides<Nearest> | null;
+}
+
+export type MapName =
+  | "sd"
+  | "sd-normal"
+  | "sd-tangential"
+  | "distance"
+  | "means"
+  | "ratio"
+  | "mode";
+
+export interface VertexMap {
+  values: Float32Array;
+  /** Whether they go both ways from 0. */
+  signed: boolean;
+}
+
+/** Covariance of one vertex. */
+export interface Ellipsoid {
+  centre: number[];
+  /** d × d, column by column: principal semi-axes of one standard deviation, longest first. */
+  axes: number[];
+}
+
+/** What the chains of one side did with one coefficient. */
+export interface ChainFigures {
+  chains: number;
+  /** Draws of each chain that are sent. */
+  length: number;
+  /** Each so-manieth draw is sent. */
+  every: number;
+  /** Chain after chain. */
+  draws: Float32Array;
+  /** d(x′, x) of the same draws. */
+  distances: Float32Array;
+  bins: number;
+  /** Of all draws: chains × bins. */
+  ranks: Uint32Array;
+  /** By lag, the mean over the chains. */
+  autocorrelation: Float32Array;
+}
+
+/** Draws of the first few coefficients of one side, and the Gaussians beside them. */
+export interface PairFigures {
+  modes: number[];
+  count: number;
+  /** count × modes. */
+  draws: Float32Array;
+  mean: number[];
+  covariance: number[];
+  fit: { mean: number[]; covariance: number[] } | null;
+}
+
+/** Two models beside one another, without any draws. */
+export interface Relation {
+  problem: EngineError | null;
+  points: number;
+  varianceOfAInB: number;
+  varianceOfBInA: number;
+  grassmann: number;
+  grassmannAffine: number;
+  anglesDegrees: number[];
+  meanToMean: number;
+  bhattacharyya: number | null;
+  noise: number;
+}
+
+/** Generalization and specificity (Davies) of the first so many modes, as mean vertex distances. */
+export interface Evaluation {
+  shapes: number;
+  method: "test" | "leave-one-out" | "folds";
+  folds: number;
+  modes: number[];
+  generalization: number[];
+  generalizationError: number[];
+  specificity: number[];
+  specificityError: number[];
+}
+
+/** A file that runs a comparison again. */
+export interface RunFile {
+  models: BothSides<{ name: string; part: string; source: string | null; fingerprint: string }>;
+  settings: Settings;
+}
+
 export type Stage = "prepare" | "fit" | "intersection" | "differences" | "measure" | "done";
 
 export interface Progress {
@@ -411,6 +558,8 @@ export type ExportKind =
   | { kind: "draws-csv" }
   | { kind: "report-json" }
   | { kind: "report-csv" }
+  | { kind: "modes-csv" }
+  | { kind: "coefficients-csv" }
   /** index −1 is the mean, else a sample; the rest as in `region`, so that the file is what is seen. */
   | {
       kind: "ply" | "obj" | "glb";
@@ -452,6 +601,40 @@ export type ToEngine =
   | { t: "preview"; id: number; sigma: number; count: number; seed: string }
   /** The same numbers at several σ, without shapes. Refused while a run goes on. */
   | { t: "sweep"; id: number; sigmas: Float64Array }
+  /** Everything below asks of the comparison that the engine holds. */
+  | { t: "axes"; id: number; space: Space; kind: AxesKind }
+  /** `coefficients`: one for each axis, the last ones may be left out. */
+  | {
+      t: "explore";
+      id: number;
+      space: Space;
+      kind: AxesKind;
+      coefficients: Float64Array;
+      follow: boolean;
+    }
+  /** Where a shape lies, whatever made it. */
+  | { t: "place"; id: number; shape: Float32Array }
+  /** The shape of least change whose vertex is at `target`; coefficients in the modes of the space. */
+  | {
+      t: "drag";
+      id: number;
+      space: Space;
+      coefficients: Float64Array;
+      vertex: number;
+      target: Float64Array;
+      follow: boolean;
+    }
+  | { t: "map"; id: number; name: MapName; region: Region; mode: number }
+  | { t: "ellipsoids"; id: number; vertex: number }
+  | { t: "diagnose"; id: number; side: "a" | "b"; mode: number }
+  | { t: "pairs"; id: number; side: "a" | "b"; modes: number; most: number }
+  /** Of any two models that are open. */
+  | { t: "relate"; id: number; a: Handle; b: Handle; settings: Partial<Settings> }
+  /** Shapes to test a model with, or those that it was made of. */
+  | { t: "evaluate"; id: number; model: Handle; files: DroppedFile[]; training: boolean }
+  /** The text of a run file, or of a report. */
+  | { t: "readRun"; id: number; text: string }
+  | { t: "runFile"; id: number; sources: BothSides<string | null> }
   | { t: "export"; id: number; what: ExportKind }
   | { t: "close"; model: Handle };
 
@@ -483,6 +666,17 @@ export type FromEngine =
   | ({ t: "preview"; id: number } & Preview)
   /** Without the σ at which the fit breaks down. */
   | { t: "sweep"; id: number; points: SweepPoint[] }
+  | { t: "axes"; id: number; axes: Axes }
+  | { t: "explored"; id: number; explored: Explored }
+  | { t: "placed"; id: number; placed: BothSides<Nearest> }
+  | { t: "map"; id: number; map: VertexMap }
+  | { t: "ellipsoids"; id: number; ellipsoids: Partial<Record<Region, Ellipsoid>> }
+  | { t: "diagnosed"; id: number; figures: ChainFigures }
+  | { t: "pairs"; id: number; figures: PairFigures }
+  | { t: "related"; id: number; relation: Relation }
+  | { t: "evaluated"; id: number; evaluation: Evaluation }
+  | { t: "run"; id: number; run: RunFile }
+  | { t: "runFile"; id: number; text: string }
   | { t: "exported"; id: number; name: string; mime: string; bytes: ArrayBuffer }
   | ({ t: "error"; id: number } & EngineError)
   | { t: "fatal"; message: string };
@@ -519,6 +713,24 @@ export interface Engine {
   ): RegionShapes;
   preview(sigma: number, count: number, seed: string): Preview;
   sweep(sigmas: Float64Array): SweepPoint[];
+  axes(space: Space, kind: AxesKind): Axes;
+  explore(space: Space, kind: AxesKind, coefficients: Float64Array, follow: boolean): Explored;
+  place(shape: Float32Array): BothSides<Nearest>;
+  drag(
+    space: Space,
+    coefficients: Float64Array,
+    vertex: number,
+    target: Float64Array,
+    follow: boolean,
+  ): Explored;
+  map(name: MapName, region: Region, mode: number): VertexMap;
+  ellipsoids(vertex: number): Partial<Record<Region, Ellipsoid>>;
+  diagnose(side: "a" | "b", mode: number): ChainFigures;
+  pairs(side: "a" | "b", modes: number, most: number): PairFigures;
+  relate(a: Handle, b: Handle, settings: Partial<Settings>): Relation;
+  evaluate(model: Handle, files: DroppedFile[], training: boolean): Evaluation;
+  readRun(text: string): RunFile;
+  runFile(sources: BothSides<string | null>): string;
   export(what: ExportKind): { name: string; mime: string; bytes: Uint8Array };
   close(model: Handle): void;
 }

@@ -1,13 +1,19 @@
-import { demo, spoken } from "../state";
+import { demo, room, spoken } from "../state";
 import { About } from "./About";
 import { Chooser } from "./Chooser";
+import { Diagnostics } from "./Diagnostics";
 import { Downloads } from "./Downloads";
 import { DropOverlay } from "./DropOverlay";
+import { Explorer } from "./Explorer";
 import { Header } from "./Header";
+import { Measures } from "./Measures";
 import { ModelCard } from "./ModelCard";
+import { ModelTable } from "./ModelTable";
 import { Notices } from "./Notices";
 import { PairCard } from "./PairCard";
 import { Headline, Results } from "./Results";
+import { Rooms } from "./Rooms";
+import { RunFileCard } from "./RunFileCard";
 import { RunPanel } from "./RunPanel";
 import { SettingsPanel } from "./SettingsPanel";
 import { Stage } from "./Stage";
@@ -21,11 +27,16 @@ export function App() {
           <Notices place="page" />
           <Notices place="link" />
           <Headline />
+          <Rooms />
           <Stage />
+          {room.value === "measures" && <Measures />}
+          {room.value === "diagnostics" && <Diagnostics />}
+          {room.value === "models" && <ModelTable />}
         </div>
         <div class="rail models">
           <ModelCard side="a" />
           <ModelCard side="b" />
+          <RunFileCard />
           <p class="privacy">
             {demo.value && `${demo.value.note} `}
             Drop files or folders anywhere. Your files stay on this computer.
@@ -35,6 +46,7 @@ export function App() {
           <SettingsPanel />
         </div>
         <div class="rail reading">
+          {room.value === "explore" && <Explorer />}
           <Results />
           <Downloads />
           <About />

@@ -9,6 +9,7 @@ import {
   painting,
   region,
   result,
+  room,
   run,
   shapes,
   slots,
@@ -44,6 +45,7 @@ export function Stage() {
     <section
       class="stage"
       aria-label="Shapes"
+      hidden={room.value !== "regions" && room.value !== "explore"}
       data-region={alone.value ?? "all"}
       data-view={view.value}
       data-paint={painting.value?.tool}

@@ -1,0 +1,4 @@
+/** Sliders and what they say, beside the stage. */
+export function Explorer() {
+  return <section class="explorer" aria-label="Explorer" />;
+}
