@@ -2,6 +2,7 @@
 import { batch, computed, effect, untracked } from "@preact/signals";
 import type { PointSelection } from "../worker/protocol";
 import { findDemo } from "./demos";
+import { applyExplorer, settledExplorer } from "./explore/state";
 import { fitsLink, type LinkState, readLink, writeLink } from "./link";
 import { demoModels, openPair } from "./models";
 import {
@@ -65,6 +66,7 @@ export function currentLink(): string {
     map: vertexMap.value,
     mapMode: mapMode.value,
     vertex: vertex.value,
+    explorer: settledExplorer.value,
     region: region.value,
     picture: picture.value,
     exaggeration: exaggeration.value,
@@ -89,6 +91,7 @@ const step = computed(() => {
     vertexMap.value,
     mapMode.value,
     vertex.value,
+    settledExplorer.value,
     region.value,
     picture.value,
   ]);
@@ -194,6 +197,7 @@ export function apply(link: LinkState): void {
     vertexMap.value = link.map;
     mapMode.value = link.mapMode;
     vertex.value = link.vertex;
+    applyExplorer(link.explorer);
     region.value = link.region;
     picture.value = link.picture;
     exaggeration.value = link.exaggeration;

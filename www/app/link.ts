@@ -14,6 +14,7 @@ import type {
   SidePreparation,
 } from "../worker/protocol";
 import { FIRST_DEMO, findDemo } from "./demos";
+import { defaultExplorer, type ExplorerState, readExplorer, writeExplorer } from "./explore/codec";
 import { UNITS } from "./preparation";
 import { parseRanges } from "./ranges";
 import {
@@ -88,6 +89,7 @@ export interface LinkState {
   mapMode: number;
   /** The vertex that is looked at. */
   vertex: number | null;
+  explorer: ExplorerState;
   /** The region shown alone, if one is. */
   region: Region | null;
   picture: Picture;
@@ -109,6 +111,7 @@ export function defaultLink(): LinkState {
     map: "sd",
     mapMode: 0,
     vertex: null,
+    explorer: defaultExplorer(),
     region: null,
     picture: "draws",
     exaggeration: 0,
@@ -143,6 +146,7 @@ export function writeLink(state: LinkState): string {
   if (state.map !== "sd") pairs.push(["map", state.map]);
   if (state.mapMode !== 0) pairs.push(["mode", state.mapMode + 1]);
   if (state.vertex !== null) pairs.push(["vertex", state.vertex]);
+  pairs.push(...writeExplorer(state.explorer));
   if (state.region) pairs.push(["region", state.region]);
   if (state.picture !== "draws") pairs.push(["picture", state.picture]);
   if (state.exaggeration !== 0) pairs.push(["exaggerate", state.exaggeration]);
@@ -209,6 +213,7 @@ export function readLink(fragment: string): LinkState {
     map: oneOf(given.get("map"), MAPS) ?? fallback.map,
     mapMode: valid(parseCount(given.get("mode") ?? "", ...RANGES.modes), 1) - 1,
     vertex: valid<number | null>(parseCount(given.get("vertex") ?? "", 0, MOST_VERTICES), null),
+    explorer: readExplorer(given),
     view: oneOf(given.get("view"), VIEW_MODES) ?? fallback.view,
     region: oneOf(given.get("region"), REGIONS) ?? null,
     picture: oneOf(given.get("picture"), PICTURES) ?? fallback.picture,
