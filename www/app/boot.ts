@@ -5,11 +5,15 @@ import { FIRST_DEMO } from "./demos";
 import { engineClient } from "./engine";
 import { watchExplorer } from "./explore/asking";
 import { watchPlaying } from "./explore/playing";
-import { apply, keepLink, modelsOf } from "./history";
+import { apply, keepLink, modelsOf, shelfOf } from "./history";
 import { type LinkState, misread, readLink, SETTING_KEYS } from "./link";
 import { demoModels, openPair } from "./models";
 import { watchPair } from "./pair";
+import { watchRunFile } from "./runfile/run";
 import { settingsKey } from "./settings";
+import { restoreShelf } from "./shelf/actions";
+import { watchMatrix } from "./shelf/matrix";
+import { watchEngine } from "./shelf/reopen";
 import { notify, nouns, pageState, result, run } from "./state";
 import { fetchStored } from "./stored";
 import { watchTheme } from "./theme";
@@ -20,6 +24,7 @@ export async function boot(): Promise<void> {
   tellMisread();
   watchTheme();
   watchDocument();
+  watchEngine();
   engineClient();
   const models = openModels(link);
   const stored = await fetchStored();
@@ -36,8 +41,11 @@ export async function boot(): Promise<void> {
   watchPictures();
   watchExplorer();
   watchPlaying();
+  watchMatrix();
+  watchRunFile();
   await models;
   keepLink();
+  await restoreShelf(shelfOf(link));
 }
 
 /** Whether the address asks for the stored comparison, as an address that says nothing does. */

@@ -13,8 +13,8 @@ import type {
   Settings,
   SidePreparation,
 } from "../worker/protocol";
-import { FIRST_DEMO, findDemo } from "./demos";
 import { defaultExplorer, type ExplorerState, readExplorer, writeExplorer } from "./explore/codec";
+import { DEMO_MODELS, FIRST_DEMO, findDemo } from "./demos";
 import { UNITS } from "./preparation";
 import { parseRanges } from "./ranges";
 import {
@@ -37,6 +37,7 @@ import {
   SIDES_USED,
   SUBSAMPLE,
 } from "./settings";
+import { MEASURE_NAMES, type MeasureName } from "./shelf/measures";
 import { type Camera, HOME } from "./viewer/camera";
 
 export const LINK_VERSION = 1;
@@ -78,6 +79,7 @@ const PICTURES: Picture[] = ["draws", "exclusiveModes"];
 export interface LinkState {
   /** A pair that comes with the page, unless both models have addresses. */
   demo: string;
+  /** `https:…`, or `demo:NAME` of one model that comes with the page. */
   urls: { a: string; b: string } | null;
   /** Parts of the files at these addresses; null for the first. */
   parts: { a: string | null; b: string | null };
@@ -90,6 +92,9 @@ export interface LinkState {
   /** The vertex that is looked at. */
   vertex: number | null;
   explorer: ExplorerState;
+  /** Whose draws are diagnosed, and which coefficient, from 0; null for the worst. */
+  side: "a" | "b" | null;
+  coefficient: number | null;
   /** The region shown alone, if one is. */
   region: Region | null;
   picture: Picture;
@@ -97,6 +102,10 @@ export interface LinkState {
   exaggeration: number;
   /** Seed of the shapes shown in “Samples”. */
   shapes: string;
+  /** Models that come with the page and are in the table, if there are more than two. */
+  shelf: string[];
+  /** What the table shows of each pair. */
+  measure: MeasureName;
   camera: Camera;
 }
 
@@ -112,10 +121,14 @@ export function defaultLink(): LinkState {
     mapMode: 0,
     vertex: null,
     explorer: defaultExplorer(),
+    side: null,
+    coefficient: null,
     region: null,
     picture: "draws",
     exaggeration: 0,
     shapes: "1",
+    shelf: [],
+    measure: "variance",
     camera: HOME,
   };
 }
@@ -147,10 +160,14 @@ export function writeLink(state: LinkState): string {
   if (state.mapMode !== 0) pairs.push(["mode", state.mapMode + 1]);
   if (state.vertex !== null) pairs.push(["vertex", state.vertex]);
   pairs.push(...writeExplorer(state.explorer));
+  if (state.side) pairs.push(["side", state.side]);
+  if (state.coefficient !== null) pairs.push(["coefficient", state.coefficient + 1]);
   if (state.region) pairs.push(["region", state.region]);
   if (state.picture !== "draws") pairs.push(["picture", state.picture]);
   if (state.exaggeration !== 0) pairs.push(["exaggerate", state.exaggeration]);
   if (state.shapes !== "1") pairs.push(["shapes", state.shapes]);
+  if (state.shelf.length > 0) pairs.push(["shelf", state.shelf.join(",")]);
+  if (state.measure !== "variance") pairs.push(["measure", state.measure]);
   const turned = cameraText(camera);
   if (turned !== cameraText(HOME)) pairs.push(["camera", turned]);
   return pairs.map(([key, value]) => `${key}=${escapeValue(String(value))}`).join("&");
@@ -214,11 +231,15 @@ export function readLink(fragment: string): LinkState {
     mapMode: valid(parseCount(given.get("mode") ?? "", ...RANGES.modes), 1) - 1,
     vertex: valid<number | null>(parseCount(given.get("vertex") ?? "", 0, MOST_VERTICES), null),
     explorer: readExplorer(given),
+    side: oneOf(given.get("side"), ["a", "b"] as const) ?? null,
+    coefficient: readCoefficient(given.get("coefficient")),
     view: oneOf(given.get("view"), VIEW_MODES) ?? fallback.view,
     region: oneOf(given.get("region"), REGIONS) ?? null,
     picture: oneOf(given.get("picture"), PICTURES) ?? fallback.picture,
     exaggeration: readExaggeration(given.get("exaggerate")),
     shapes: valid(parseSeed(given.get("shapes") ?? "1"), fallback.shapes),
+    shelf: readShelf(given.get("shelf")),
+    measure: oneOf(given.get("measure"), MEASURE_NAMES) ?? fallback.measure,
     camera: readCamera(given.get("camera")),
   };
 }
@@ -298,6 +319,11 @@ export function misread(fragment: string): string[] {
   });
 }
 
+function readCoefficient(text: string | null): number | null {
+  const mode = parseCount(text ?? "", ...RANGES.modes);
+  return mode === "invalid" ? null : mode - 1;
+}
+
 function readExaggeration(text: string | null): number {
   const value = Number(text ?? 0);
   return value >= 0 && value <= MOST_EXAGGERATION ? value : 0;
@@ -325,7 +351,13 @@ function oneOf<T extends string>(text: string | null, allowed: readonly T[]): T 
 }
 
 function isAddress(text: string): boolean {
-  return /^https?:\/\//.test(text);
+  return /^https?:\/\//.test(text) || DEMO_MODELS.some((name) => text === `demo:${name}`);
+}
+
+/** Each model once, and those that there are. */
+function readShelf(text: string | null): string[] {
+  const names = new Set((text ?? "").split(","));
+  return [...names].filter((name) => DEMO_MODELS.includes(name));
 }
 
 /** Only what would break the fragment: the rest stays readable. */

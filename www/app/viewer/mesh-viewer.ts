@@ -198,12 +198,12 @@ export class MeshViewer implements Viewer {
     this.#hideAll();
     for (const object of objects) object.visible = true;
     const ratio = this.#renderer.getPixelRatio();
-    // The canvas may be out of sight, where it has no size.
-    const { width, height } = this.#size;
-    this.#size = { width: Math.max(width, size), height: Math.max(height, size) };
-    this.#renderer.setSize(this.#size.width, this.#size.height, false);
-    const side = Math.floor(size);
-    const cell = { x: 0, y: 0, width: side, height: side };
+    // Drawn on the canvas of the stage, which has no size while another room is looked at.
+    const stage = this.#size;
+    this.#size = { width: Math.max(size, stage.width), height: Math.max(size, stage.height) };
+    const resized = this.#size.width !== stage.width || this.#size.height !== stage.height;
+    if (resized) this.#renderer.setSize(this.#size.width, this.#size.height, false);
+    const cell = { x: 0, y: 0, width: size, height: size };
     this.#renderer.setScissorTest(false);
     this.#renderer.clear();
     const camera = this.#camera;
@@ -211,11 +211,11 @@ export class MeshViewer implements Viewer {
     this.#draw(cell, frame);
     this.#camera = camera;
     const copy = document.createElement("canvas");
-    copy.width = copy.height = Math.round(side * ratio);
+    copy.width = copy.height = Math.round(size * ratio);
     copy.getContext("2d")?.drawImage(this.#canvas, 0, 0);
     discard(objects);
-    this.#size = { width, height };
-    this.#renderer.setSize(width, height, false);
+    this.#size = stage;
+    if (resized) this.#renderer.setSize(stage.width, stage.height, false);
     this.#render();
     return copy;
   }
