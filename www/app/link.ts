@@ -13,8 +13,8 @@ import type {
   Settings,
   SidePreparation,
 } from "../worker/protocol";
-import { defaultExplorer, type ExplorerState, readExplorer, writeExplorer } from "./explore/codec";
 import { DEMO_MODELS, FIRST_DEMO, findDemo } from "./demos";
+import { defaultExplorer, type ExplorerState, readExplorer, writeExplorer } from "./explore/codec";
 import { UNITS } from "./preparation";
 import { parseRanges } from "./ranges";
 import {
@@ -155,22 +155,34 @@ export function writeLink(state: LinkState): string {
     ...preparationPairs(settings.prepare),
     ["view", state.view],
   );
-  if (state.room !== "regions") pairs.push(["room", state.room]);
-  if (state.map !== "sd") pairs.push(["map", state.map]);
-  if (state.mapMode !== 0) pairs.push(["mode", state.mapMode + 1]);
-  if (state.vertex !== null) pairs.push(["vertex", state.vertex]);
-  pairs.push(...writeExplorer(state.explorer));
-  if (state.side) pairs.push(["side", state.side]);
-  if (state.coefficient !== null) pairs.push(["coefficient", state.coefficient + 1]);
-  if (state.region) pairs.push(["region", state.region]);
-  if (state.picture !== "draws") pairs.push(["picture", state.picture]);
-  if (state.exaggeration !== 0) pairs.push(["exaggerate", state.exaggeration]);
-  if (state.shapes !== "1") pairs.push(["shapes", state.shapes]);
-  if (state.shelf.length > 0) pairs.push(["shelf", state.shelf.join(",")]);
-  if (state.measure !== "variance") pairs.push(["measure", state.measure]);
+  pairs.push(...lookPairs(state));
   const turned = cameraText(camera);
   if (turned !== cameraText(HOME)) pairs.push(["camera", turned]);
   return pairs.map(([key, value]) => `${key}=${escapeValue(String(value))}`).join("&");
+}
+
+/** How the comparison is looked at, as far as that is not as at first. */
+function lookPairs(state: LinkState): [string, string | number][] {
+  const first = defaultLink();
+  const plain = (
+    [
+      ["room", state.room, first.room],
+      ["map", state.map, first.map],
+      ["mode", state.mapMode + 1, first.mapMode + 1],
+      ["vertex", state.vertex, first.vertex],
+      ["side", state.side, first.side],
+      ["coefficient", state.coefficient === null ? null : state.coefficient + 1, null],
+      ["region", state.region, first.region],
+      ["picture", state.picture, first.picture],
+      ["exaggerate", state.exaggeration, first.exaggeration],
+      ["shapes", state.shapes, first.shapes],
+      ["shelf", state.shelf.join(","), first.shelf.join(",")],
+      ["measure", state.measure, first.measure],
+    ] as const
+  ).flatMap(([key, value, standard]): [string, string | number][] =>
+    value === standard || value === null ? [] : [[key, value]],
+  );
+  return [...plain, ...writeExplorer(state.explorer)];
 }
 
 /** Settings that links leave out while they are the default, to stay short. */
