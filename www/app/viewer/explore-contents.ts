@@ -154,11 +154,16 @@ function backdrop(scene: Scene, pane: ExplorePane): PaneContent | null {
   return contentOf({ ...scene, mode: "mean" }, pane);
 }
 
-/** What the numbers on the colour bar go up to: the next round number, so that colours do not flicker. */
+/** Of a hundred values one may lie beyond the colours: a frayed rim would leave all others dark. */
+const WITHIN = 0.99;
+
+/** What the numbers on the colour bar go up to: a round number, so that colours do not flicker. */
 export function heatEnd(maps: readonly Float32Array[]): number {
-  let most = 0;
-  for (const map of maps) for (const value of map) if (value > most) most = value;
-  return roundUp(most);
+  const ends = maps.map((map) => {
+    const ordered = map.slice().sort();
+    return ordered[Math.ceil(WITHIN * (ordered.length - 1))] ?? 0;
+  });
+  return roundUp(Math.max(0, ...ends));
 }
 
 /** The next of …, 0.1, 0.2, 0.5, 1, 2, 5, … */

@@ -69,7 +69,7 @@ export function ExploreBar() {
           checked={heat}
           onChange={(event) => choose({ heat: event.currentTarget.checked })}
         />
-        Colour what is missed
+        Colour misses
       </label>
       {heat && (
         <label class="check">

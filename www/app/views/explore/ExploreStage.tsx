@@ -14,7 +14,7 @@ import { ExploreBar } from "./ExploreBar";
 export function ExploreStage() {
   const kind = dimension.value;
   return (
-    <section class="stage explore-stage" aria-label="Explored shapes">
+    <section class="stage explore-stage" aria-label="Explored shapes" data-region="all">
       <ExploreBar />
       <div class="field-of-view">
         {kind !== null && <Panes key={kind} flat={kind === 2} />}
@@ -65,7 +65,7 @@ function Panes({ flat }: { flat: boolean }) {
               }}
             />
             <p class="pane-label">
-              <strong>{SIGNS[name]}</strong> <span class="pane-meaning">{meaning(name)}</span>
+              <strong>{sign(name)}</strong> <span class="pane-meaning">{meaning(name)}</span>
             </p>
           </div>
         ))}
@@ -85,6 +85,13 @@ function canvasLabel(): string {
   return space === "intersection"
     ? "A shape of A∩B, and the nearest of A and of B"
     : `A shape of ${SIGNS[space]}, and the nearest of ${SIGNS[otherOf(space)]}`;
+}
+
+/** The middle is A∩B only while that is driven. */
+function sign(pane: ExplorePane): string {
+  const { space, kind } = explorer.value;
+  if (pane !== "intersection" || space === "intersection") return SIGNS[pane];
+  return kind === "angles" ? "A–B" : "A, B";
 }
 
 /** What a pane shows, as the driven model has it. */
