@@ -76,7 +76,7 @@ function Triangle({ figures, width }: { figures: PairFigures; width: number }) {
           )
           .join("");
         return (
-          <g key={`${i} ${j}`} class="pair">
+          <g key={`${i} ${j}`} class="pair-cell">
             <rect class="cell" x={left} y={top} width={size} height={size} />
             <path class="dots" d={dots} />
             {fit && <Ellipses law={fit} i={i} j={j} x={x} y={y} kind="fit" />}
@@ -207,7 +207,7 @@ function PairLegend({ fit }: { fit: boolean }) {
   return (
     <ul class="legend" aria-hidden="true">
       <li>
-        <svg viewBox="0 0 22 10" aria-hidden="true" class="pair">
+        <svg viewBox="0 0 22 10" aria-hidden="true" class="pair-cell">
           <path class="dots" d="M4 7h0M9 4h0M14 6h0M18 3h0" />
         </svg>
         draws
