@@ -16,7 +16,7 @@ export function CoefficientChooser({ report, chosen }: Props) {
   const modes = both?.[chosen.side].essBulk.length ?? report.models[chosen.side].modes;
   const worst = worstCoefficient(report, chosen.side);
   const apart = (both?.[chosen.side].rHat[worst.mode] ?? 1) >= R_HAT;
-  const why = apart ? "chains agree least" : "fewest draws that count";
+  const why = apart ? "the largest R-hat" : "the lowest ESS";
   return (
     <div class="toolbar coefficient-chooser">
       <fieldset class="segments">
