@@ -1,5 +1,4 @@
 /** Tables as CSV (RFC 4180). Every number has all its digits, whatever the table rounds it to. */
-import { saveBlob } from "./download";
 
 /** Lines as the engine ends them in its own tables. */
 const END = "\r\n";
@@ -38,8 +37,4 @@ export function rowsOf(table: TableRows): string[][] {
 function wordsOf(cell: TableCell): string {
   const text = (cell.textContent ?? "").replace(/\s+/g, " ").trim();
   return text === "–" ? "" : text;
-}
-
-export function saveTable(name: string, table: HTMLTableElement): void {
-  saveBlob(`${name}.csv`, new Blob([csvText(rowsOf(table))], { type: "text/csv" }));
 }

@@ -2,6 +2,7 @@
 import { batch, computed, effect, untracked } from "@preact/signals";
 import type { PointSelection } from "../worker/protocol";
 import { findDemo } from "./demos";
+import { applyExplorer, settledExplorer } from "./explore/state";
 import { fitsLink, type LinkState, readLink, writeLink } from "./link";
 import { demoModels, giveUpOpening, openPair } from "./models";
 import { arrange, giveUpAdding, restoreShelf } from "./shelf/actions";
@@ -94,6 +95,7 @@ export function currentLink(): string {
     map: vertexMap.value,
     mapMode: mapMode.value,
     vertex: vertex.value,
+    explorer: settledExplorer.value,
     side: diagnosedSide.value,
     coefficient: diagnosedMode.value,
     region: region.value,
@@ -122,6 +124,7 @@ const step = computed(() => {
     vertexMap.value,
     mapMode.value,
     vertex.value,
+    settledExplorer.value,
     diagnosedSide.value,
     diagnosedMode.value,
     region.value,
@@ -279,6 +282,7 @@ export function apply(link: LinkState): void {
     vertexMap.value = link.map;
     mapMode.value = link.mapMode;
     vertex.value = link.vertex;
+    applyExplorer(link.explorer);
     diagnosedSide.value = link.side;
     diagnosedMode.value = link.coefficient;
     region.value = link.region;
