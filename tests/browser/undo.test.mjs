@@ -16,6 +16,7 @@ import {
   untilState,
   withPage,
 } from "./harness.mjs";
+import { meshes } from "./meshes.mjs";
 
 const fixture = (name) => join(root, "tests/fixtures", name);
 const STARS = "v=1&demo=stars-1&draws=400";
@@ -156,7 +157,16 @@ test("view, region, room, samples, differences and exaggeration are steps of the
           element.dispatchEvent(new Event("change", { bubbles: true }));
         }),
     );
-    assert.equal(await undo(page).isDisabled(), true, "each was one step");
+    await rooms.getByRole("button", { name: "Models" }).click();
+    const measure = page.getByRole("combobox", { name: "What the table shows" });
+    await undoes(
+      page,
+      "a measure",
+      () => measure.inputValue(),
+      () => measure.selectOption("means"),
+    );
+    await undo(page).click();
+    await until(page, () => undo(page).isDisabled(), true);
   });
 });
 
@@ -217,7 +227,7 @@ test("settings, typed, chosen or on a slider, go back and forth", async () => {
   });
 });
 
-test("a part of a file and a remedy go back and forth", async () => {
+test("a part of a file goes back and forth", async () => {
   await withPage({}, async ({ url, page }) => {
     await open(page, url, STARS);
     await dropFiles(page, "body", [fixture("bfm-groups.h5"), fixture("double.h5")]);
@@ -229,12 +239,34 @@ test("a part of a file and a remedy go back and forth", async () => {
       return /modes\s+(\d+)/.exec(words)?.[1];
     };
     await undoes(page, "a part", modes, () => parts.selectOption("expression"));
-    await untilState(page, "done");
-    // A head and a crop of it: the engine offers to compare their common points.
+  });
+});
+
+test("the size of a population goes back and forth", async () => {
+  await withPage({}, async ({ url, page }) => {
+    await open(page, url, STARS);
+    await dropFiles(page, "body", [...meshes("female", 0, 7), ...meshes("male", 20, 6)]);
+    await untilCompared(page, { a: "female", b: "male" });
+    const card = page.getByRole("region", { name: "Model A" });
+    const made = () => card.locator(".made").innerText();
+    await undoes(page, "one size", made, () =>
+      card.getByRole("checkbox", { name: "Also bring to one size" }).check(),
+    );
+  });
+});
+
+test("what helps a pair, and what undoes it, go back and forth", async () => {
+  await withPage({}, async ({ url, page }) => {
+    await open(page, url, "v=1&demo=heads-sex&sigma=1&draws=400");
     const pair = page.getByRole("region", { name: "Comparable?" });
-    const chips = () => pair.getByRole("button", { name: /^Undo: / }).count();
+    await pair.locator("summary").click();
+    const done = () => pair.getByRole("button", { name: /^Undo: / }).count();
     const remedy = pair.locator(".remedy button").first();
-    REMEDY
+    await undoes(page, "a remedy", done, () => remedy.click());
+    await remedy.click();
+    const chip = pair.getByRole("button", { name: /^Undo: / });
+    await chip.waitFor();
+    await undoes(page, "the cross of a chip", done, () => chip.click());
   });
 });
 

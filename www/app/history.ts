@@ -84,8 +84,9 @@ function parts(): LinkState["parts"] {
   return { a: a ?? null, b: b ?? null };
 }
 
-export function currentLink(): string {
-  return writeLink({
+/** All that makes the picture, as far as an address can say it. */
+function present(): LinkState {
+  return {
     demo: demo.value?.id ?? "files",
     urls: urls(),
     parts: parts(),
@@ -105,7 +106,11 @@ export function currentLink(): string {
     shelf: shelved(),
     measure: measure.value,
     camera: camera.value,
-  });
+  };
+}
+
+export function currentLink(): string {
+  return writeLink(present());
 }
 
 /** Puts the present state into the address, without a step of its own. */
@@ -113,27 +118,10 @@ export function writeAddress(): void {
   history.replaceState(history.state, "", `#${currentLink()}`);
 }
 
-/** Steps that Back undoes; the camera and the like only follow along. */
+/** What is a step to undo: all of a link but the camera, which only follows along, and what no link holds. */
 const step = computed(() => {
   const models = SIDES.map((side) => slots[side].value && slotKey(slots[side].value));
-  return JSON.stringify([
-    models,
-    settings.value,
-    room.value,
-    view.value,
-    vertexMap.value,
-    mapMode.value,
-    vertex.value,
-    settledExplorer.value,
-    diagnosedSide.value,
-    diagnosedMode.value,
-    region.value,
-    picture.value,
-    settledExaggeration.value,
-    shapesSeed.value,
-    shelf.value.map(slotKey),
-    measure.value,
-  ]);
+  return JSON.stringify([models, shelf.value.map(slotKey), { ...present(), camera: null }]);
 });
 
 let applied = "";
