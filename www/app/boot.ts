@@ -5,6 +5,7 @@ import { FIRST_DEMO } from "./demos";
 import { engineClient } from "./engine";
 import { apply, keepLink, modelsOf } from "./history";
 import { type LinkState, misread, readLink, SETTING_KEYS } from "./link";
+import { watchMaps } from "./maps";
 import { demoModels, openPair } from "./models";
 import { watchPair } from "./pair";
 import { settingsKey } from "./settings";
@@ -32,6 +33,7 @@ export async function boot(): Promise<void> {
   watchPair();
   watchChoices(stored);
   watchPictures();
+  watchMaps();
   await models;
   keepLink();
 }

@@ -11,6 +11,11 @@ export function number(value: number, digits = 3): string {
   return minus(group(value.toFixed(Math.min(decimals, 6))));
 }
 
+/** With its sign, where it has one. */
+export function signed(value: number): string {
+  return value > 0 ? `+${number(value)}` : number(value);
+}
+
 export function count(value: number): string {
   return group(Math.round(value).toString());
 }

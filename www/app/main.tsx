@@ -6,6 +6,7 @@ import "../styles/page.css";
 import "../styles/stage.css";
 import "../styles/panels.css";
 import "../styles/pair.css";
+import "../styles/maps.css";
 
 acceptDrops();
 const root = document.getElementById("app");

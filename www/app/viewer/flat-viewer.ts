@@ -1,19 +1,24 @@
 /** Drawings in the plane, on a 2-D canvas: outlines, over one another where there are several. */
 import type { Region } from "../../worker/protocol";
-import { viridis } from "../colormap";
+import { colourOf, shareIn } from "../colormap";
 import { type Camera, HOME } from "./camera";
 import { pickVertex } from "./pick";
 import {
   cellsOf,
+  type DrawnEllipsoid,
   type Frame,
   type Hit,
   halfHeightIn,
   type PaneContent,
   type Rect,
+  type Shot,
   type Viewer,
 } from "./viewer";
 
 const MARK_PX = 6;
+/** Colours of a map run from dark to light: a rim keeps the light ones apart from the page. */
+const MAP_PX = 4;
+const RIM = { width: MAP_PX + 1.5, colour: "rgb(110 110 116)" };
 
 export class FlatViewer implements Viewer {
   #canvas: HTMLCanvasElement;
@@ -64,10 +69,24 @@ export class FlatViewer implements Viewer {
     return null;
   }
 
-  capture(scale: number): HTMLCanvasElement {
+  capture(scale: number, shot: Shot = this.#shot()): HTMLCanvasElement {
     const copy = document.createElement("canvas");
-    this.#render(copy, scale);
+    this.#render(copy, scale, shot);
     return copy;
+  }
+
+  /** What is on the canvas. */
+  #shot(): Shot {
+    const { width, height } = this.#size;
+    return {
+      width,
+      height,
+      layout: this.#layout,
+      panes: this.#panes,
+      frame: this.#frame,
+      camera: this.#camera,
+      range: this.#range,
+    };
   }
 
   thumbnail(content: PaneContent, frame: Frame, size: number): HTMLCanvasElement {
@@ -77,7 +96,8 @@ export class FlatViewer implements Viewer {
     const pen = copy.getContext("2d");
     if (pen) {
       pen.scale(scale, scale);
-      this.#pane(pen, content, { x: 0, y: 0, width: size, height: size }, frame, HOME);
+      const whole = { x: 0, y: 0, width: size, height: size };
+      this.#pane(pen, content, whole, { frame, camera: HOME, range: null });
     }
     return copy;
   }
@@ -90,23 +110,23 @@ export class FlatViewer implements Viewer {
     if (this.#scheduled !== 0) return;
     this.#scheduled = requestAnimationFrame(() => {
       this.#scheduled = 0;
-      this.#render(this.#canvas, Math.min(devicePixelRatio, 2));
+      this.#render(this.#canvas, Math.min(devicePixelRatio, 2), this.#shot());
     });
   }
 
-  #render(canvas: HTMLCanvasElement, scale: number): void {
-    canvas.width = Math.round(this.#size.width * scale);
-    canvas.height = Math.round(this.#size.height * scale);
+  #render(canvas: HTMLCanvasElement, scale: number, shot: Shot): void {
+    canvas.width = Math.round(shot.width * scale);
+    canvas.height = Math.round(shot.height * scale);
     const pen = canvas.getContext("2d");
     if (!pen) return;
     pen.scale(scale, scale);
-    for (const pane of this.#panes) {
-      const rect = this.#layout.get(pane.region);
+    for (const pane of shot.panes) {
+      const rect = shot.layout.get(pane.region);
       if (!rect || rect.width < 2) continue;
-      const cells = cellsOf(rect, pane.overlaid ? 1 : pane.shapes.length, this.#frame);
+      const cells = cellsOf(rect, pane.overlaid ? 1 : pane.shapes.length, shot.frame);
       cells.forEach((cell, i) => {
         const shapes = pane.overlaid ? pane.shapes : pane.shapes.slice(i, i + 1);
-        this.#pane(pen, { ...pane, shapes }, cell, this.#frame, this.#camera);
+        this.#pane(pen, { ...pane, shapes }, cell, shot);
       });
     }
   }
@@ -115,8 +135,7 @@ export class FlatViewer implements Viewer {
     pen: CanvasRenderingContext2D,
     pane: PaneContent,
     rect: Rect,
-    frame: Frame,
-    camera: Camera,
+    { frame, camera, range }: Pick<Shot, "frame" | "camera" | "range">,
   ): void {
     const matrix = this.#matrix(rect, frame, camera);
     const place = (shape: Float32Array, point: number): [number, number] => [
@@ -131,8 +150,9 @@ export class FlatViewer implements Viewer {
     const many = pane.shapes.length > 1;
     for (const shape of pane.shapes) {
       const colour = `rgb(${pane.tint.join(" ")} / ${many ? 0.22 : 1})`;
-      this.#outline(pen, pane, shape, place, colour, many ? 1 : 2.25);
+      this.#outline(pen, pane, shape, place, colour, many ? 1 : 2.25, range);
     }
+    if (pane.ellipsoid) drawEllipse(pen, pane.ellipsoid, place);
     const { marks } = pane;
     pen.fillStyle = `rgb(${marks?.tint.join(" ")})`;
     marks?.mask.forEach((marked, point) => {
@@ -149,34 +169,43 @@ export class FlatViewer implements Viewer {
     place: (shape: Float32Array, point: number) => [number, number],
     colour: string,
     width: number,
+    range: Shot["range"],
   ): void {
-    const values = this.#range ? pane.values : null;
-    const [low, high] = this.#range ?? [0, 1];
-    const share = (point: number) => ((values?.[point] ?? 0) - low) / Math.max(high - low, 1e-30);
+    const values = range ? pane.values : null;
+    const share = (point: number) => shareIn(range ?? [0, 1], values?.[point] ?? 0);
+    const colourAt = (at: number) =>
+      `rgb(${colourOf(pane.palette ?? "viridis", at)
+        .map(Math.round)
+        .join(" ")})`;
     const segments = pane.segments;
     if (!segments) {
       for (let point = 0; point < shape.length / 2; point += 1) {
-        pen.fillStyle = values ? `rgb(${viridis(share(point)).join(" ")})` : colour;
+        pen.fillStyle = values ? colourAt(share(point)) : colour;
         const [x, y] = place(shape, point);
         pen.fillRect(x - width, y - width, 2 * width, 2 * width);
       }
       return;
     }
-    pen.lineWidth = values ? 4 : width;
-    pen.strokeStyle = colour;
+    pen.lineWidth = values ? RIM.width : width;
+    pen.strokeStyle = values ? RIM.colour : colour;
     pen.beginPath();
     for (let i = 0; i + 1 < segments.length; i += 2) {
       const [from = 0, to = 0] = [segments[i], segments[i + 1]];
-      if (values) pen.beginPath();
       // A path that goes on from where it ended is joined, not begun anew.
-      if (values || i === 0 || segments[i - 1] !== from) pen.moveTo(...place(shape, from));
+      if (i === 0 || segments[i - 1] !== from) pen.moveTo(...place(shape, from));
       pen.lineTo(...place(shape, to));
-      if (values) {
-        pen.strokeStyle = `rgb(${viridis((share(from) + share(to)) / 2).join(" ")})`;
-        pen.stroke();
-      }
     }
-    if (!values) pen.stroke();
+    pen.stroke();
+    if (!values) return;
+    pen.lineWidth = MAP_PX;
+    for (let i = 0; i + 1 < segments.length; i += 2) {
+      const [from = 0, to = 0] = [segments[i], segments[i + 1]];
+      pen.strokeStyle = colourAt((share(from) + share(to)) / 2);
+      pen.beginPath();
+      pen.moveTo(...place(shape, from));
+      pen.lineTo(...place(shape, to));
+      pen.stroke();
+    }
   }
 
   /** To clip space, column major; only its scale and shift are not zero or one. */
@@ -188,4 +217,30 @@ export class FlatViewer implements Viewer {
     const [sx, sy] = [1 / halfWidth, 1 / halfHeight];
     return [sx, 0, 0, 0, 0, sy, 0, 0, 0, 0, 1, 0, -x * sx, -y * sy, 0, 1] as const;
   }
+}
+
+const ELLIPSE_STEPS = 64;
+
+function drawEllipse(
+  pen: CanvasRenderingContext2D,
+  { centre, axes, ink }: DrawnEllipsoid,
+  place: (shape: Float32Array, point: number) => [number, number],
+): void {
+  const [x = 0, y = 0] = centre;
+  const [ax = 0, ay = 0, bx = 0, by = 0] = axes;
+  const outline = new Float32Array(2 * ELLIPSE_STEPS);
+  for (let i = 0; i < ELLIPSE_STEPS; i += 1) {
+    const [c, s] = [Math.cos, Math.sin].map((of) => of((2 * Math.PI * i) / ELLIPSE_STEPS));
+    outline[2 * i] = x + ax * (c ?? 0) + bx * (s ?? 0);
+    outline[2 * i + 1] = y + ay * (c ?? 0) + by * (s ?? 0);
+  }
+  const colour = ink.join(" ");
+  pen.beginPath();
+  for (let i = 0; i < ELLIPSE_STEPS; i += 1) pen.lineTo(...place(outline, i));
+  pen.closePath();
+  pen.fillStyle = `rgb(${colour} / 0.18)`;
+  pen.fill();
+  pen.lineWidth = 1.25;
+  pen.strokeStyle = `rgb(${colour} / 0.9)`;
+  pen.stroke();
 }

@@ -1,15 +1,15 @@
 import { resample } from "../comparison";
 import { VIEW_MODES, type ViewMode } from "../link";
 import { savePicture } from "../picture";
-import { camera, lockedRange, outOfDate, region, view } from "../state";
+import { camera, outOfDate, region, view } from "../state";
 import { HOME } from "../viewer/camera";
-import { range } from "../viewer/stage-controller";
 import { DownloadIcon } from "./icons";
+import { MapChooser } from "./MapChooser";
 
 const LABELS: Record<ViewMode, string> = {
   mean: "Mean",
   samples: "Samples",
-  sd: "Standard deviation",
+  sd: "Map",
 };
 
 export function Toolbar() {
@@ -37,18 +37,7 @@ export function Toolbar() {
           Resample
         </button>
       )}
-      {view.value === "sd" && (
-        <label class="check">
-          <input
-            type="checkbox"
-            checked={lockedRange.value !== null}
-            onChange={(event) => {
-              lockedRange.value = event.currentTarget.checked ? range.value : null;
-            }}
-          />
-          Lock scale
-        </label>
-      )}
+      {view.value === "sd" && <MapChooser />}
       <span class="grow">{outOfDate.value && <span class="stale-chip">Out of date</span>}</span>
       {region.value !== null && (
         <button
