@@ -3,16 +3,21 @@
 //! The command line and the page go through here, so that both open the same things and write the
 //! same bytes.
 
+mod run_file;
+mod tables;
+
 use core::fmt;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::comparison::{Comparison, ComparisonError, Picture, Region, StoredArray, guessed_unit};
 use crate::demos;
 use crate::formats::{self, Array, Data, DrawnSet, FormatError, Input, Options, Origin};
-use crate::model::{LinearModel, Unit};
+use crate::measure::{self, Evaluation, EvaluationError};
+use crate::model::{Alignment, LinearModel, Unit};
 use crate::report::{ModelReport, Report, Seconds};
+pub use run_file::{RunFile, RunModel, Sources};
 
 /// What goes wrong with files and runs, with a code and a hint.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,6 +27,8 @@ pub enum Error {
     Format(FormatError),
     /// A comparison cannot start or go on.
     Comparison(ComparisonError),
+    /// Shapes cannot evaluate a model.
+    Evaluation(EvaluationError),
     /// There is no demo of that name, or its packaged file is missing.
     Demo {
         /// The name asked for.
@@ -34,6 +41,26 @@ pub enum Error {
         /// What the reader says.
         reason: String,
     },
+    /// A run file cannot be read.
+    RunFile {
+        /// Its name.
+        file: String,
+        /// What it is or says, as the rest of a sentence.
+        reason: String,
+        /// What to do.
+        hint: &'static str,
+    },
+    /// A model is not the one that a run was made with.
+    OtherModel {
+        /// "A" or "B".
+        side: &'static str,
+        /// Name and fingerprint of the one that is meant.
+        expected: String,
+        /// Name and fingerprint of the one that was given.
+        found: String,
+        /// What to do.
+        hint: String,
+    },
 }
 
 impl Error {
@@ -42,9 +69,12 @@ impl Error {
         match self {
             Self::Format(error) => error.code(),
             Self::Comparison(error) => error.code(),
+            Self::Evaluation(error) => error.code(),
             Self::Demo { .. } => "unknown-demo",
             Self::NothingYet => "nothing-yet",
             Self::StoredReport { .. } => "stored-report",
+            Self::RunFile { .. } => "run-file",
+            Self::OtherModel { .. } => "other-model",
         }
     }
 
@@ -53,9 +83,12 @@ impl Error {
         match self {
             Self::Format(error) => error.hint().to_string(),
             Self::Comparison(error) => error.hint().to_owned(),
+            Self::Evaluation(error) => error.hint().to_owned(),
             Self::Demo { .. } => format!("Choose one of {}.", demos::names().join(", ")),
             Self::NothingYet => "Wait until the run has drawn some.".to_owned(),
             Self::StoredReport { .. } => "Run the comparison again.".to_owned(),
+            Self::RunFile { hint, .. } => (*hint).to_owned(),
+            Self::OtherModel { hint, .. } => hint.clone(),
         }
     }
 }
@@ -65,10 +98,15 @@ impl fmt::Display for Error {
         match self {
             Self::Format(error) => error.fmt(f),
             Self::Comparison(error) => error.fmt(f),
+            Self::Evaluation(error) => error.fmt(f),
             Self::Demo { name } => write!(f, "There is no demo model “{name}”."),
             Self::NothingYet => write!(f, "There are no shapes of this region yet."),
             Self::StoredReport { reason } => {
                 write!(f, "The stored report cannot be read: {reason}.")
+            }
+            Self::RunFile { file, reason, .. } => write!(f, "{file} {reason}."),
+            Self::OtherModel { side, expected, found, .. } => {
+                write!(f, "The run was made with {expected} as model {side}; this is {found}.")
             }
         }
     }
@@ -120,6 +158,8 @@ pub fn open(inputs: &[Input], options: &Options) -> Result<Described, Error> {
         unit_guess: Some(&model)
             .filter(|model| model.unit() == Unit::Unknown)
             .and_then(guessed_unit),
+        part: Some(part.name.clone()),
+        fingerprint: Some(model.fingerprint()),
         ..ModelReport::new(&model, &opened.format, &part.notes)
     };
     Ok(Described { parts: opened.parts, part: part.name, origin: part.origin, model, report })
@@ -131,8 +171,12 @@ pub fn open(inputs: &[Input], options: &Options) -> Result<Described, Error> {
 /// [`Error::Demo`], or [`Error::Format`] when the packaged file is damaged.
 pub fn open_demo(name: &str, bytes: Option<&[u8]>) -> Result<Described, Error> {
     if let Some(model) = demos::generated(name) {
-        let report = ModelReport::new(&model, "Made by Shapevenn", &[]);
         let part = "shape".to_owned();
+        let report = ModelReport {
+            part: Some(part.clone()),
+            fingerprint: Some(model.fingerprint()),
+            ..ModelReport::new(&model, "Made by Shapevenn", &[])
+        };
         return Ok(Described {
             parts: vec![part.clone()],
             part,
@@ -146,6 +190,24 @@ pub fn open_demo(name: &str, bytes: Option<&[u8]>) -> Result<Described, Error> {
         Some(bytes) if known => open(&[Input::of_bytes(name, bytes)], &Options::default()),
         _ => Err(Error::Demo { name: name.to_owned() }),
     }
+}
+
+/// Evaluates a model by shapes that test it, or by those that it was made of (`training`).
+///
+/// # Errors
+/// [`Error::Format`] when they cannot be read, [`Error::Evaluation`] when they do not fit the model.
+pub fn evaluate(
+    described: &Described,
+    shapes: &[Input],
+    training: bool,
+) -> Result<Evaluation, Error> {
+    let alignment = match described.origin {
+        Origin::Shapes { scaled: true, .. } => Alignment::Similarity,
+        _ => Alignment::Rigid,
+    };
+    let set = formats::read_shapes(shapes)?;
+    measure::evaluate(&described.model, set.dimension, set.shapes, training, alignment)
+        .map_err(Error::Evaluation)
 }
 
 /// What can be taken away from a run.
@@ -172,6 +234,12 @@ pub enum Download {
     ReportJson,
     /// The numbers of the report as a table.
     ReportCsv,
+    /// What makes the comparison again.
+    RunJson(Sources),
+    /// Diagnostics of each coefficient as a table.
+    CoefficientsCsv,
+    /// What is known of each mode as a table.
+    ModesCsv,
     /// A shape of a region as PLY.
     Ply(ShownShape),
     /// A shape of a region as OBJ.
@@ -298,6 +366,18 @@ pub fn write(
             let report = comparison.report(seconds).ok_or(Error::NothingYet)?;
             written("report.csv", CSV, report_as_csv(&report))
         }
+        Download::RunJson(sources) => {
+            let bytes = RunFile::of(comparison, sources).to_json().into_bytes();
+            written("run.json", JSON, bytes)
+        }
+        Download::CoefficientsCsv => {
+            let report = comparison.report(seconds).ok_or(Error::NothingYet)?;
+            written("coefficients.csv", CSV, tables::coefficients(comparison, &report))
+        }
+        Download::ModesCsv => {
+            let report = comparison.report(seconds).ok_or(Error::NothingYet)?;
+            written("modes.csv", CSV, tables::modes(&report))
+        }
         Download::Ply(shape) => {
             let (points, map) = shape.points(comparison)?;
             let model = comparison.pair().a();
@@ -321,7 +401,7 @@ pub fn write(
 }
 
 /// The report as the command line prints it and the page offers it.
-pub fn json(report: &Report) -> String {
+pub fn json(report: &impl Serialize) -> String {
     serde_json::to_string_pretty(report)
         .unwrap_or_else(|fault| unreachable!("a report is JSON: {fault}"))
 }

@@ -29,6 +29,9 @@ pub struct Report {
     pub differences: Differences,
     /// How the two models' spaces and variances lie to one another.
     pub overlap: Overlap,
+    /// How few modes hold how much of each model.
+    #[serde(default)]
+    pub compactness: Option<Compactness>,
     /// What the reader should know before believing the numbers.
     pub warnings: Vec<Warning>,
     /// Wall-clock seconds.
@@ -83,6 +86,12 @@ pub struct ModelReport {
     /// The unit that the extent of the mean shape suggests, where the file states none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unit_guess: Option<Unit>,
+    /// Which model of its file it is: "shape", "expression", a group's name.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub part: Option<String>,
+    /// [`LinearModel::fingerprint`] of the model as it was read, before anything was done to it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fingerprint: Option<String>,
 }
 
 impl ModelReport {
@@ -110,6 +119,8 @@ impl ModelReport {
             orthogonality: None,
             dropped_modes: None,
             unit_guess: None,
+            part: None,
+            fingerprint: None,
         }
     }
 }
@@ -411,6 +422,9 @@ pub struct DifferenceReport {
     /// What the other model lacks, mode by mode, without any draws.
     #[serde(default)]
     pub exclusive: Option<ExclusiveReport>,
+    /// The baseline by linear splitting; absent where nothing is left of the model, or nothing was drawn.
+    #[serde(default)]
+    pub linear_split: Option<LinearSplitReport>,
 }
 
 /// What the proposals of a difference are drawn from.
@@ -449,8 +463,49 @@ pub struct Overlap {
     pub bhattacharyya: f64,
     /// The noise: σ of the comparison.
     pub bhattacharyya_noise: f64,
+    /// Kullback–Leibler divergences with the same noise, which diverge like it.
+    #[serde(default)]
+    pub kullback_leibler: Option<KullbackLeibler>,
     /// Mean distance between corresponding points of the two mean shapes.
     pub mean_to_mean: f64,
+}
+
+/// What is lost when one model is described by the other, in nats.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct KullbackLeibler {
+    /// KL(A‖B): shapes of A, described by B.
+    pub a_from_b: f64,
+    /// KL(B‖A): shapes of B, described by A.
+    pub b_from_a: f64,
+}
+
+/// How few modes hold how much of a model: the share of its variance in its first 1, 2, … modes.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Compactness {
+    /// Of A.
+    pub a: Vec<f64>,
+    /// Of B.
+    pub b: Vec<f64>,
+    /// Of the intersection model.
+    pub intersection: Vec<f64>,
+}
+
+/// A model without the intersection as a matter of moments (Hall, Marshall & Martin's splitting), beside the
+/// set difference.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub struct LinearSplitReport {
+    /// Share of the model that is taken for the intersection, 1 − P of the difference.
+    pub weight: f64,
+    /// Mean distance between corresponding points of the split's mean and that of the difference's draws.
+    pub mean_to_mean: f64,
+    /// Share of the split's variance that is negative: it need not be the covariance of anything.
+    pub negative_share: f64,
+    /// Per-vertex standard deviation of the split without its negative part.
+    pub vertex_sd: Spread,
+    /// Total variance of the split without its negative part, as a share of that of the difference's draws.
+    pub variance_ratio: f64,
 }
 
 /// Something the reader should know, with what can be done.

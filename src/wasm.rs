@@ -5,6 +5,8 @@
 //! [`Engine`] and measures time; nothing here knows a clock.
 
 mod blobs;
+mod diagnosing;
+mod exploring;
 
 use std::collections::BTreeMap;
 

@@ -5,9 +5,11 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use nalgebra::DVector;
 use serde_json::Value;
 use shapevenn::comparison::Region;
 use shapevenn::formats::{self, Data, Input, Options};
+use shapevenn::model::{Kind, LinearModel, Unit};
 use shapevenn::report::{ModelReport, Report};
 
 fn shapevenn(arguments: &[&str]) -> Output {
@@ -32,7 +34,7 @@ fn fixture(name: &str) -> String {
     path.to_string_lossy().into_owned()
 }
 
-fn model_of(name: &str, bytes: &[u8]) -> shapevenn::model::LinearModel {
+fn model_of(name: &str, bytes: &[u8]) -> LinearModel {
     formats::open(&[Input::of_bytes(name, bytes)], &Options::default()).unwrap().part.model
 }
 
@@ -244,9 +246,7 @@ fn models_converted_to_hdf5_and_back_have_equal_numbers() {
     let given = std::fs::read(fixture("plain.npz")).unwrap();
     let given = model_of("plain.npz", &given);
     // HDF5 holds single precision: 6e-8 of the largest number.
-    let covariance = |model: &shapevenn::model::LinearModel| {
-        model.scaled_basis() * model.scaled_basis().transpose()
-    };
+    let covariance = |model: &LinearModel| model.scaled_basis() * model.scaled_basis().transpose();
     let (size, spread) = (given.mean().amax(), covariance(&given).amax());
     for name in ["one.h5", "two.npz", "three.h5"] {
         let model = open(name);
@@ -411,6 +411,123 @@ fn everything_that_can_be_taken_away_is_written_beside_the_report() {
     }
 }
 
+/// A report as JSON, without the seconds.
+fn timeless(text: &str) -> Value {
+    let mut report: Value = serde_json::from_str(text).unwrap();
+    report["seconds"] = Value::Null;
+    report
+}
+
+#[test]
+fn a_run_file_makes_the_same_report_to_the_last_digit() {
+    let folder = folder("again");
+    let out = folder.join("out").to_string_lossy().into_owned();
+    let at = |name: &str| folder.join("out").join(name).to_string_lossy().into_owned();
+    // σ is recommended, and much is not as it is when nothing is chosen.
+    let chosen = ["--draws", "400", "--seed", "7", "--chains", "4", "--modes", "3", "--json"];
+    let first = [&STARS[..3], &chosen, &["--out", &out]].concat();
+    let first = timeless(&printed(&first));
+    assert_eq!(first["settings"]["sigmaRecommended"], true, "recommended");
+    for file in ["run.json", "report.json"] {
+        let models: &[&str] =
+            if file == "run.json" { &[] } else { &["demo:stars-1-a", "demo:stars-1-b"] };
+        let place = at(file);
+        let again = [&["compare", "--run", &place, "--json"], models].concat();
+        assert_eq!(timeless(&printed(&again)), first, "{file}");
+    }
+    let run: Value =
+        serde_json::from_str(&std::fs::read_to_string(at("run.json")).unwrap()).unwrap();
+    assert_eq!(run["shapevenn"], 1, "layout");
+    assert_eq!(run["models"]["b"]["source"], "demo:stars-1-b", "a demo");
+    assert_eq!(run["models"]["a"]["fingerprint"], first["models"]["a"]["fingerprint"], "the same");
+    assert_eq!(run["settings"], first["settings"], "all settings");
+}
+
+#[test]
+fn a_run_of_files_needs_them_and_knows_them() {
+    let folder = folder("own");
+    let out = folder.join("out").to_string_lossy().into_owned();
+    let catalog = fixture("bfm-catalog.h5");
+    let part = |name: &str| format!("{catalog}#{name}");
+    let first = printed(&[
+        "compare",
+        &part("shape"),
+        &part("expression"),
+        "--draws",
+        "200",
+        "--json",
+        "--out",
+        &out,
+    ]);
+    let run = folder.join("out/run.json").to_string_lossy().into_owned();
+    let again = ["compare", "--json", "--run", &run];
+    let refused = |arguments: &[&str]| {
+        let output = shapevenn(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        text(&output.stderr)
+    };
+    let complaint = refused(&again);
+    assert!(
+        complaint.contains("bfm-catalog.h5#shape as A, and bfm-catalog.h5#expression as B"),
+        "{complaint}"
+    );
+    // The parts are known: the file is enough.
+    let same = printed(&[&again[..], &[&catalog, &catalog]].concat());
+    assert_eq!(timeless(&same), timeless(&first), "the same files");
+    let complaint = refused(&[&again[..], &[&part("expression"), &part("shape")]].concat());
+    assert!(complaint.contains("The run was made with bfm-catalog.h5#shape ("), "{complaint}");
+    assert!(complaint.contains("as model A; this is bfm-catalog.h5#expression ("), "{complaint}");
+    assert!(complaint.contains("other order"), "{complaint}");
+    let complaint = refused(&[&again[..], &["--sigma", "1"]].concat());
+    assert!(complaint.contains("'--run <RUN.json>' cannot be used with '--sigma"), "{complaint}");
+    let complaint = refused(&["compare", "--run", &fixture("small/plain.json")]);
+    assert!(complaint.contains("is neither a run file nor a report"), "{complaint}");
+}
+
+#[test]
+fn a_model_is_evaluated_by_shapes_in_a_folder() {
+    let folder = folder("evaluation");
+    let at = |name: &str| folder.join(name).to_string_lossy().into_owned();
+    let write = |name: &str, count: u32, first: u32| {
+        std::fs::create_dir_all(folder.join(name)).unwrap();
+        for index in first..first + count {
+            let wave = |k: u32| f64::from((index * index * (k + 3) + 5 * index + k) % 17) / 17.0;
+            let points: String = (0..6_u32)
+                .map(|point| {
+                    let (x, y) = (f64::from(point % 3), f64::from(point / 3));
+                    format!("{} {} {}\n", 3.0 * x + wave(0) * y, 4.0 * y + wave(1) * x, x * y)
+                })
+                .collect();
+            std::fs::write(folder.join(name).join(format!("{index}.txt")), points).unwrap();
+        }
+        for other in [".DS_Store", "README.md"] {
+            std::fs::write(folder.join(name).join(other), "Not a shape.").unwrap();
+        }
+    };
+    write("training", 9, 0);
+    write("test", 4, 9);
+    let model = at("training");
+    let found: Value =
+        serde_json::from_str(&printed(&["evaluate", &model, &at("test"), "--json"])).unwrap();
+    assert_eq!((&found["shapes"], &found["method"]), (&4.into(), &"test".into()), "{found}");
+    let count = found["modes"].as_array().unwrap().len();
+    for name in ["generalization", "generalizationError", "specificity", "specificityError"] {
+        let values = found[name].as_array().unwrap();
+        assert_eq!(values.len(), count, "{name}");
+        assert!(values.iter().all(|value| value.as_f64().unwrap() >= 0.0), "{name}: {values:?}");
+    }
+    let words = printed(&["evaluate", &model, &model, "--training"]);
+    assert!(words.contains("9 shapes, each left out in turn"), "{words}");
+    for (shapes, message) in [
+        (fixture("plain.npz"), "It is a ZIP archive; a mesh, landmarks or a list of points"),
+        (fixture("meshes/alone.ply"), "The shapes have"),
+    ] {
+        let output = shapevenn(&["evaluate", &model, &shapes]);
+        assert_eq!(output.status.code(), Some(2), "{shapes}");
+        assert!(text(&output.stderr).contains(message), "{}", text(&output.stderr));
+    }
+}
+
 #[test]
 fn what_is_in_the_way_of_a_comparison_is_said() {
     let found: Value = serde_json::from_str(&printed(&[
@@ -454,4 +571,169 @@ fn a_folder_of_meshes_is_a_population() {
         serde_json::from_str(&printed(&["info", &at("male"), "--json"])).unwrap();
     assert_eq!((described[0].points, described[0].cells), (5, 3), "points and faces");
     assert!(described[0].notes.iter().any(|note| note.contains('5')), "{:?}", described[0].notes);
+}
+
+/// A model of the field's size in one unit, and what is to be compared with it, as files of their own.
+struct Written(PathBuf);
+
+impl Written {
+    fn at(&self, name: &str) -> String {
+        self.0.join(name).to_string_lossy().into_owned()
+    }
+
+    fn model(&self, name: &str, model: &LinearModel) -> String {
+        std::fs::write(self.0.join(name), formats::write_npz(model).unwrap()).unwrap();
+        self.at(name)
+    }
+
+    fn text(&self, name: &str, text: &str) -> String {
+        std::fs::write(self.0.join(name), text).unwrap();
+        self.at(name)
+    }
+}
+
+/// What `compare` reports of two models that were made ready by `steps`, and `inspect` of the same.
+fn made_ready(a: &str, b: &str, steps: &[&str]) -> (Report, Value) {
+    let run = ["--sigma", "0.1", "--draws", "100", "--difference-draws", "64", "--json"];
+    let report = printed(&[&["compare", a, b], steps, &run[..]].concat());
+    let found = printed(&[&["inspect", a, b], steps, &["--json"]].concat());
+    let found: Value = serde_json::from_str(&found).unwrap();
+    assert_eq!(found["problem"], Value::Null, "{steps:?}: nothing in the way");
+    (serde_json::from_str(&report).unwrap(), found)
+}
+
+/// The steps that an inspection says were taken.
+fn taken(found: &Value) -> Vec<&str> {
+    found["applied"].as_array().unwrap().iter().map(|step| step["id"].as_str().unwrap()).collect()
+}
+
+fn means_apart(found: &Value) -> f64 {
+    found["meanDistance"]["now"].as_f64().unwrap()
+}
+
+#[test]
+fn every_step_before_a_comparison_is_taken_when_it_is_asked_for() {
+    let written = Written(folder("steps"));
+    let plain = fixture("plain.npz");
+    let whole = model_of("plain.npz", &std::fs::read(&plain).unwrap());
+    let (points, modes) = (whole.point_count(), whole.mode_count());
+    let size = whole.size();
+    let turned = |scale: f64| {
+        let mean = DVector::from_iterator(
+            whole.mean().len(),
+            whole
+                .mean()
+                .as_slice()
+                .chunks(3)
+                .flat_map(|p| [5.0 - scale * p[1], scale * p[0], scale * p[2]]),
+        );
+        whole.with_mean(mean)
+    };
+    let millimetres = written.model("mm.npz", &whole.clone().with_unit(Unit::Millimetre));
+    let nameless = written.model("m.npz", &whole.scaled(0.001).with_unit(Unit::Unknown));
+
+    let (report, found) =
+        made_ready(&millimetres, &nameless, &["--unit-b", "m", "--convert-units"]);
+    assert!(means_apart(&found) < 1e-9 * size, "metres become millimetres: {found}");
+    assert_eq!(taken(&found), ["unit"], "which is said");
+    assert_eq!(report.models.b.unit, Unit::Millimetre, "and reported");
+    assert!((report.models.b.size / size - 1.0).abs() < 1e-9, "{}", report.models.b.size);
+    let unnamed = written.model("none.npz", &whole.clone().with_unit(Unit::Unknown));
+    let (report, _) = made_ready(&unnamed, &unnamed, &["--unit-a", "cm", "--unit-b", "cm"]);
+    assert_eq!(report.models.a.unit, Unit::Centimetre, "a unit declared alone changes no number");
+    assert_eq!(report.models.a.size, size, "a unit declared alone changes no number");
+
+    let moved = written.model("moved.npz", &turned(1.0));
+    let (_, found) = made_ready(&plain, &moved, &[]);
+    assert!(means_apart(&found) > 1.0, "nothing is moved unasked");
+    let (report, found) = made_ready(&plain, &moved, &["--align", "rigid"]);
+    assert!(means_apart(&found) < 1e-9 * size, "rigid: {found}");
+    assert_eq!(taken(&found), ["align"], "which is said");
+    assert_eq!(report.models.b.points, points, "all points");
+    let larger = written.model("larger.npz", &turned(1.5));
+    let (report, found) = made_ready(&plain, &larger, &["--align", "rigid"]);
+    assert!(means_apart(&found) > 0.3 * size, "a rigid motion keeps the size: {found}");
+    assert!(report.models.b.size > 1.4 * size, "{}", report.models.b.size);
+    let (report, found) = made_ready(&plain, &larger, &["--align", "similarity"]);
+    assert!(means_apart(&found) < 1e-9 * size, "with scale: {found}");
+    assert_eq!(taken(&found), ["align-scale"], "which is said");
+    assert!((report.models.b.size / size - 1.0).abs() < 1e-9, "{}", report.models.b.size);
+
+    let (report, _) = made_ready(&plain, &plain, &["--modes", "2"]);
+    assert_eq!((report.models.a.modes, report.models.b.modes), (2, 2), "the first two");
+    // The variances of the fixture are 9, 4, 2.25, 1 and 0.25: three of them hold 92 %.
+    let (report, found) = made_ready(&plain, &plain, &["--variance", "0.9"]);
+    assert_eq!((report.models.a.modes, report.models.b.modes), (3, 3), "of {modes}");
+    assert_eq!(taken(&found), ["modes-a", "modes-b"], "which is said");
+
+    let listed = written.text("face.txt", "# the face\n0\n1\n2\n3\n4\n5\n8\n");
+    for region in ["0-5,8", &listed] {
+        let (report, found) = made_ready(&plain, &plain, &["--region", region]);
+        assert_eq!((report.models.a.points, report.models.b.points), (7, 7), "{region}");
+        assert_eq!((&found["compared"], taken(&found)), (&Value::from(7), vec!["region"]), "said");
+    }
+
+    let order: Vec<u32> = (0..12).map(|point| point * 5 % 12).collect();
+    let shuffled = written.model("shuffled.npz", &whole.restricted(&order).unwrap());
+    let pairs: String = (0..12).map(|point| format!("{},{point}\n", order[point])).collect();
+    let pairs = written.text("pairs.csv", &format!("# A,B\n{pairs}"));
+    let (_, found) = made_ready(&plain, &shuffled, &[]);
+    assert!(means_apart(&found) > 0.5 * size, "another order");
+    let (report, found) = made_ready(&plain, &shuffled, &["--pairs", &pairs]);
+    assert!(means_apart(&found) < 1e-9 * size, "the order of the file: {found}");
+    assert_eq!((report.models.a.points, taken(&found)), (12, vec!["list"]), "all points, and said");
+
+    let (full, crop) = (fixture("tables/lsfm.mat"), fixture("tables/lsfm-cropped.mat"));
+    let (report, found) = made_ready(&full, &crop, &["--crop-map"]);
+    assert_eq!((report.models.a.points, report.models.b.points), (6, 6), "points of the crop");
+    assert_eq!(taken(&found), ["map"], "which is said");
+
+    let expression = fixture("expression-only.h5");
+    let refused = shapevenn(&["compare", &plain, &expression]);
+    assert_eq!(refused.status.code(), Some(2), "displacements are no shapes");
+    let (report, found) = made_ready(&plain, &expression, &["--rebase", "b"]);
+    assert_eq!(report.models.b.kind, Kind::Shape, "until they lie on the mean of A");
+    assert!((report.models.b.size / size - 1.0).abs() < 0.05, "{}", report.models.b.size);
+    assert_eq!(taken(&found), ["rebase-b"], "which is said");
+    let (_, found) = made_ready(&expression, &plain, &["--rebase", "a"]);
+    assert_eq!(taken(&found), ["rebase-a"], "and the other way round");
+
+    let (report, found) = made_ready(&plain, &plain, &["--subsample", "6"]);
+    assert_eq!((report.models.a.points, report.models.b.points), (6, 6), "half of the points");
+    assert_eq!((&found["compared"], taken(&found)), (&Value::from(6), vec!["subsample"]), "said");
+
+    let all = [
+        &["--region", "0-9", "--align", "rigid", "--modes", "3", "--subsample", "8"][..],
+        &["--unit-b", "mm", "--convert-units"],
+    ]
+    .concat();
+    let (report, found) = made_ready(&millimetres, &moved, &all);
+    assert_eq!((report.models.a.points, report.models.a.modes), (8, 3), "all of it at once");
+    assert_eq!(taken(&found), ["region", "unit", "align", "modes", "subsample"], "in order");
+
+    for (steps, message) in [
+        (&["--region", "0-99"][..], "Point 12 is chosen, but A has only 12."),
+        (&["--region", "nose"], "“nose”"),
+        (&["--pairs", "nowhere.csv"], "nowhere.csv cannot be read"),
+        (&["--crop-map"], "Neither model brings a map of its points into the other."),
+        (&["--region", "0-5", "--crop-map"], "cannot be used with"),
+        (&["--unit-b", "inch"], "µm, mm, cm, dm or m was expected"),
+        (&["--rebase", "c"], "possible values: a, b"),
+    ] {
+        let output = shapevenn(&[&["compare", &plain, &plain][..], steps].concat());
+        let complaint = text(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{steps:?}: {complaint}");
+        assert!(complaint.contains(message), "{steps:?}: {message} in {complaint}");
+    }
+}
+
+#[test]
+fn shapes_of_a_set_are_brought_to_one_size_when_it_is_asked_for() {
+    let landmarks = fixture("meshes/plain.tps");
+    let compared = |steps: &[&str]| {
+        let (report, _) = made_ready(&landmarks, &landmarks, steps);
+        report.models.a.total_variance / (report.models.a.size * report.models.a.size)
+    };
+    let (with_size, without) = (compared(&[]), compared(&["--scale"]));
+    assert!(without < 0.999 * with_size, "size varies no longer: {without}, {with_size} before");
 }

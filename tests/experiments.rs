@@ -50,7 +50,7 @@ fn open(source: &str) -> Described {
 #[test]
 fn every_experiment_of_the_paper_runs_from_files_like_the_real_ones() {
     let all = experiments();
-    assert_eq!(all.len(), 5, "BFM, LYHM twice, FLAME twice");
+    assert_eq!(all.len(), 6, "BFM, LYHM and FLAME, twice each");
     for experiment in all {
         let what = &experiment.name;
         let [a, b] = [&experiment.a, &experiment.b].map(|source| open(source));

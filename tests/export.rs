@@ -185,17 +185,93 @@ fn shapes_are_read_back_by_trimesh() {
     let models: Vec<LinearModel> =
         models().into_iter().filter(|model| !matches!(model.cells(), Cells::Segments(_))).collect();
     let export = |model: &LinearModel| {
-        #[allow(clippy::cast_possible_truncation, reason = "shapes are in single precision")]
-        let points: Vec<f32> = model.mean().iter().map(|&value| value as f32).collect();
-        let bytes = formats::write_obj(&points, model.dimension(), model.cells());
-        Export { end: "obj", bytes }
+        let points = single(model);
+        let values = vec![0.5; model.point_count()];
+        let (dimension, cells) = (model.dimension(), model.cells());
+        [
+            ("obj", formats::write_obj(&points, dimension, cells)),
+            ("ply", formats::write_ply(&points, dimension, cells, None)),
+            ("ply", formats::write_ply(&points, dimension, cells, Some(&values))),
+        ]
+        .map(|(end, bytes)| Export { end, bytes })
     };
-    let found = read_elsewhere("shapes", models.iter().map(export).collect());
-    for (model, found) in models.iter().zip(found) {
-        let what = format!("{} as OBJ", model.name());
+    let found = read_elsewhere("shapes", models.iter().flat_map(export).collect());
+    for (index, found) in found.into_iter().enumerate() {
+        let model = &models[index / 3];
+        let what = format!("{} as {}", model.name(), ["OBJ", "PLY", "PLY with values"][index % 3]);
         let expected = in_space(model.mean().as_slice(), model.dimension());
         assert_close(&found.mean, &expected, 1e-6, &what);
         assert_eq!(found.cells, corners(model.cells()), "{what}: faces");
+        assert_eq!(found.rows.len(), usize::from(index % 3 == 2), "{what}: values");
+        assert!(found.rows.iter().flatten().all(|value| *value == Some(0.5)), "{what}: values");
+    }
+}
+
+/// The mean in single precision, as shapes are shown and saved.
+#[allow(clippy::cast_possible_truncation, reason = "shapes are in single precision")]
+fn single(model: &LinearModel) -> Vec<f32> {
+    model.mean().iter().map(|&value| value as f32).collect()
+}
+
+#[test]
+fn saved_shapes_make_a_population_again() {
+    let model = model_of("variable-text.h5", None);
+    type Write = fn(&[f32], usize, &Cells) -> Vec<u8>;
+    let writers: [(&str, Write); 2] = [
+        ("obj", formats::write_obj),
+        ("ply", |points, dimension, cells| formats::write_ply(points, dimension, cells, None)),
+    ];
+    for (end, write) in writers {
+        let shape = |index: usize| {
+            let coefficients: Vec<f64> = (0..model.mode_count())
+                .map(|mode| f64::from(u8::from(mode == index / 2)) * [2.0, -2.0][index % 2])
+                .collect();
+            #[allow(clippy::cast_possible_truncation, reason = "shapes are in single precision")]
+            let points: Vec<f32> =
+                model.shape(&coefficients).iter().map(|&value| value as f32).collect();
+            let bytes = write(&points, model.dimension(), model.cells());
+            Input::of_bytes(format!("set/{index}.{end}"), bytes)
+        };
+        let shapes: Vec<Input> = (0..2 * model.mode_count()).map(shape).collect();
+        let found = formats::open(&shapes, &Options::default()).unwrap().part.model;
+        assert_eq!(found.cells(), model.cells(), "{end}: faces");
+        assert_eq!(found.point_count(), model.point_count(), "{end}: points");
+        // Alignment turns the shapes a little; distances within a shape stay.
+        assert!((found.size() / model.size() - 1.0).abs() < 1e-2, "{end}: size");
+        // ± two deviations along each of q modes, divisor 2q − 1.
+        let expected = model.total_variance() * 8.0 / (2.0 * model.mode_count() as f64 - 1.0);
+        assert!(found.total_variance() <= expected * (1.0 + 1e-3), "{end}: variance");
+        assert!(found.total_variance() > 0.5 * expected, "{end}: variance, less pose");
+    }
+}
+
+#[test]
+fn draws_are_read_back_by_numpy_and_python() {
+    let coefficients: Vec<f32> = (0..12).map(|index| 0.1 * index as f32 - 0.5).collect();
+    let draws = Array { shape: vec![2, 3, 2], data: Data::F32(coefficients.clone()) };
+    let distances = Array::list(vec![0.25, 1e-9, 3.0]);
+    let all = [("intersection_a", draws), ("intersection_a_distance", distances)];
+    let exports = vec![
+        Export { end: "draws.npz", bytes: formats::write_arrays(&all) },
+        Export { end: "draws.json", bytes: formats::write_draws_json(&all) },
+    ];
+    for found in read_elsewhere("draws", exports) {
+        assert_eq!(
+            found.names,
+            ["intersection_a (2, 3, 2)", "intersection_a_distance (3,)"],
+            "sides"
+        );
+        let expected: Vec<Option<f64>> =
+            coefficients.iter().map(|&value| Some(f64::from(value))).collect();
+        let found_in_single: Vec<Option<f64>> = found.rows[0]
+            .iter()
+            .map(|value| {
+                #[allow(clippy::cast_possible_truncation, reason = "draws are in single precision")]
+                value.map(|value| f64::from(value as f32))
+            })
+            .collect();
+        assert_eq!(found_in_single, expected, "to the last bit");
+        assert_eq!(found.rows[1], [0.25, 1e-9, 3.0].map(Some), "distances");
     }
 }
 

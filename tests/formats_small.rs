@@ -257,6 +257,17 @@ const VICTIMS: [&str; 9] = [
     "plain.json",
 ];
 
+/// Files that make a model only together, to be damaged.
+const COMPANIONS: [&[&str]; 3] = [
+    &["shapeworks/analysis.json", "shapeworks/mean_shape_0.pts"],
+    &["deep3d/Exp_Pca.bin", "deep3d/std_exp.txt"],
+    &[
+        "heart-plain/LV_ED_mean.vtk",
+        "heart-plain/LV_ED_pc_5_modes.csv",
+        "heart-plain/LV_ED_var_5_modes.csv",
+    ],
+];
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..Default::default() })]
 
@@ -295,20 +306,24 @@ proptest! {
 
     #[test]
     fn damaged_companions_never_panic(
-        which in 0..2_usize,
-        in_main in any::<bool>(),
+        which in 0..COMPANIONS.len(),
+        file in any::<prop::sample::Index>(),
         changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 0..4),
+        text in prop::option::weighted(0.3, "[0-9eE.,;# nax\\-\\n]{0,60}"),
     ) {
-        let [main, other] = [
-            ["shapeworks/analysis.json", "shapeworks/mean_shape_0.pts"],
-            ["deep3d/Exp_Pca.bin", "deep3d/std_exp.txt"],
-        ][which];
-        let mut files = [fixture(main), fixture(other)];
+        let names = COMPANIONS[which];
+        let mut files: Vec<Vec<u8>> = names.iter().map(|name| fixture(name)).collect();
+        let damaged = file.index(files.len());
         for (place, value) in changes {
-            let file = &mut files[usize::from(!in_main)];
-            let place = place.index(file.len());
-            file[place] = value;
+            let place = place.index(files[damaged].len());
+            files[damaged][place] = value;
         }
-        let _ = read(&[(main, &files[0]), (other, &files[1])], None);
+        if let Some(text) = text {
+            let place = files[damaged].len() / 2;
+            files[damaged].splice(place..place, text.bytes());
+        }
+        let inputs: Vec<(&str, &[u8])> =
+            names.iter().zip(&files).map(|(name, bytes)| (*name, bytes.as_slice())).collect();
+        let _ = read(&inputs, None);
     }
 }

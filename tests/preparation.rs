@@ -2,7 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use nalgebra::{DMatrix, DVector};
-use serde_json::json;
+use proptest::prelude::*;
+use serde_json::{Value, json};
 use shapevenn::compare::{
     Pair, PairError, PointSelection, Preparation, SelectionError, SidePreparation,
 };
@@ -229,4 +230,144 @@ fn an_inspection_sees_what_is_in_the_way() {
     assert_eq!(found.remedies[0].settings, json!({"align": "rigid"}), "which is offered");
     let ids: Vec<_> = found.remedies.iter().map(|remedy| remedy.id).collect();
     assert_eq!(ids, ["align"], "scale carries meaning and brings nothing here");
+}
+
+#[test]
+fn scale_is_offered_apart_and_never_recommended() {
+    let a = tube(8, 250.0, 4, 1.0).with_unit(Unit::Millimetre);
+    let larger = tube(8, 325.0, 4, 1.0).with_unit(Unit::Millimetre);
+    let mut mean = larger.mean().clone();
+    mean.iter_mut().step_by(3).for_each(|x| *x += 400.0);
+    let b = larger.with_mean(mean);
+    let found = inspect(&a, &b, &Settings::default());
+    let ids: Vec<_> = found.remedies.iter().map(|remedy| remedy.id).collect();
+    assert_eq!(ids, ["align", "align-scale"], "both, one by one");
+    assert!(
+        found.remedies[0].recommended && !found.remedies[1].recommended,
+        "scale carries meaning"
+    );
+    assert_eq!(found.remedies[1].settings, json!({"align": "similarity"}), "on request");
+    for (alignment, size) in [(Alignment::Rigid, b.size()), (Alignment::Similarity, a.size())] {
+        let moved = Pair::prepared(&a, &b, &nothing(), alignment, None).unwrap();
+        assert!((moved.b().size() / size - 1.0).abs() < 1e-9, "{alignment:?}: size");
+        let settings = Settings { align: alignment, ..Settings::default() };
+        let now = inspect(&a, &b, &settings).mean_distance.now.unwrap();
+        let means = (moved.b().mean() - a.mean()).norm() / 96_f64.sqrt();
+        assert!(
+            now <= means * (1.0 + 1e-9),
+            "{alignment:?}: the card says {now}, {means} is there"
+        );
+        let expected = if alignment == Alignment::Rigid { 10.0..60.0 } else { 0.0..1e-9 };
+        assert!(expected.contains(&now), "{alignment:?}: {now} mm apart");
+    }
+}
+
+#[test]
+fn large_models_are_offered_shorter_runs() {
+    let many = tube(1700, 1.0, 2, 1.0);
+    let found = inspect(&many, &many, &Settings::default());
+    assert_eq!(found.remedies.len(), 1, "{:?}", found.remedies);
+    assert_eq!(found.remedies[0].settings, json!({"prepare": {"subsample": 5000}}), "points");
+    let settings = Settings::parse(found.remedies[0].settings.clone()).unwrap();
+    assert_eq!(inspect(&many, &many, &settings).compared, Some(5000), "after a click");
+
+    let basis = DMatrix::from_fn(360, 120, |row, mode| f64::from(row == mode) / (1 + mode) as f64);
+    let mean = DVector::from_fn(360, |row, _| row as f64);
+    let (many, _) = LinearModel::from_scaled_basis(3, mean, basis).unwrap();
+    let found = inspect(&many, &many, &Settings::default());
+    let modes = found.remedies.iter().find(|remedy| remedy.id == "modes").unwrap();
+    let settings = Settings::parse(modes.settings.clone()).unwrap();
+    let cut = pair(&many, &many, &settings.prepare).unwrap();
+    let share = cut.a().total_variance() / many.total_variance();
+    assert!((0.98..0.99).contains(&share), "98 % of the variance, not {share}");
+    assert!(cut.a().mode_count() < 60, "in {} of 120 modes", cut.a().mode_count());
+}
+
+/// `settings` with `patch`, objects merged, as the page does it.
+fn patched(settings: &mut Value, patch: &Value) {
+    match (settings, patch) {
+        (Value::Object(fields), Value::Object(changes)) => {
+            for (name, change) in changes {
+                patched(fields.entry(name.clone()).or_insert(Value::Null), change);
+            }
+        }
+        (settings, patch) => *settings = patch.clone(),
+    }
+}
+
+#[test]
+fn every_step_is_shown_and_can_be_taken_back() {
+    let a = tube(8, 250.0, 4, 1.0);
+    let side =
+        |unit| SidePreparation { unit: Some(unit), modes: Some(2), variance: None, rebase: false };
+    let region = PointSelection::Region { ranges: "0-50".to_owned() };
+    let selections = [region, PointSelection::Map, PointSelection::List { a: vec![1], b: vec![2] }];
+    let mut shown = Vec::new();
+    for (index, points) in selections.into_iter().enumerate() {
+        let prepare = Preparation {
+            a: SidePreparation { rebase: index == 1, ..side(Unit::Millimetre) },
+            b: SidePreparation { rebase: index == 2, variance: Some(0.9), ..side(Unit::Metre) },
+            convert: index > 0,
+            points: Some(points),
+            subsample: Some(40),
+        };
+        let align = [Alignment::Rigid, Alignment::Similarity, Alignment::Rigid][index];
+        let given = Settings { prepare, align, modes: Some(3), ..Settings::default() };
+        let applied = inspect(&a, &a, &given).applied;
+        shown.extend(applied.iter().map(|step| step.id));
+        for only in &applied {
+            assert!(only.sentence.ends_with('.') && !only.label.is_empty(), "{only:?}");
+            let mut settings = serde_json::to_value(&given).unwrap();
+            patched(&mut settings, &only.settings);
+            let after = inspect(&a, &a, &Settings::parse(settings).unwrap()).applied;
+            let rest: Vec<_> = applied.iter().filter(|step| step.id != only.id).collect();
+            // A conversion takes the units declared for it along.
+            assert_eq!(after.iter().collect::<Vec<_>>(), rest, "{} is taken back alone", only.id);
+        }
+        let mut settings = serde_json::to_value(&given).unwrap();
+        for step in &applied {
+            patched(&mut settings, &step.settings);
+        }
+        let settings = Settings::parse(settings).unwrap();
+        assert_eq!(settings, Settings::default(), "and all of them, one after the other");
+    }
+    shown.sort_unstable();
+    shown.dedup();
+    let all = [
+        "align",
+        "align-scale",
+        "list",
+        "map",
+        "modes",
+        "modes-a",
+        "modes-b",
+        "rebase-a",
+        "rebase-b",
+        "region",
+        "subsample",
+        "unit",
+        "unit-a",
+        "unit-b",
+    ];
+    assert_eq!(shown, all, "every kind of step");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, failure_persistence: None, ..Default::default() })]
+
+    #[test]
+    fn arbitrary_lists_of_points_never_panic(
+        text in "[0-9 ,;\\-#\ta-c\r\n]{0,80}",
+        bytes in prop::collection::vec(any::<u8>(), 0..200),
+    ) {
+        for text in [text.as_str(), &String::from_utf8_lossy(&bytes)] {
+            let Ok(points) = PointSelection::parse(text) else { continue };
+            let a = tube(2, 1.0, 2, 1.0);
+            let chosen = Preparation { points: Some(points), ..nothing() }.chosen_points(&a, &a);
+            if let Ok(Some([first, second])) = chosen {
+                prop_assert_eq!(first.len(), second.len());
+                prop_assert!(first.iter().chain(&second).all(|&point| point < 24));
+            }
+        }
+    }
 }

@@ -98,6 +98,27 @@ pub fn mat4(data: &[u8]) -> Vec<u8> {
     bytes
 }
 
+/// MAT v7.3: HDF5 behind 512 bytes of text.
+pub fn mat73(data: &[u8]) -> Vec<u8> {
+    let mut bytes = forced(data, b"MATLAB 7.3 MAT-file");
+    put(&mut bytes, 512, b"\x89HDF\r\n\x1a\n");
+    bytes
+}
+
+/// Opens two tables, of modes and of variances, beside a mean of two points; a line with an equals sign
+/// parts them.
+pub fn open_beside_mean(data: &[u8]) {
+    let end = data.iter().position(|byte| *byte == b'=').unwrap_or(data.len());
+    let (modes, variances) = data.split_at(end);
+    let inputs = [
+        Input::of_bytes("x_mean.obj", b"v 0 0 0\nv 1 0 0\n".as_slice()),
+        Input::of_bytes("x_pc_9_modes.csv", points(modes)),
+        Input::of_bytes("x_var_9_modes.csv", points(variances.get(1..).unwrap_or_default())),
+    ];
+    let _ = formats::groups(&inputs);
+    let _ = formats::open(&inputs, &Options::default());
+}
+
 /// A pickle of any protocol.
 pub fn pickle(data: &[u8]) -> Vec<u8> {
     match data.first() {

@@ -94,7 +94,7 @@ impl Moments {
 
 /// Eigenvectors and eigenvalues of a symmetric matrix, largest first; the largest entry of every vector is
 /// positive.
-fn eigen(matrix: DMatrix<f64>) -> (DMatrix<f64>, DVector<f64>) {
+pub(crate) fn eigen(matrix: DMatrix<f64>) -> (DMatrix<f64>, DVector<f64>) {
     let found = matrix.symmetric_eigen();
     let mut order: Vec<usize> = (0..found.eigenvalues.len()).collect();
     order.sort_by(|&i, &j| found.eigenvalues[j].total_cmp(&found.eigenvalues[i]));
@@ -129,17 +129,17 @@ impl JointModel {
 #[derive(Debug, Clone)]
 pub struct Joint {
     /// Their bases are shared with those that were given.
-    models: [LinearModel; 2],
+    pub(super) models: [LinearModel; 2],
     /// δ (d·n × 1), without a column when the means are the same.
-    apart: DMatrix<f64>,
+    pub(super) apart: DMatrix<f64>,
     /// F: directions that are nearly inside A (d·n × t).
-    formed: DMatrix<f64>,
+    pub(super) formed: DMatrix<f64>,
     /// How B mixes [E₁ E₂ δ F], as many rows as those have columns, × p.
-    mixing: DMatrix<f64>,
+    pub(super) mixing: DMatrix<f64>,
     /// Bᵀ(mᵢ − m₁).
-    means: [DVector<f64>; 2],
+    pub(super) means: [DVector<f64>; 2],
     /// BᵀUᵢ.
-    scaled: [DMatrix<f64>; 2],
+    pub(super) scaled: [DMatrix<f64>; 2],
 }
 
 impl Joint {
@@ -236,12 +236,12 @@ impl Joint {
     }
 
     /// [E₁ E₂ δ F].
-    fn parts(&self) -> [&DMatrix<f64>; 4] {
+    pub(super) fn parts(&self) -> [&DMatrix<f64>; 4] {
         [self.models[0].basis(), self.models[1].basis(), &self.apart, &self.formed]
     }
 
-    /// BX for coordinates X (p × k), d·n × k.
-    fn shapes(&self, coordinates: &DMatrix<f64>) -> DMatrix<f64> {
+    /// BX for coordinates X (p × k), d·n × k: displacements, one a column.
+    pub fn shapes(&self, coordinates: &DMatrix<f64>) -> DMatrix<f64> {
         product_of(&self.parts(), &product(&self.mixing, coordinates))
     }
 
@@ -329,7 +329,12 @@ impl Joint {
         {
             column *= *deviation;
         }
-        let squares = row_squares_of(&self.parts(), &product(&self.mixing, &scaled));
+        self.vertex_deviations(&scaled)
+    }
+
+    /// The same of a law whose coordinates have covariance F Fᵀ (F is p × k).
+    pub fn vertex_deviations(&self, factor: &DMatrix<f64>) -> Vec<f64> {
+        let squares = row_squares_of(&self.parts(), &product(&self.mixing, factor));
         lengths(&squares, self.models[0].dimension())
     }
 

@@ -22,10 +22,31 @@ pub enum ComparisonError {
     },
     /// The two models meet in a single shape, so that there is no model of the intersection.
     FlatIntersection,
+    /// There are too few draws to say anything of.
+    NoDraws {
+        /// "A" or "B".
+        side: &'static str,
+    },
+    /// A mode that the model has not got.
+    NoMode {
+        /// Its number, from 1.
+        mode: usize,
+        /// How many there are.
+        modes: usize,
+    },
     /// Stored draws do not belong to these models.
     StoredDraws {
         /// Name of the array.
         array: String,
+    },
+    /// There is nothing of what was asked for yet.
+    NothingYet,
+    /// The points are not joined in a way that has normals.
+    NoNormals,
+    /// What was asked for does not exist.
+    Asked {
+        /// One sentence.
+        message: String,
     },
 }
 
@@ -37,7 +58,12 @@ impl ComparisonError {
             Self::Pair(error) => error.code(),
             Self::Fit { .. } => "not-finite",
             Self::FlatIntersection => "flat-intersection",
+            Self::NoDraws { .. } => "no-draws",
+            Self::NoMode { .. } => "no-mode",
             Self::StoredDraws { .. } => "stored-draws",
+            Self::NothingYet => "nothing-yet",
+            Self::NoNormals => "no-normals",
+            Self::Asked { .. } => "asked",
         }
     }
 
@@ -50,7 +76,12 @@ impl ComparisonError {
             Self::FlatIntersection => {
                 "Try a larger σ, or align B to A: a constant offset between the models empties the intersection."
             }
+            Self::NoDraws { .. } => "Wait until the run has drawn some.",
+            Self::NoMode { .. } => "Choose one of the modes that the model has.",
             Self::StoredDraws { .. } => "Load the two models with which the draws were made.",
+            Self::NothingYet => "Wait until the run has drawn some.",
+            Self::NoNormals => "Choose a map that needs no normals.",
+            Self::Asked { .. } => "Ask for one that there is.",
         }
     }
 }
@@ -68,9 +99,21 @@ impl fmt::Display for ComparisonError {
                 f,
                 "The two models have no shape in common that can vary: their intersection is flat."
             ),
+            Self::NoDraws { side } => {
+                write!(f, "The chains that start from {side} have fewer than four draws each.")
+            }
+            Self::NoMode { mode, modes } => {
+                write!(f, "Mode {mode} was asked for, but the model has {modes}.")
+            }
             Self::StoredDraws { array } => {
                 write!(f, "The stored draws “{array}” do not fit the two models.")
             }
+            Self::NothingYet => write!(f, "There are no shapes of this region yet."),
+            Self::NoNormals => write!(
+                f,
+                "The points are not joined to a surface or an outline, so that they have no normals."
+            ),
+            Self::Asked { message } => write!(f, "{message}"),
         }
     }
 }

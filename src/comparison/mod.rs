@@ -9,31 +9,41 @@
 //! intersection → rejection for the differences → measures.
 
 mod accuracy;
+mod diagnosing;
 mod error;
+mod exploring;
 mod fitting;
 mod inference;
 mod inspection;
+mod maps;
 mod preview;
 mod regions;
+mod relation;
 mod results;
 mod settings;
 mod summary;
 mod warnings;
 
+pub use diagnosing::{ChainFigures, Marginal, PairFigures};
 pub use error::ComparisonError;
+pub use exploring::{Axes, AxesKind, Explored, Nearest, Space};
 pub use inspection::{
     Agreement, Inspection, MeanDistance, Problem, Remedy, UnitFound, guessed_unit, inspect,
 };
+pub use maps::{Ellipsoid, MapName, VertexMap};
 pub use preview::{Prediction, SweepPoint};
 pub use regions::{Picture, Region, RegionShapes, ShapeSource};
+pub use relation::{Relation, relate};
 pub use results::{Results, StoredArray};
 pub use settings::{FitChoice, Plausibility, Pooling, Sampler, Settings, SettingsError};
+
+use std::collections::BTreeMap;
 
 use serde::Serialize;
 
 use crate::compare::{
-    Criterion, Difference, DifferenceDefinition, Joint, JointModel, Level, Meeting, Pair, Side,
-    Tolerance, nearest_meeting, plausible_radius, recommended_tolerance,
+    Criterion, Difference, DifferenceDefinition, Joint, JointModel, Level, Meeting, Moments, Pair,
+    Side, Tolerance, nearest_meeting, plausible_radius, recommended_tolerance,
 };
 use crate::model::LinearModel;
 use crate::report::{Diagnostics, DifferenceReport, ModeDiagnostics, ModelReport, Report, Seconds};
@@ -106,6 +116,8 @@ pub struct Comparison {
     outside: Vec<DifferenceReport>,
     cancelled: bool,
     finished: Option<Finished>,
+    /// Axes of A and B that were asked for.
+    axes: BTreeMap<(Space, AxesKind), Axes>,
 }
 
 /// What a finished run holds beside its draws.
@@ -135,6 +147,8 @@ impl Comparison {
             orthogonality: before.orthogonality,
             dropped_modes: before.dropped_modes,
             unit_guess: before.unit_guess,
+            part: before.part,
+            fingerprint: before.fingerprint,
             ..ModelReport::new(model, &before.format, &before.notes)
         };
         let described = [refresh(described_a, pair.a()), refresh(described_b, pair.b())];
@@ -155,6 +169,7 @@ impl Comparison {
             outside: Vec::new(),
             cancelled: false,
             finished: None,
+            axes: BTreeMap::new(),
         })
     }
 
@@ -236,6 +251,11 @@ impl Comparison {
         &self.pair
     }
 
+    /// What is known of the two models.
+    pub fn described(&self) -> &[ModelReport; 2] {
+        &self.described
+    }
+
     /// The settings, with the σ that is used once it is known.
     pub fn settings(&self) -> &Settings {
         &self.settings
@@ -269,13 +289,16 @@ impl Comparison {
         let difference = |side: usize| {
             self.rejections.get(side).map_or_else(|| none(side, 1), |run| run.draws().clone())
         };
-        let moments =
-            |side: usize| Some(self.inferences.get(side)?.estimate(self.settings.sampler)?.total);
         Results {
             intersection: [chain(0), chain(1)],
             differences: [difference(0), difference(1)],
-            moments: [moments(0), moments(1)],
+            moments: [self.moments(0), self.moments(1)],
         }
+    }
+
+    /// Moments of the coefficients of side 0 (A) or 1 (B) of the intersection, from what there is.
+    pub fn moments(&self, side: usize) -> Option<Moments> {
+        Some(self.inferences.get(side)?.estimate(self.settings.sampler)?.total)
     }
 
     fn prepare(&mut self) {
@@ -290,7 +313,10 @@ impl Comparison {
             let noise = self.settings.noise;
             let sides = [&self.sides[0], &self.sides[1]];
             let tolerance = recommended_tolerance(&self.pair, sides, noise);
-            self.settings.sigma_recommended = self.settings.sigma.is_none();
+            // A run file brings the value along; whether it is still recommended is seen here.
+            let was = self.settings.sigma_recommended.then_some(tolerance.sigma);
+            self.settings.sigma_recommended =
+                self.settings.sigma.is_none() || self.settings.sigma == was;
             self.settings.sigma.get_or_insert(tolerance.sigma);
             self.tolerance = Some(tolerance);
             self.stage = Stage::Fit;

@@ -1,7 +1,5 @@
 //! The five regions of the Venn diagram, as shapes to look at.
 
-use std::borrow::Cow;
-
 use serde::{Deserialize, Serialize};
 
 use super::Comparison;
@@ -174,10 +172,7 @@ impl Comparison {
 
     fn intersection_shapes(&self, count: usize, seed: u64) -> Option<RegionShapes> {
         let joint = self.joint.as_ref()?;
-        let model = match &self.finished {
-            Some(finished) => Cow::Borrowed(&finished.intersection),
-            None => Cow::Owned(self.intersection_so_far()?),
-        };
+        let model = self.intersection_model()?;
         let draws: Vec<&Draws> = self.inferences.iter().map(|one| one.draws()).collect();
         // A restored run has no fit to fall back on: it shows what draws there are.
         let enough = if self.has_fits() { count.max(1) } else { 1 };

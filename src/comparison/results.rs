@@ -4,18 +4,19 @@ use nalgebra::{DMatrix, DVector};
 
 use super::accuracy::accuracy;
 use super::inference::Estimate;
+use super::relation::overlap;
 use super::{Comparison, ComparisonError, Finished, Pooling, Stage, summary};
 use crate::compare::{Joint, JointModel, Moments};
 use crate::measure::{
-    AffineSpace, Displacement, ExclusiveModes, affine_grassmann_distance, bhattacharyya_distance,
-    exclusive_modes, mean_vertex_distance, principal_angles, unexplained_share,
+    AffineSpace, Displacement, ExclusiveModes, affine_grassmann_distance, compactness,
+    exclusive_modes, linear_split, mean_vertex_distance, scaled_modes, unexplained_share,
     vertex_standard_deviations,
 };
-use crate::model::LinearModel;
+use crate::model::{LinearModel, product};
 use crate::report::{
-    BothSides, DifferenceReport, Differences, Disagreement, EnvelopeName, ExclusiveReport,
-    Grassmann, InferenceReport, IntersectionReport, MeanSd, Models, Overlap, Report, SCHEMA,
-    Seconds, Sides, Spread, ToleranceReport,
+    BothSides, Compactness, DifferenceReport, Differences, Disagreement, EnvelopeName,
+    ExclusiveReport, Grassmann, InferenceReport, IntersectionReport, LinearSplitReport, MeanSd,
+    Models, Report, SCHEMA, Seconds, Sides, Spread, ToleranceReport,
 };
 use crate::sampling::{Draws, Envelope};
 
@@ -228,6 +229,10 @@ impl Comparison {
             .flat_map(|&side| self.inferences[side].draws().statistics.iter().flatten().copied())
             .collect();
         let [a, b] = self.described.clone();
+        let split = |side: usize| DifferenceReport {
+            linear_split: self.linear_split(side, joint, &intersection),
+            ..self.outside[side].clone()
+        };
         let mut report = Report {
             schema: SCHEMA,
             engine: env!("CARGO_PKG_VERSION").to_owned(),
@@ -259,11 +264,13 @@ impl Comparison {
                 disagreement: self.disagreement(joint, &estimates, &moments),
                 tolerance: self.tolerance_report(),
             },
-            differences: Differences {
-                a_without_b: self.outside[0].clone(),
-                b_without_a: self.outside[1].clone(),
-            },
-            overlap: self.overlap(joint),
+            differences: Differences { a_without_b: split(0), b_without_a: split(1) },
+            overlap: overlap(&self.pair, [&self.sides[0], &self.sides[1]], joint, self.sigma()),
+            compactness: Some(Compactness {
+                a: compactness(self.pair.a().standard_deviations()),
+                b: compactness(self.pair.b().standard_deviations()),
+                intersection: compactness(&intersection.standard_deviations),
+            }),
             warnings: Vec::new(),
             seconds: Seconds::default(),
         };
@@ -365,6 +372,7 @@ impl Comparison {
                     model.standard_deviations(),
                 ),
             }),
+            linear_split: None,
         }
     }
 
@@ -373,24 +381,30 @@ impl Comparison {
         exclusive_modes(self.sides[side].gram(), self.pair.a().point_count())
     }
 
-    fn overlap(&self, joint: &Joint) -> Overlap {
-        let [a, b] = self.pair.models();
-        let share = |side: usize, model: &LinearModel| {
-            (1.0 - self.sides[side].gram().trace() / model.total_variance()).clamp(0.0, 1.0)
+    /// A model without the intersection by its moments, beside the draws of the set difference.
+    fn linear_split(
+        &self,
+        side: usize,
+        joint: &Joint,
+        intersection: &JointModel,
+    ) -> Option<LinearSplitReport> {
+        let drawn = joint.lift(side, &self.difference_moments(side)?);
+        let factor = scaled_modes(intersection);
+        let part = Moments {
+            mean: intersection.mean.clone(),
+            covariance: product(&factor, &factor.transpose()),
         };
-        let noise = self.sigma();
-        Overlap {
-            principal_angles_degrees: principal_angles(&joint.modes(0), &joint.modes(1))
-                .into_iter()
-                .map(f64::to_degrees)
-                .collect(),
-            variance_of_a_in_b: share(0, a),
-            variance_of_b_in_a: share(1, b),
-            bhattacharyya: bhattacharyya_distance(&joint.prior(0), &joint.prior(1), noise)
-                .unwrap_or(f64::MAX),
-            bhattacharyya_noise: noise,
-            mean_to_mean: mean_vertex_distance(a.mean(), b.mean(), a.dimension()),
-        }
+        let weight = (1.0 - self.outside[side].probability).clamp(0.0, 1.0);
+        let split = linear_split(&joint.prior(side), &part, weight)?;
+        let dimension = self.pair.a().dimension();
+        let [of_split, of_draws] = [&split.moments.mean, &drawn.mean].map(|mean| joint.shape(mean));
+        Some(LinearSplitReport {
+            weight,
+            mean_to_mean: mean_vertex_distance(&of_split, &of_draws, dimension),
+            negative_share: split.negative_share,
+            vertex_sd: Spread::of(&joint.vertex_deviations(&split.factor)),
+            variance_ratio: split.factor.norm_squared() / drawn.covariance.trace(),
+        })
     }
 }
 
@@ -403,11 +417,8 @@ pub(super) fn pooled(joint: &Joint, estimates: &[(usize, Estimate)]) -> Option<M
 /// Affine Grassmann distances of the intersection, the paper's and Lim's, in coordinates that hold
 /// all of the spaces: the joint basis, and the direction in which A's mean leaves it.
 pub(super) fn grassmann(joint: &Joint, intersection: &JointModel) -> [Grassmann; 2] {
-    let (inside, outside) = joint.coordinates_of(joint.origin());
-    let space = |mean: &DVector<f64>, basis: DMatrix<f64>| AffineSpace {
-        point: (mean + &inside).insert_row(inside.len(), outside),
-        basis: basis.insert_row(inside.len(), 0.0),
-    };
+    let away = joint.coordinates_of(joint.origin());
+    let space = |mean: &DVector<f64>, basis: DMatrix<f64>| affine_space(&away, mean, basis);
     let union = Moments::pooled(&joint.prior(0), &joint.prior(1));
     let others = [
         space(joint.mean(0), joint.modes(0)),
@@ -420,4 +431,17 @@ pub(super) fn grassmann(joint: &Joint, intersection: &JointModel) -> [Grassmann;
             [0, 1, 2].map(|k| affine_grassmann_distance(&both, &others[k], displacement));
         Grassmann { to_a, to_b, to_union }
     })
+}
+
+/// mean + span(basis) in coordinates that hold all of the spaces: the joint basis, and the direction in which
+/// A's mean leaves it. `away` is A's mean, inside and outside of the joint basis.
+pub(super) fn affine_space(
+    (inside, outside): &(DVector<f64>, f64),
+    mean: &DVector<f64>,
+    basis: DMatrix<f64>,
+) -> AffineSpace {
+    AffineSpace {
+        point: (mean + inside).insert_row(inside.len(), *outside),
+        basis: basis.insert_row(inside.len(), 0.0),
+    }
 }

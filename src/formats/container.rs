@@ -92,10 +92,12 @@ pub(super) fn unpacked(input: &Input) -> Result<Input, FormatError> {
 
 fn inflated(input: &Input) -> Result<Input, FormatError> {
     let packed = input.bytes()?;
+    // The last four bytes say how long the last member is: nearly always all there is.
+    let expected = packed.last_chunk().map_or(0, |&length| u64::from(u32::from_le_bytes(length)));
     let bytes = read_bounded(
         MultiGzDecoder::new(packed.as_slice()),
         largest_array(packed.len()),
-        0,
+        expected,
         "The gzip file",
     )
     .map_err(|fault| fault.of(&input.name))?;
@@ -104,25 +106,37 @@ fn inflated(input: &Input) -> Result<Input, FormatError> {
 }
 
 /// Reads to the end, unless there are more than `limit` bytes; `expected` is a hint from the file.
+///
+/// Memory grows by half of what is there, never beyond the limit: doubling would hold three times as much.
 fn read_bounded(
     reader: impl Read,
     limit: u64,
     expected: u64,
     what: &str,
 ) -> Result<Vec<u8>, Fault> {
+    const LEAST: usize = 1 << 16;
+    let most = usize::try_from(limit).unwrap_or(usize::MAX);
+    let mut reader = reader.take(limit.saturating_add(1));
     let mut bytes = Vec::new();
-    let expected = usize::try_from(expected.min(limit)).unwrap_or(0);
-    bytes.try_reserve_exact(expected).map_err(|_| Fault::Unpacks { limit })?;
-    match reader.take(limit.saturating_add(1)).read_to_end(&mut bytes) {
-        Ok(_) if bytes.len() as u64 > limit => Err(Fault::Unpacks { limit }),
-        Ok(_) => Ok(bytes),
-        Err(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
-            Err(Fault::CutOff { detail: "its compressed bytes do not end".to_owned() })
+    // One byte more, so that the end shows at once where the hint is right.
+    let mut step = usize::try_from(expected).unwrap_or(usize::MAX).saturating_add(1).max(LEAST);
+    loop {
+        step = step.min((most - bytes.len()).saturating_add(1));
+        bytes.try_reserve_exact(step).map_err(|_| Fault::Unpacks { limit })?;
+        match reader.by_ref().take(step as u64).read_to_end(&mut bytes) {
+            Ok(_) if bytes.len() > most => return Err(Fault::Unpacks { limit }),
+            Ok(count) if count < step => return Ok(bytes),
+            Ok(_) => step = (bytes.len() / 2).max(LEAST),
+            Err(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+                return Err(Fault::CutOff { detail: "its compressed bytes do not end".to_owned() });
+            }
+            Err(_) => {
+                return Err(Fault::Damaged {
+                    what: what.to_owned(),
+                    reason: "its compressed bytes are corrupt".to_owned(),
+                });
+            }
         }
-        Err(_) => Err(Fault::Damaged {
-            what: what.to_owned(),
-            reason: "its compressed bytes are corrupt".to_owned(),
-        }),
     }
 }
 
@@ -178,6 +192,19 @@ pub(super) fn open_zip(input: &Input, options: &Options, depth: u8) -> Result<Op
             })
         }
     }
+}
+
+/// The files in a ZIP archive; any other file is alone.
+pub(super) fn files_in(input: &Input) -> Result<Vec<Input>, FormatError> {
+    if sniff(input).ok() != Some(Content::Zip) {
+        return Ok(vec![input.clone()]);
+    }
+    let bytes = input.bytes()?;
+    let members = members(&bytes).map_err(|fault| fault.of(&input.name))?;
+    if members.is_empty() || members.iter().any(|member| member.name.ends_with(".npy")) {
+        return Ok(vec![input.clone()]);
+    }
+    unpack(input, &bytes, &members)
 }
 
 /// Opens the part that is wanted, or the first that can be read.

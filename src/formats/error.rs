@@ -225,6 +225,11 @@ pub enum Fault {
         /// How it differs, a whole sentence without the full stop.
         difference: String,
     },
+    /// A file among shapes that is none.
+    NoShape {
+        /// What it is.
+        format: &'static str,
+    },
     /// Shapes that do not vary.
     SameShapes {
         /// How many.
@@ -294,6 +299,7 @@ impl FormatError {
             Fault::CutOff { .. } => "trunc",
             Fault::Strips => "strips",
             Fault::Correspondence { .. } => "corr",
+            Fault::NoShape { .. } => "no-shape",
             Fault::SameShapes { .. } => "no-variance",
             Fault::Unpacks { .. } => "size",
             Fault::Nested => "nested",
@@ -383,6 +389,7 @@ impl FormatError {
                 "All shapes of a set need the same points in the same order: register one template to \
                  each of them, and drop the registered meshes."
             }
+            Fault::NoShape { .. } => "Give shapes only, each in a file of its own.",
             Fault::SameShapes { .. } => "Drop shapes that differ from one another.",
             Fault::Unpacks { .. } => "Unpack it and drop the files themselves.",
             Fault::Nested => "Unpack the outer archive and drop what is in it.",
@@ -541,6 +548,9 @@ impl fmt::Display for Fault {
                 write!(f, "The faces are stored as triangle strips, which cannot be read.")
             }
             Self::Correspondence { difference } => write!(f, "{difference}."),
+            Self::NoShape { format } => {
+                write!(f, "It is a {format}; a mesh, landmarks or a list of points was expected.")
+            }
             Self::SameShapes { count } => {
                 write!(f, "All {count} shapes are the same but for position and rotation.")
             }

@@ -248,9 +248,7 @@ pub(super) fn name_of(inputs: &[Input]) -> String {
 
 /// Makes one model of several files.
 pub(super) fn open(inputs: &[Input], options: &Options, depth: u8) -> Result<Opened, FormatError> {
-    let mut inputs: Vec<Input> =
-        inputs.iter().filter(|input| !is_junk(&input.name)).cloned().collect();
-    inputs.sort_by(|a, b| natural_order(&a.name, &b.name));
+    let inputs = in_order(inputs);
     if let [input] = inputs.as_slice() {
         return open_one(input, options, depth);
     }
@@ -316,6 +314,14 @@ fn with_faces(mut opened: Opened, input: &Input) -> Opened {
     opened
 }
 
+/// Files that people meant, in natural order.
+pub(super) fn in_order(inputs: &[Input]) -> Vec<Input> {
+    let mut inputs: Vec<Input> =
+        inputs.iter().filter(|input| !is_junk(&input.name)).cloned().collect();
+    inputs.sort_by(|a, b| natural_order(&a.name, &b.name));
+    inputs
+}
+
 /// What systems and programs leave behind in folders and archives.
 pub(super) fn is_junk(name: &str) -> bool {
     name.split('/').any(|part| {
@@ -336,7 +342,7 @@ pub(super) fn stem(file_name: &str) -> &str {
 }
 
 /// What follows the last full stop, small.
-fn ending(name: &str) -> String {
+pub(super) fn ending(name: &str) -> String {
     let name = name.strip_suffix(".gz").unwrap_or(name);
     name.rsplit_once('.').map_or(String::new(), |(_, ending)| ending.to_lowercase())
 }

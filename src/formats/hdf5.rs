@@ -292,6 +292,11 @@ fn fault_of(error: &Error, what: &str, length: usize) -> Fault {
             layout("a virtual dataset, which points to other files")
         }
         Error::Format(Low::UnsupportedExternalStorage) => layout("numbers in another file"),
+        // Links by name have no address, which reads as one beyond all files.
+        Error::Format(Low::UnexpectedEof { expected: usize::MAX, .. }) => {
+            let reason = "it is a soft link, or its address leads nowhere".to_owned();
+            Fault::Damaged { what, reason }
+        }
         Error::Format(Low::UnexpectedEof { expected, available }) if *expected > *available => {
             Fault::Truncated {
                 what,

@@ -56,6 +56,7 @@ pub use error::{Fault, FormatError};
 pub use group::{Group, groups};
 pub use input::{Input, Storage};
 pub use npz::{read_arrays, write_arrays};
+pub use population::{ShapeSet, read_shapes};
 pub use write::{
     DrawnSet, write_csv, write_draws_csv, write_draws_json, write_glb, write_hdf5_json, write_json,
     write_npz, write_obj, write_ply, write_statismo, write_values,

@@ -49,6 +49,49 @@ pub(super) fn read(inputs: &[Input], options: &Options) -> Result<Opened, Format
     Ok(Opened { format, parts: vec![part.name.clone()], part })
 }
 
+/// Shapes in correspondence, as they are in their files.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShapeSet {
+    /// Coordinates per point.
+    pub dimension: usize,
+    /// Points of all shapes, one shape a column (d·n × N).
+    pub shapes: DMatrix<f64>,
+}
+
+/// Reads the shapes of files or archives, one or several in each, without making a model of them. Files of
+/// no known format beside shapes are left out, unless their names end as theirs do.
+///
+/// # Errors
+/// [`FormatError`] of the first file that has none, or that does not correspond to the first.
+pub fn read_shapes(inputs: &[Input]) -> Result<ShapeSet, FormatError> {
+    let name = group::name_of(inputs);
+    let mut files = Vec::new();
+    for input in inputs {
+        files.extend(container::files_in(input)?);
+    }
+    let mut inputs = group::in_order(&files);
+    let contents: Vec<_> = inputs.iter().map(|input| container::content(input).ok()).collect();
+    let shape_endings: Vec<String> = inputs
+        .iter()
+        .zip(&contents)
+        .filter(|(_, content)| content.is_some_and(mesh::is_shape))
+        .map(|(input, _)| group::ending(input.file_name()))
+        .collect();
+    if !shape_endings.is_empty() {
+        let mut contents = contents.iter();
+        inputs.retain(|input| {
+            contents.next().is_some_and(Option::is_some)
+                || shape_endings.contains(&group::ending(input.file_name()))
+        });
+    }
+    let mut shapes = Shapes::default();
+    for input in without_local(&inputs).0 {
+        shapes.add_file(input)?;
+    }
+    let (dimension, shapes, ..) = shapes.into_matrix().ok_or_else(|| Fault::Empty.of(&name))?;
+    Ok(ShapeSet { dimension, shapes })
+}
+
 /// ShapeWorks writes each shape twice: `_world` is aligned, `_local` as it was. Returns the aligned
 /// ones where there are some, and how many were left out.
 fn without_local(inputs: &[Input]) -> (Vec<&Input>, usize) {
@@ -130,6 +173,9 @@ impl Shapes {
                     self.add(&name, specimen.mesh)?;
                 }
                 Ok(())
+            }
+            content if !mesh::is_shape(content) => {
+                Err(refused(Fault::NoShape { format: content.name() }))
             }
             content => {
                 let mesh = mesh::read(content, &bytes).map_err(refused)?;

@@ -41,8 +41,11 @@ use super::tree::Tree;
 use super::{FormatError, Opened, Options, Origin, Part};
 use crate::model::{Cells, Kind, Unit};
 
-/// Groups looked into, of each group.
+/// Groups looked into at the root.
 const MOST_GROUPS: usize = 100;
+
+/// Groups looked into within those.
+const MOST_INNER_GROUPS: usize = 400;
 
 /// Names listed when there is no model.
 const MOST_NAMES: usize = 20;
@@ -158,9 +161,14 @@ fn places(tree: &dyn Tree) -> Vec<Place> {
         add(name, if name.is_empty() { "shape" } else { name });
     }
     // Groups may contain themselves many times over: not all of them are looked into.
+    let mut left = MOST_INNER_GROUPS;
     for group in tree.groups("").into_iter().take(MOST_GROUPS) {
         add(&group, &group);
-        for inner in tree.groups(&group).into_iter().take(MOST_GROUPS) {
+        if left == 0 {
+            continue;
+        }
+        for inner in tree.groups(&group).into_iter().take(left) {
+            left -= 1;
             add(&format!("{group}/{inner}"), &inner);
         }
     }

@@ -1,11 +1,31 @@
 //! Numbers about models and their relation.
 
 mod bhattacharyya;
+mod chi_square;
+mod compactness;
+mod evaluation;
 mod exclusive;
+mod generalization;
 mod grassmann;
+mod kullback_leibler;
+mod linear_split;
+mod principal_vectors;
+mod relative;
+mod specificity;
+mod vertex_covariance;
 mod vertices;
 
 pub use bhattacharyya::bhattacharyya_distance;
+pub use chi_square::chi_square_above;
+pub use compactness::compactness;
+pub use evaluation::{Evaluation, EvaluationError, MeanError, Method, evaluate};
 pub use exclusive::{ExclusiveModes, exclusive_modes, relative_exclusive_modes, unexplained_share};
+pub use generalization::{left_out_distances, projection_distances};
 pub use grassmann::{AffineSpace, Displacement, affine_grassmann_distance, principal_angles};
+pub use kullback_leibler::kullback_leibler;
+pub use linear_split::{LinearSplit, linear_split};
+pub use principal_vectors::principal_vectors;
+pub use relative::{RelativeEigenmodes, patterns, relative_eigenmodes};
+pub use specificity::nearest_distances;
+pub use vertex_covariance::{VertexCovariances, scaled_modes, semi_axes};
 pub use vertices::{mean_vertex_distance, vertex_standard_deviations};

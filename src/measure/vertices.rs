@@ -16,14 +16,25 @@ pub fn vertex_standard_deviations(model: &LinearModel, factor: &DMatrix<f64>) ->
 
 /// Mean distance of corresponding points of two shapes (d·n each): eq. 10 of Weiherer et al. 2024.
 pub fn mean_vertex_distance(first: &DVector<f64>, second: &DVector<f64>, dimension: usize) -> f64 {
-    let points = first.len() / dimension;
+    mean_distance(first.as_slice(), second.as_slice(), dimension)
+}
+
+/// The same of slices.
+pub(super) fn mean_distance(first: &[f64], second: &[f64], dimension: usize) -> f64 {
     let sum: f64 = first
-        .as_slice()
         .chunks_exact(dimension)
-        .zip(second.as_slice().chunks_exact(dimension))
+        .zip(second.chunks_exact(dimension))
         .map(|(x, y)| x.iter().zip(y).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt())
         .sum();
-    sum / points as f64
+    sum / (first.len() / dimension) as f64
+}
+
+/// Mean length of the points of a displacement (d·n).
+pub(super) fn mean_length(displacement: &[f64], dimension: usize) -> f64 {
+    let points = displacement.chunks_exact(dimension);
+    let sum: f64 =
+        points.map(|point| point.iter().map(|value| value * value).sum::<f64>().sqrt()).sum();
+    sum / (displacement.len() / dimension) as f64
 }
 
 #[cfg(test)]

@@ -64,6 +64,23 @@ pub fn split_r_hat(chains: &[Vec<f64>]) -> f64 {
     bulk.max(folded)
 }
 
+/// How the ranks of each chain's draws among all draws fall into `bins` equal parts, chain after chain:
+/// even where all chains have the same law. They are the ranks that R-hat is made of, but of whole chains.
+pub fn rank_histograms(chains: &[Vec<f64>], bins: usize) -> Vec<u32> {
+    let sample = Sample::new(chains);
+    let order = sample.all();
+    let mut counts = vec![0; chains.len() * bins];
+    for (first, tied) in ties(order) {
+        let share = (shared_rank(first, tied.len()) - 0.5) / order.len() as f64;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 < share < 1")]
+        let bin = ((share * bins as f64) as usize).min(bins - 1);
+        for &(_, place) in tied {
+            counts[sample.chain_of(place) * bins + bin] += 1;
+        }
+    }
+    counts
+}
+
 /// Both of them.
 fn split_r_hats(chains: &[Vec<f64>]) -> [f64; 2] {
     let sample = Sample::new(chains);
@@ -156,23 +173,30 @@ impl Sample {
     /// For each draw in a half, the normal quantile of its rank in `order`, ties sharing theirs.
     fn scores(&self, order: &[Entry], quantiles: &[f64]) -> Vec<f64> {
         let mut scores = vec![0.0; order.len()];
-        let mut first = 0;
-        while first < order.len() {
-            let ties = order[first..].iter().take_while(|entry| entry.0 == order[first].0).count();
-            let score = match ties {
+        for (first, tied) in ties(order) {
+            let score = match tied.len() {
                 1 => quantiles[first],
-                _ => blom(first as f64 + (ties as f64 + 1.0) / 2.0, order.len()),
+                count => blom(shared_rank(first, count), order.len()),
             };
-            for &(_, place) in &order[first..first + ties] {
+            for &(_, place) in tied {
                 scores[place] = score;
             }
-            first += ties;
         }
         scores
     }
 
+    /// All draws, ascending.
+    fn all(&self) -> &[Entry] {
+        self.all.as_ref().unwrap_or(&self.order)
+    }
+
+    /// The chain of a draw, by its place.
+    fn chain_of(&self, place: usize) -> usize {
+        if place < self.kept() { place / (2 * self.half) } else { place - self.kept() }
+    }
+
     fn below_quantile(&self, probability: f64) -> Vec<f64> {
-        let bound = quantile(self.all.as_ref().unwrap_or(&self.order), probability);
+        let bound = quantile(self.all(), probability);
         let kept = &self.values[..self.kept()];
         kept.iter().map(|&value| f64::from(u8::from(value <= bound))).collect()
     }
@@ -252,6 +276,21 @@ impl Sample {
         let time = (-1.0 + 2.0 * sum + rho[after_last]).max(1.0 / libm::log10(total));
         total / time
     }
+}
+
+/// Runs of equal values, each with the place of its first.
+fn ties(order: &[Entry]) -> impl Iterator<Item = (usize, &[Entry])> {
+    let mut next = 0;
+    order.chunk_by(|x, y| x.0 == y.0).map(move |tied| {
+        let first = next;
+        next += tied.len();
+        (first, tied)
+    })
+}
+
+/// The rank, from 1, that `count` equal values share from place `first` on.
+fn shared_rank(first: usize, count: usize) -> f64 {
+    first as f64 + (count as f64 + 1.0) / 2.0
 }
 
 /// The normal quantile of a rank (from 1) among `count`, Blom's offset.
@@ -356,6 +395,47 @@ mod tests {
         let mut wider = autoregression(0.0, 4, 500);
         wider[0].iter_mut().for_each(|value| *value *= 3.0);
         assert!(split_r_hat(&wider) > 1.05, "one chain wider: only folding sees it");
+    }
+
+    /// Pearson's χ² of the counts of each chain about their mean, over its degrees of freedom.
+    fn unevenness(counts: &[u32], bins: usize) -> f64 {
+        let expected = counts.iter().sum::<u32>() as f64 / counts.len() as f64;
+        let squares: f64 = counts
+            .iter()
+            .map(|&count| (f64::from(count) - expected) * (f64::from(count) - expected))
+            .sum();
+        // The counts of a chain add up, and those of a bin over the chains.
+        let freedom = (counts.len() / bins - 1) * (bins - 1);
+        squares / expected / freedom as f64
+    }
+
+    #[test]
+    fn ranks_of_chains_of_one_law_are_even_and_those_of_a_moved_chain_are_not() {
+        // χ²/f has mean 1 and standard deviation √(2/f) = 0.12.
+        let same = autoregression(0.0, 8, 1001);
+        let found = unevenness(&rank_histograms(&same, 20), 20);
+        assert!((found - 1.0).abs() < 0.5, "one law: χ²/f = {found}");
+        let mut moved = same.clone();
+        moved[3].iter_mut().for_each(|value| *value += 0.3);
+        let found = unevenness(&rank_histograms(&moved, 20), 20);
+        assert!(found > 1.5, "a chain a third of a deviation away: χ²/f = {found}");
+    }
+
+    #[test]
+    fn every_draw_is_counted_once_and_in_its_own_chain() {
+        for length in [10, 11] {
+            let chains: Vec<Vec<f64>> = (0..3)
+                .map(|chain| (0..length).map(|draw| f64::from(chain * length + draw)).collect())
+                .collect();
+            let counts = rank_histograms(&chains, 3);
+            let each = u32::try_from(length).unwrap();
+            assert_eq!(
+                counts,
+                [each, 0, 0, 0, each, 0, 0, 0, each],
+                "{length} draws, one after another"
+            );
+        }
+        assert_eq!(rank_histograms(&vec![vec![1.0; 6]; 2], 3), [0, 6, 0, 0, 6, 0], "all equal");
     }
 
     #[test]

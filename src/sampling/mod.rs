@@ -19,7 +19,7 @@ mod rejection;
 mod tilted;
 mod whitened;
 
-pub use diagnostics::{ChainSummary, autocorrelation, split_r_hat, summarise};
+pub use diagnostics::{ChainSummary, autocorrelation, rank_histograms, split_r_hat, summarise};
 pub use fit_draws::FitChains;
 pub use gaussian::Gaussian;
 pub use importance::{Importance, ImportanceEstimate, ImportanceMoments};

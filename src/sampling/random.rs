@@ -28,6 +28,8 @@ pub enum Stream {
     Quantile = 6,
     /// Synthetic models and how they are split, in reproductions of the paper.
     Experiment = 7,
+    /// Random shapes of a model, for its specificity.
+    Specificity = 8,
 }
 
 /// The generator of `seed` for one purpose. `side` is 0 for A and 1 for B; `index` counts chains or

@@ -87,6 +87,25 @@ export async function untilState(page, states, timeout = 60_000) {
   );
 }
 
+/**
+ * Call it before what begins a run. The function that comes back waits for the end of that run, which
+ * may be so short that nobody who looks now and then sees it going on.
+ */
+export async function nextRun(page, timeout = 60_000) {
+  await page.evaluate(() => {
+    const { documentElement: root } = document;
+    window.ran = false;
+    const observer = new MutationObserver(() => {
+      if (root.dataset.state !== "running") return;
+      window.ran = true;
+      observer.disconnect();
+    });
+    observer.observe(root, { attributes: true, attributeFilter: ["data-state"] });
+  });
+  const over = () => window.ran && document.documentElement.dataset.state === "done";
+  return () => page.waitForFunction(over, null, { timeout });
+}
+
 /** The unrounded value that the page shows under a path of the report. */
 export async function metric(page, path) {
   const value = await page.locator(`[data-metric="${path}"]`).first().getAttribute("data-value");

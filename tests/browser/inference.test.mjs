@@ -5,6 +5,7 @@ import {
   accessibilityFaults,
   assertShows,
   downloadReport,
+  nextRun,
   shownMetrics,
   untilDrawn,
   untilRedrawn,
@@ -90,11 +91,11 @@ for (const { name, link } of [
       assert.equal(await page.getByText("Out of date", { exact: true }).count(), 0);
 
       await slide(page, 0.5);
+      const ended = await nextRun(page);
       await letGo(page);
       await page.getByText("Out of date", { exact: true }).waitFor();
       await page.waitForURL(/sigma=[\d.]+/);
-      await untilState(page, "running");
-      await untilState(page, "done");
+      await ended();
       const after = await downloadReport(page);
       assert.ok(Math.abs(after.settings.sigma / (recommended * 10 ** 0.5) - 1) < 0.01);
       assert.equal(after.settings.sigmaRecommended, false);
@@ -108,10 +109,10 @@ test("the σ slider is worked by keys, and its middle is the recommended σ", as
     await openPage(page, url, STARS);
     const { sigma } = (await downloadReport(page)).settings;
     await sigmaSlider(page).focus();
+    const ended = await nextRun(page);
     await page.keyboard.press("ArrowRight");
     await page.waitForURL(/sigma=[\d.]+/);
-    await untilState(page, "running");
-    await untilState(page, "done");
+    await ended();
     assert.ok((await downloadReport(page)).settings.sigma > sigma);
     await sigmaSlider(page).focus();
     await page.keyboard.press("ArrowLeft");
@@ -278,10 +279,10 @@ for (const [label, name] of [
         assert.ok(Math.abs(probability - 0.2) < 0.05, `${side} has probability ${probability}`);
       }
       await assertShows(page, report);
+      const ended = await nextRun(page);
       await part.getByRole("slider", { name: "Leaves out" }).fill("50");
       await page.waitForURL(/leaves=50/);
-      await untilState(page, "running");
-      await untilState(page, "done");
+      await ended();
       const half = (await downloadReport(page)).differences.aWithoutB.probability;
       assert.ok(Math.abs(half - 0.5) < 0.07, `probability ${half}`);
     });

@@ -1,11 +1,13 @@
-//! The command line: `shapevenn info | compare | convert | reproduce`.
+//! The command line: `shapevenn info | compare | inspect | convert | sweep | evaluate | reproduce`.
 //!
 //! Exit status 0: done. 2: a bad input, with the error on standard error. 1: anything else.
 #![allow(clippy::print_stdout, reason = "a command prints its result")]
 
 mod document;
+mod evaluate;
 mod prepare;
 mod reproduce;
+mod rerun;
 mod sources;
 
 use std::path::{Path, PathBuf};
@@ -20,7 +22,7 @@ use shapevenn::comparison::{
     self, Comparison, ComparisonError, FitChoice, Plausibility, Pooling, Sampler, Settings,
     SettingsError, Stage,
 };
-use shapevenn::files::{self, Download, Error, ShownShape};
+use shapevenn::files::{self, Download, Error, ShownShape, Sources};
 use shapevenn::formats;
 use shapevenn::model::LinearModel;
 use shapevenn::report::{ModelReport, Report, Seconds};
@@ -45,7 +47,7 @@ enum Command {
         json: bool,
     },
     /// Compare two models: A∩B, A\B and B\A
-    Compare(Compare),
+    Compare(Box<Compare>),
     /// Say whether two models can be compared, and what would help
     Inspect {
         /// First model: a file, a folder of shapes, `FILE#part` or `demo:NAME`
@@ -80,16 +82,54 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Generalization and specificity of a model (Davies), by shapes of its kind
+    Evaluate(evaluate::Arguments),
     /// Run the paper's experiments again, beside its printed figures
     Reproduce(reproduce::Arguments),
 }
 
+/// What a run file decides.
+const DECIDED: [&str; 27] = [
+    "align",
+    "modes",
+    "variance",
+    "unit_a",
+    "unit_b",
+    "convert_units",
+    "rebase",
+    "region",
+    "pairs",
+    "crop_map",
+    "subsample",
+    "sigma",
+    "seed",
+    "sampler",
+    "chains",
+    "draws",
+    "burn_in",
+    "thin",
+    "fit",
+    "weighted",
+    "pooling",
+    "plausibility",
+    "noise",
+    "difference",
+    "difference_quantile",
+    "difference_threshold",
+    "difference_draws",
+];
+
 #[derive(Debug, Args)]
 struct Compare {
     /// First model: a file, a folder of shapes, `FILE#part` or `demo:NAME`
-    a: String,
+    #[arg(required_unless_present = "run")]
+    a: Option<String>,
     /// Second model
-    b: String,
+    #[arg(required_unless_present = "run")]
+    b: Option<String>,
+    /// Make a comparison again: its run.json or report.json, and the models where they are no demos
+    #[arg(long, value_name = "RUN.json", conflicts_with_all = DECIDED)]
+    run: Option<PathBuf>,
     #[command(flatten)]
     prepare: prepare::Arguments,
     /// Tolerance σ in the unit of A; recommended from the models when left out
@@ -191,6 +231,7 @@ fn main() -> ExitCode {
         Command::Inspect { a, b, prepare, json } => inspect([&a, &b], &prepare, json),
         Command::Sweep { a, b, sigma, prepare, json } => sweep([&a, &b], sigma, &prepare, json),
         Command::Convert { input, output } => convert(&input, &output),
+        Command::Evaluate(arguments) => evaluate::evaluate(&arguments),
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
     };
     match done {
@@ -286,12 +327,23 @@ fn settings(arguments: &Compare) -> Result<Settings, Failure> {
 
 fn compare(arguments: &Compare) -> Result<(), Failure> {
     let begun = Instant::now();
-    let open = |source| sources::open(source, arguments.prepare.scale);
-    let (a, b) = (open(&arguments.a)?, open(&arguments.b)?);
+    let given = [arguments.a.as_deref(), arguments.b.as_deref()];
+    let again = match &arguments.run {
+        Some(path) => Some((rerun::read(path)?, path)),
+        None => None,
+    };
+    let (named, settings) = match &again {
+        Some((run, path)) => (rerun::models(run, path, given)?, run.settings.clone()),
+        None => (given.map(|source| source.unwrap_or_default().to_owned()), settings(arguments)?),
+    };
+    let open = |source: &str| sources::open(source, arguments.prepare.scale);
+    let (a, b) = (open(&named[0])?, open(&named[1])?);
+    if let Some((run, _)) = &again {
+        run.check(&a.report, &b.report)?;
+    }
     let mut seconds = Seconds { load: begun.elapsed().as_secs_f64(), ..Seconds::default() };
     let described = [a.report, b.report];
-    let mut run = Comparison::new(&a.model, &b.model, described, settings(arguments)?)
-        .map_err(Error::from)?;
+    let mut run = Comparison::new(&a.model, &b.model, described, settings).map_err(Error::from)?;
     let bar = ProgressBar::new(1000).with_style(
         ProgressStyle::with_template("{msg:14} {bar:40} {percent:>3} %  {eta} left")
             .unwrap_or_else(|_| ProgressStyle::default_bar()),
@@ -312,7 +364,7 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
     seconds.total = begun.elapsed().as_secs_f64();
     let report = run.report(seconds).ok_or_else(|| Failure::System("no report".to_owned()))?;
     if let Some(folder) = &arguments.out {
-        write_all(&mut run, seconds, folder)?;
+        write_all(&mut run, seconds, folder, rerun::sources_of(&named))?;
     }
     if arguments.json {
         println!("{}", files::json(&report));
@@ -377,7 +429,12 @@ fn name_of(stage: Stage) -> &'static str {
     }
 }
 
-fn write_all(run: &mut Comparison, seconds: Seconds, folder: &Path) -> Result<(), Failure> {
+fn write_all(
+    run: &mut Comparison,
+    seconds: Seconds,
+    folder: &Path,
+    sources: Sources,
+) -> Result<(), Failure> {
     use shapevenn::comparison::Region;
     std::fs::create_dir_all(folder).map_err(|error| system(folder, &error))?;
     let means = Region::ALL.map(ShownShape::mean);
@@ -387,6 +444,9 @@ fn write_all(run: &mut Comparison, seconds: Seconds, folder: &Path) -> Result<()
     let fixed = [
         Download::ReportJson,
         Download::ReportCsv,
+        Download::RunJson(sources),
+        Download::CoefficientsCsv,
+        Download::ModesCsv,
         Download::DrawsNpz,
         Download::DrawsJson,
         Download::DrawsCsv,

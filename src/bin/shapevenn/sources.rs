@@ -80,7 +80,7 @@ pub(crate) fn open_all(source: &str) -> Result<Vec<Described>, Failure> {
 }
 
 /// The file, or all files in the folder and those below it.
-fn inputs_of(source: &str) -> Result<Vec<Input>, Failure> {
+pub(crate) fn inputs_of(source: &str) -> Result<Vec<Input>, Failure> {
     let path = Path::new(source);
     let refused = |path: &Path, error: &std::io::Error| Failure::Input {
         message: format!("{} cannot be read: {error}.", path.display()),

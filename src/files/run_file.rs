@@ -1,0 +1,252 @@
+//! Run files: what makes a comparison again, to the last digit.
+//!
+//! ```json
+//! { "shapevenn": 1, "engine": "0.1.0",
+//!   "models": { "a": { "name": "…", "part": "shape", "source": "demo:heads-male", "fingerprint": "…" }, "b": … },
+//!   "settings": { … } }
+//! ```
+//!
+//! `source` is `demo:NAME`, an address, or null for a file of one's own. A report says the same, sources
+//! aside, and is taken as well. Settings that are left out have the defaults of the sampler.
+//!
+//! **Limits.** A run file has no models in it, only their fingerprints ([`crate::model`]): it cannot bring
+//! them back, but it knows whether they are the same. Reports of older engines do not name them.
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::{Error, json};
+use crate::comparison::{Comparison, Settings};
+use crate::report::{BothSides, ModelReport, SCHEMA};
+
+/// Version of the layout.
+const LAYOUT: u32 = 1;
+
+/// A comparison that can be made again.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RunFile {
+    /// Version of the layout: 1.
+    pub shapevenn: u32,
+    /// Version of the engine that wrote it.
+    pub engine: String,
+    /// The two models.
+    pub models: BothSides<RunModel>,
+    /// Everything else that decides the draws.
+    pub settings: Settings,
+}
+
+/// One of the models of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct RunModel {
+    /// What it was called.
+    pub name: String,
+    /// Which model of its file it was.
+    #[serde(default)]
+    pub part: Option<String>,
+    /// `demo:NAME`, an address, or nothing.
+    #[serde(default)]
+    pub source: Option<String>,
+    /// Which numbers it had; unknown in reports of old engines.
+    #[serde(default)]
+    pub fingerprint: Option<String>,
+}
+
+impl RunModel {
+    /// The name of the demo that it was.
+    pub fn demo(&self) -> Option<&str> {
+        self.source.as_deref()?.strip_prefix("demo:")
+    }
+}
+
+/// Where the two models of a run are from: `demo:NAME`, an address, or nothing.
+#[derive(Debug, Clone, PartialEq, Eq, Default, Deserialize)]
+#[serde(default)]
+pub struct Sources {
+    /// Of model A.
+    pub a: Option<String>,
+    /// Of model B.
+    pub b: Option<String>,
+}
+
+impl RunFile {
+    /// That of a comparison, with the σ in use once it is known.
+    pub fn of(comparison: &Comparison, sources: &Sources) -> Self {
+        let [a, b] = comparison.described();
+        let model = |report: &ModelReport, source: &Option<String>| RunModel {
+            name: report.name.clone(),
+            part: report.part.clone(),
+            source: source.clone(),
+            fingerprint: report.fingerprint.clone(),
+        };
+        Self {
+            shapevenn: LAYOUT,
+            engine: env!("CARGO_PKG_VERSION").to_owned(),
+            models: BothSides { a: model(a, &sources.a), b: model(b, &sources.b) },
+            settings: comparison.settings().clone(),
+        }
+    }
+
+    /// As it is saved.
+    pub fn to_json(&self) -> String {
+        json(self)
+    }
+
+    /// Reads a run file or a report; `file` is what errors call it.
+    ///
+    /// # Errors
+    /// [`Error::RunFile`].
+    pub fn parse(file: &str, text: &str) -> Result<Self, Error> {
+        let refused = |reason: String, hint: &'static str| {
+            let file = file.to_owned();
+            Error::RunFile { file, reason, hint }
+        };
+        let choose = "Choose the run.json that Shapevenn wrote, or a report.json.";
+        let value: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
+            .map_err(|fault| refused(format!("is no JSON: {fault}"), choose))?;
+        for (name, layout) in [("shapevenn", LAYOUT), ("schema", SCHEMA)] {
+            match value.get(name) {
+                Some(found) if *found != layout => {
+                    let reason = format!("says {name} {found}; {layout} was expected");
+                    let newer = "Open it with the version of Shapevenn that wrote it.";
+                    return Err(refused(reason, newer));
+                }
+                _ => {}
+            }
+        }
+        let is_known = ["shapevenn", "schema"].iter().any(|name| value.get(name).is_some());
+        if !is_known || value.get("models").is_none() || value.get("settings").is_none() {
+            let found: Vec<&str> = match &value {
+                Value::Object(members) => members.keys().take(8).map(String::as_str).collect(),
+                _ => Vec::new(),
+            };
+            let found = if found.is_empty() { "no members".to_owned() } else { found.join(", ") };
+            let reason = format!(
+                "is neither a run file nor a report: \"shapevenn\": {LAYOUT}, \"models\" and \"settings\" \
+                 were expected, it has {found}"
+            );
+            return Err(refused(reason, choose));
+        }
+        let damaged = "Run the comparison again, and save a new one.";
+        let models = BothSides::<RunModel>::deserialize(&value["models"])
+            .map_err(|fault| refused(format!("does not say which models: {fault}"), damaged))?;
+        let settings = Settings::parse(value["settings"].clone()).map_err(|fault| {
+            refused(format!("has settings that cannot be read: {fault}"), damaged)
+        })?;
+        settings.check().map_err(|fault| {
+            let fault = fault.to_string();
+            refused(
+                format!("has a setting out of its range: {}", fault.trim_end_matches('.')),
+                damaged,
+            )
+        })?;
+        let engine = value.get("engine").and_then(Value::as_str).unwrap_or_default().to_owned();
+        Ok(Self { shapevenn: LAYOUT, engine, models, settings })
+    }
+
+    /// Whether these are the models that the run was made with.
+    ///
+    /// # Errors
+    /// [`Error::OtherModel`] of the first that is not.
+    pub fn check(&self, a: &ModelReport, b: &ModelReport) -> Result<(), Error> {
+        let BothSides { a: expected_a, b: expected_b } = &self.models;
+        for (side, expected, other, given) in
+            [("A", expected_a, expected_b, a), ("B", expected_b, expected_a, b)]
+        {
+            if expected.fingerprint.is_none() || expected.fingerprint == given.fingerprint {
+                continue;
+            }
+            let hint = if other.fingerprint == given.fingerprint {
+                "The two are in the other order: give the first model of the run first.".to_owned()
+            } else if self.engine != env!("CARGO_PKG_VERSION") {
+                format!(
+                    "Give the file of that name; if it is the same file, version {} read it with other \
+                     roundings, and version {} cannot make the same draws.",
+                    self.engine,
+                    env!("CARGO_PKG_VERSION")
+                )
+            } else {
+                "Give the file that the run was made with: the same part of it, and brought to one size or \
+                 not as it was then."
+                    .to_owned()
+            };
+            return Err(Error::OtherModel {
+                side,
+                expected: named(&expected.name, expected.fingerprint.as_deref()),
+                found: named(&given.name, given.fingerprint.as_deref()),
+                hint,
+            });
+        }
+        Ok(())
+    }
+}
+
+/// "male.h5 (1f2e…)".
+fn named(name: &str, fingerprint: Option<&str>) -> String {
+    format!("{name} ({})", fingerprint.unwrap_or("no fingerprint"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::open_demo;
+
+    fn stars() -> (RunFile, [ModelReport; 2]) {
+        let [a, b] = ["stars-1-a", "stars-1-b"].map(|name| open_demo(name, None).unwrap());
+        let described = [a.report.clone(), b.report.clone()];
+        let run = Comparison::new(&a.model, &b.model, described.clone(), Settings::default());
+        let sources = Sources { a: Some("demo:stars-1-a".to_owned()), b: None };
+        (RunFile::of(&run.unwrap(), &sources), described)
+    }
+
+    fn fault(text: &str) -> String {
+        RunFile::parse("x.json", text).map(|_| ()).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn a_run_file_is_read_as_it_was_written() {
+        let (run, [a, b]) = stars();
+        assert_eq!(RunFile::parse("run.json", &run.to_json()), Ok(run.clone()), "read back");
+        assert_eq!(run.models.a.demo(), Some("stars-1-a"), "a demo");
+        assert_eq!(run.models.b.demo(), None, "a file of one's own");
+        assert_eq!(run.check(&a, &b), Ok(()), "the same models");
+    }
+
+    #[test]
+    fn other_models_are_named_with_what_was_expected() {
+        let (run, [a, b]) = stars();
+        let swapped = run.check(&b, &a).unwrap_err();
+        assert_eq!(swapped.code(), "other-model", "code");
+        assert!(swapped.hint().contains("other order"), "{}", swapped.hint());
+        let other = open_demo("stars-5-b", None).unwrap().report;
+        let message = run.check(&a, &other).unwrap_err().to_string();
+        let fingerprint = |report: &ModelReport| report.fingerprint.clone().unwrap();
+        for part in ["stars-1-b", &fingerprint(&b), "stars-5-b", &fingerprint(&other), "model B"] {
+            assert!(message.contains(part), "{part} in {message}");
+        }
+        let mut old = run.clone();
+        old.models.b.fingerprint = None;
+        assert_eq!(old.check(&a, &other), Ok(()), "nothing is known of B");
+    }
+
+    #[test]
+    fn what_is_no_run_file_is_said() {
+        let (run, _) = stars();
+        let text = run.to_json();
+        assert!(fault("{").starts_with("x.json is no JSON: EOF"), "{}", fault("{"));
+        assert!(fault("[1]").contains("it has no members"), "{}", fault("[1]"));
+        let other = fault(r#"{"mean": [1], "basis": []}"#);
+        assert!(
+            other.contains("\"shapevenn\": 1") && other.contains("it has basis, mean"),
+            "{other}"
+        );
+        let newer = fault(&text.replace("\"shapevenn\": 1", "\"shapevenn\": 2"));
+        assert_eq!(newer, "x.json says shapevenn 2; 1 was expected.", "a newer one");
+        let setting = fault(&text.replace("\"burnIn\"", "\"burntIn\""));
+        assert!(setting.contains("unknown field `burntIn`"), "{setting}");
+        let range = fault(&text.replace("\"chains\": 8", "\"chains\": 1"));
+        assert_eq!(
+            range, "x.json has a setting out of its range: “chains” is 1; 2 to 1024 was expected.",
+            "a setting"
+        );
+    }
+}
