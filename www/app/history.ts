@@ -8,6 +8,7 @@ import {
   camera,
   demo,
   exaggeration,
+  lockedRange,
   mapMode,
   painting,
   picture,
@@ -65,6 +66,7 @@ export function currentLink(): string {
     map: vertexMap.value,
     mapMode: mapMode.value,
     vertex: vertex.value,
+    scale: lockedRange.value,
     region: region.value,
     picture: picture.value,
     exaggeration: exaggeration.value,
@@ -89,6 +91,7 @@ const step = computed(() => {
     vertexMap.value,
     mapMode.value,
     vertex.value,
+    lockedRange.value,
     region.value,
     picture.value,
   ]);
@@ -194,6 +197,7 @@ export function apply(link: LinkState): void {
     vertexMap.value = link.map;
     mapMode.value = link.mapMode;
     vertex.value = link.vertex;
+    lockedRange.value = link.scale;
     region.value = link.region;
     picture.value = link.picture;
     exaggeration.value = link.exaggeration;

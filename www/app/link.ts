@@ -88,6 +88,8 @@ export interface LinkState {
   mapMode: number;
   /** The vertex that is looked at. */
   vertex: number | null;
+  /** Range of the colours while it is locked. */
+  scale: [number, number] | null;
   /** The region shown alone, if one is. */
   region: Region | null;
   picture: Picture;
@@ -109,6 +111,7 @@ export function defaultLink(): LinkState {
     map: "sd",
     mapMode: 0,
     vertex: null,
+    scale: null,
     region: null,
     picture: "draws",
     exaggeration: 0,
@@ -143,6 +146,7 @@ export function writeLink(state: LinkState): string {
   if (state.map !== "sd") pairs.push(["map", state.map]);
   if (state.mapMode !== 0) pairs.push(["mode", state.mapMode + 1]);
   if (state.vertex !== null) pairs.push(["vertex", state.vertex]);
+  if (state.scale !== null) pairs.push(["scale", state.scale.map(shortNumber).join(",")]);
   if (state.region) pairs.push(["region", state.region]);
   if (state.picture !== "draws") pairs.push(["picture", state.picture]);
   if (state.exaggeration !== 0) pairs.push(["exaggerate", state.exaggeration]);
@@ -209,6 +213,7 @@ export function readLink(fragment: string): LinkState {
     map: oneOf(given.get("map"), MAPS) ?? fallback.map,
     mapMode: valid(parseCount(given.get("mode") ?? "", ...RANGES.modes), 1) - 1,
     vertex: valid<number | null>(parseCount(given.get("vertex") ?? "", 0, MOST_VERTICES), null),
+    scale: readScale(given.get("scale")),
     view: oneOf(given.get("view"), VIEW_MODES) ?? fallback.view,
     region: oneOf(given.get("region"), REGIONS) ?? null,
     picture: oneOf(given.get("picture"), PICTURES) ?? fallback.picture,
@@ -291,6 +296,16 @@ export function misread(fragment: string): string[] {
     const value = given.get(key);
     return value === null || known.includes(value) ? [] : `${key}=${value}`;
   });
+}
+
+/** As many digits as single precision has. */
+function shortNumber(value: number): string {
+  return String(Number(value.toPrecision(7)));
+}
+
+function readScale(text: string | null): [number, number] | null {
+  const [low = Number.NaN, high = Number.NaN, ...more] = (text ?? "").split(",").map(Number);
+  return low < high && Number.isFinite(high - low) && more.length === 0 ? [low, high] : null;
 }
 
 function readExaggeration(text: string | null): number {

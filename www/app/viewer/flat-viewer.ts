@@ -18,6 +18,8 @@ import {
 const MARK_PX = 6;
 /** Colours of a map run from dark to light: a rim keeps the light ones apart from the page. */
 const MAP_PX = 4;
+/** Along a line, what lies between its two ends is coloured in steps. */
+const STEP_PX = 8;
 const RIM = { width: MAP_PX + 1.5, colour: "rgb(110 110 116)" };
 
 export class FlatViewer implements Viewer {
@@ -200,11 +202,21 @@ export class FlatViewer implements Viewer {
     pen.lineWidth = MAP_PX;
     for (let i = 0; i + 1 < segments.length; i += 2) {
       const [from = 0, to = 0] = [segments[i], segments[i + 1]];
-      pen.strokeStyle = colourAt((share(from) + share(to)) / 2);
-      pen.beginPath();
-      pen.moveTo(...place(shape, from));
-      pen.lineTo(...place(shape, to));
-      pen.stroke();
+      const [start, end] = [place(shape, from), place(shape, to)];
+      const [low, high] = [share(from), share(to)];
+      const steps = Math.max(
+        1,
+        Math.ceil(Math.hypot(end[0] - start[0], end[1] - start[1]) / STEP_PX),
+      );
+      const between = (one: number, other: number, step: number) =>
+        one + ((other - one) * step) / steps;
+      for (let step = 0; step < steps; step += 1) {
+        pen.strokeStyle = colourAt(between(low, high, step + 0.5));
+        pen.beginPath();
+        pen.moveTo(between(start[0], end[0], step), between(start[1], end[1], step));
+        pen.lineTo(between(start[0], end[0], step + 1), between(start[1], end[1], step + 1));
+        pen.stroke();
+      }
     }
   }
 

@@ -1,5 +1,5 @@
 import { gradientOf } from "../colormap";
-import { number, signed } from "../format";
+import { number, signed, withoutDust } from "../format";
 import { MAP_WORDS, mapCaption, scaleEnds } from "../map-words";
 import { mapProblem, mapRange, ownRange, shownMap } from "../maps";
 import { lockedRange, unit } from "../state";
@@ -12,13 +12,11 @@ export function ColorBar() {
   if (!range) return <p class="small">{MAP_WORDS[map.name].label}: waiting for the engine.</p>;
   const [low, high] = range;
   const own = ownRange.value;
-  const beyond = own !== null && (own[0] < low || own[1] > high);
+  // As many digits of a locked one as links hold.
+  const [least, most] = [low, high].map((end, i) => end + (i - 0.5) * 1e-5 * (high - low));
+  const beyond = own !== null && (own[0] < (least ?? low) || own[1] > (most ?? high));
   const ends = scaleEnds(map.name, map.signed);
-  // What is only rounding error beside the other end is none.
-  const text = (value: number) => {
-    const shown = Math.abs(value) < 1e-9 * high ? 0 : value;
-    return map.signed ? signed(shown) : number(shown);
-  };
+  const text = (value: number) => (map.signed ? signed : number)(withoutDust(value, high));
   return (
     <figure class="color-bar" data-low={low} data-high={high}>
       <figcaption title={MAP_WORDS[map.name].help}>
@@ -34,6 +32,16 @@ export function ColorBar() {
         <span class="num">{text(high)}</span>
         {ends && <span class="scale-end">{ends[1]}</span>}
       </span>
+      <label class="check">
+        <input
+          type="checkbox"
+          checked={lockedRange.value !== null}
+          onChange={(event) => {
+            lockedRange.value = event.currentTarget.checked ? mapRange.value : null;
+          }}
+        />
+        Lock scale
+      </label>
     </figure>
   );
 }

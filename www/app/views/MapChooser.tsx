@@ -1,10 +1,10 @@
 import { MAPS } from "../link";
 import { MAP_WORDS } from "../map-words";
-import { chooseMap, mapRange } from "../maps";
-import { lockedRange, mapMode, result, slots, vertexMap } from "../state";
+import { chooseMap } from "../maps";
+import { mapMode, result, slots, vertexMap } from "../state";
 import { NumberField } from "./NumberField";
 
-/** What is coloured onto the vertices, of which mode, and whether its scale stays. */
+/** What is coloured onto the vertices, and of which mode. */
 export function MapChooser() {
   return (
     <>
@@ -35,16 +35,6 @@ export function MapChooser() {
           }}
         />
       )}
-      <label class="check">
-        <input
-          type="checkbox"
-          checked={lockedRange.value !== null}
-          onChange={(event) => {
-            lockedRange.value = event.currentTarget.checked ? mapRange.value : null;
-          }}
-        />
-        Lock scale
-      </label>
     </>
   );
 }

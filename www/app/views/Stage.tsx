@@ -1,6 +1,6 @@
 import { useEffect, useRef } from "preact/hooks";
 import type { Region } from "../../worker/protocol";
-import { number, signed } from "../format";
+import { number, signed, withoutDust } from "../format";
 import { MAP_WORDS, mapUnit } from "../map-words";
 import { shownMap } from "../maps";
 import {
@@ -192,7 +192,8 @@ function valueAt(name: Region, vertex: number): string | null {
     const map = shownMap.value;
     const value = map.values[name]?.[vertex];
     if (value === undefined) return null;
-    const text = map.signed ? signed(value) : number(value);
+    const size = map.name === "ratio" ? 0 : (slots.a.value?.report.size ?? 0);
+    const text = (map.signed ? signed : number)(withoutDust(value, size));
     return `${map.name === "sd" ? "SD " : ""}${text} ${mapUnit(map.name, unit.value)}`;
   }
   const { geometry } = scene.value;

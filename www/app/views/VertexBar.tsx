@@ -1,10 +1,10 @@
 import type { Region } from "../../worker/protocol";
 import { semiAxes } from "../ellipsoid";
-import { number, signed } from "../format";
+import { number, signed, withoutDust } from "../format";
 import { REGIONS } from "../link";
-import { mapCaption } from "../map-words";
+import { MAP_WORDS, mapCaption, mapUnit } from "../map-words";
 import { ellipsoids, pointCount, shownMap } from "../maps";
-import { compared, room, unit, vertex, view } from "../state";
+import { compared, room, slots, unit, vertex, view } from "../state";
 import { ELLIPSOID_SD } from "../viewer/contents";
 import { picking } from "../viewer/stage-controller";
 
@@ -49,14 +49,20 @@ export function VertexBar() {
             Clear
           </button>
         )}
-        {picking.value && chosen === null && <span class="small">Click on a shape.</span>}
+        <span class="small">{explanation()}</span>
       </div>
       {chosen !== null && <VertexTable vertex={chosen} />}
     </section>
   );
 }
 
-const ORDINALS = ["longest", "middle", "shortest"];
+function explanation(): string {
+  if (vertex.value === null) return picking.value ? "Click on a shape." : "";
+  const [found] = Object.values(ellipsoids.value);
+  if (!found) return "";
+  const name = found.centre.length === 2 ? "Ellipses" : "Ellipsoids";
+  return `${name}: covariance of this vertex in each region, drawn at ${ELLIPSOID_SD} SD.`;
+}
 
 function VertexTable({ vertex: chosen }: { vertex: number }) {
   const map = shownMap.value;
@@ -69,9 +75,11 @@ function VertexTable({ vertex: chosen }: { vertex: number }) {
     );
   }
   const value = (region: Region) => map.values[region]?.[chosen];
+  const size = slots.a.value?.report.size ?? 0;
+  const length = (value: number) => number(withoutDust(value, size));
+  const show = (value: number) => (map.signed ? signed : number)(withoutDust(value, size));
   const axes = semiAxesOf(ellipsoids.value);
   const rows = Math.max(0, ...Object.values(axes).map((lengths) => lengths.length));
-  const names = rows === 2 ? ["longest", "shortest"] : ORDINALS;
   return (
     <>
       {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls must be reached by keys */}
@@ -92,30 +100,30 @@ function VertexTable({ vertex: chosen }: { vertex: number }) {
           </thead>
           <tbody>
             <tr>
-              <th scope="row">{mapCaption(map.name, map, unit.value)}</th>
+              <th scope="row" title={mapCaption(map.name, map, unit.value)}>
+                {MAP_WORDS[map.name].label}, {mapUnit(map.name, unit.value)}
+              </th>
               {REGIONS.map((region) => (
-                <Cell key={region} value={value(region)} show={map.signed ? signed : number} />
+                <Cell
+                  key={region}
+                  value={value(region)}
+                  show={map.name === "ratio" ? signed : show}
+                />
               ))}
             </tr>
-            {Array.from({ length: rows }, (_, i) => (
-              <tr key={names[i]}>
+            {rows > 0 && (
+              <tr>
                 <th scope="row">
-                  Ellipsoid, {names[i]} semi-axis at {ELLIPSOID_SD} SD, {unit.value}
+                  Semi-axes at {ELLIPSOID_SD} SD, {unit.value}
                 </th>
                 {REGIONS.map((region) => (
-                  <Cell key={region} value={axes[region]?.[i]} show={number} />
+                  <Lengths key={region} values={axes[region] ?? []} show={length} />
                 ))}
               </tr>
-            ))}
+            )}
           </tbody>
         </table>
       </section>
-      {rows > 0 && (
-        <p class="small">
-          The {rows === 2 ? "ellipse" : "ellipsoid"} in each pane is the covariance of this vertex
-          there, about its mean place, drawn at {ELLIPSOID_SD} SD.
-        </p>
-      )}
     </>
   );
 }
@@ -145,6 +153,21 @@ function Cell({ value, show }: CellProps) {
   return (
     <td>
       <data value={String(value)}>{show(value)}</data>
+    </td>
+  );
+}
+
+/** Of one ellipsoid, longest first. */
+function Lengths({ values, show }: { values: number[]; show: (value: number) => string }) {
+  return (
+    <td>
+      {values.length === 0 && <span class="dim">–</span>}
+      {values.map((value, i) => (
+        <span key={String(i)}>
+          {i > 0 && " × "}
+          <data value={String(value)}>{show(value)}</data>
+        </span>
+      ))}
     </td>
   );
 }
