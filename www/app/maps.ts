@@ -55,10 +55,19 @@ function answers(found: Fetched): boolean {
   return held.value === null || held.value.key === key;
 }
 
+/** Standard deviations, whatever is chosen: they come with the shapes. */
+export const deviationMap = computed<ShownMap>(() => ({
+  name: "sd",
+  mode: 0,
+  signed: false,
+  palette: "viridis",
+  values: deviations(),
+}));
+
 /** The map that is chosen; without values until the engine has sent them. */
 export const shownMap = computed<ShownMap>(() => {
   const [name, mode] = [vertexMap.value, mapMode.value];
-  if (name === "sd") return { name, mode, signed: false, palette: "viridis", values: deviations() };
+  if (name === "sd") return deviationMap.value;
   const found = fetched.value;
   const maps = found && answers(found) ? found.maps : {};
   const signed = REGIONS.some((region) => maps[region]?.signed);
@@ -92,12 +101,13 @@ function deviations(): ShownMap["values"] {
 }
 
 /** One range for all regions, whether or not they are on show. */
-export const ownRange = computed(() => {
-  const { signed, values } = shownMap.value;
-  return signed ? symmetricRange(Object.values(values)) : commonRange(Object.values(values));
-});
+export const ownRange = computed(() => rangeOf(shownMap.value));
 
 export const mapRange = computed(() => ownRange.value && (lockedRange.value ?? ownRange.value));
+
+export function rangeOf({ signed, values }: ShownMap): [number, number] | null {
+  return signed ? symmetricRange(Object.values(values)) : commonRange(Object.values(values));
+}
 
 /** Another quantity has another scale: it does not stay locked. */
 export function chooseMap(name: MapName): void {

@@ -162,7 +162,8 @@ export class MeshViewer implements Viewer {
     this.#eye.clearViewOffset();
     this.#renderer.setPixelRatio(ratio);
     this.#renderer.setSize(this.#size.width, this.#size.height, false);
-    this.#render();
+    // Before the page is painted again, and once for many pictures.
+    this.#request();
     return copy;
   }
 

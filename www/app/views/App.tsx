@@ -16,6 +16,7 @@ import { Rooms } from "./Rooms";
 import { RunPanel } from "./RunPanel";
 import { SettingsPanel } from "./SettingsPanel";
 import { Stage } from "./Stage";
+import { Taking } from "./Taking";
 
 export function App() {
   return (
@@ -52,6 +53,7 @@ export function App() {
       </main>
       <DropOverlay />
       <Chooser />
+      <Taking />
       <p class="unseen" aria-live="polite">
         {spoken.value}
       </p>

@@ -13,8 +13,8 @@ export function ColorBar() {
   const [low, high] = range;
   const own = ownRange.value;
   // As many digits of a locked one as links hold.
-  const [least, most] = [low, high].map((end, i) => end + (i - 0.5) * 1e-5 * (high - low));
-  const beyond = own !== null && (own[0] < (least ?? low) || own[1] > (most ?? high));
+  const slack = 1e-5 * (high - low);
+  const beyond = own !== null && (own[0] < low - slack || own[1] > high + slack);
   const ends = scaleEnds(map.name, map.signed);
   const text = (value: number) => (map.signed ? signed : number)(withoutDust(value, high));
   return (

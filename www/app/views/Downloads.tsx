@@ -5,6 +5,7 @@ import { download, saveText } from "../download";
 import { REGIONS } from "../link";
 import { engine, exaggeration, picture, result, run, shapes, shapesSeed } from "../state";
 import { REGION_NAMES } from "./names";
+import { Methods, Pictures } from "./Pictures";
 
 /** What is taken away, and as which kinds of file. */
 const KINDS: { of: string; files: [ending: string, kind: ExportKind["kind"], help: string][] }[] = [
@@ -62,6 +63,8 @@ export function Downloads() {
         />
       </fieldset>
       <Shape ready={ready} />
+      <Pictures ready={ready} />
+      <Methods />
     </section>
   );
 }

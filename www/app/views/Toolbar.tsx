@@ -5,6 +5,7 @@ import { camera, outOfDate, region, view } from "../state";
 import { HOME } from "../viewer/camera";
 import { DownloadIcon } from "./icons";
 import { MapChooser } from "./MapChooser";
+import { taking } from "./Taking";
 
 const LABELS: Record<ViewMode, string> = {
   mean: "Mean",
@@ -62,6 +63,15 @@ export function Toolbar() {
       <button type="button" class="quiet" onClick={() => void savePicture()}>
         <DownloadIcon />
         <span>PNG</span>
+      </button>
+      <button
+        type="button"
+        class="quiet"
+        onClick={() => {
+          taking.value = "figure";
+        }}
+      >
+        Figure…
       </button>
     </div>
   );

@@ -36,14 +36,11 @@ const EXCLUSIVE: Record<ViewMode, string> = {
 };
 
 /** What is drawn of a difference beside its draws as they are; empty where that is all. */
-export function differencePicture(): string {
+export function differencePicture(shows: ViewMode = view.value): string {
+  // Maps other than of standard deviations are of the draws, whatever is shown of a difference.
+  const ofDraws = shows === "sd" && vertexMap.value !== "sd";
   return [
-    ...(picture.value === "exclusiveModes" && !isOfTheLaw() ? [EXCLUSIVE[view.value]] : []),
+    ...(picture.value === "exclusiveModes" && !ofDraws ? [EXCLUSIVE[shows]] : []),
     ...(exaggeration.value > 0 ? [`γ\u202f${exaggeration.value.toFixed(1)}`] : []),
   ].join(", ");
-}
-
-/** Maps other than of standard deviations are of the draws, whatever is shown of a difference. */
-function isOfTheLaw(): boolean {
-  return view.value === "sd" && vertexMap.value !== "sd";
 }
