@@ -90,6 +90,10 @@ fn compare_prints_one_report_with_every_field_that_is_promised() {
         "differences.{aWithoutB,bWithoutA}.diagnostics.{essBulkMin,acceptance,evaluations,converged}",
         "differences.{aWithoutB,bWithoutA}.vertexSd.{min,mean,max}",
         "overlap.{principalAnglesDegrees,varianceOfAInB,varianceOfBInA,bhattacharyya}",
+        "overlap.kullbackLeibler.{aFromB,bFromA}",
+        "compactness.{a,b,intersection}",
+        "differences.{aWithoutB,bWithoutA}.linearSplit.{weight,meanToMean,negativeShare,varianceRatio}",
+        "differences.{aWithoutB,bWithoutA}.linearSplit.vertexSd.{min,mean,max}",
         "warnings",
         "seconds.{load,prepare,sample,total}",
     ];
@@ -107,6 +111,30 @@ fn compare_prints_one_report_with_every_field_that_is_promised() {
             assert!(warning[field].is_string(), "{field} of {warning}");
         }
     }
+}
+
+#[test]
+fn a_matrix_relates_every_two_models_and_says_why_where_it_cannot() {
+    let files = ["demo:stars-1-a", "demo:stars-1-b", "demo:planes-a"];
+    let found: Value =
+        serde_json::from_str(&printed(&[&["matrix", "--json"], &files[..]].concat())).unwrap();
+    assert_eq!(found["models"], serde_json::json!(["stars-1-a", "stars-1-b", "planes-a"]), "names");
+    let relations = found["relations"].as_array().unwrap();
+    let places: Vec<(u64, u64)> = relations
+        .iter()
+        .map(|one| (one["a"].as_u64().unwrap(), one["b"].as_u64().unwrap()))
+        .collect();
+    assert_eq!(places, [(0, 1), (0, 2), (1, 2)], "every two of them once");
+    assert_eq!(relations[0]["problem"], Value::Null, "stars can be compared");
+    assert_eq!(relations[1]["problem"]["code"], "dimension-mismatch", "with planes they cannot");
+    let report: Value = serde_json::from_str(&printed(&STARS)).unwrap();
+    let share = &report["overlap"]["varianceOfAInB"];
+    assert_eq!(&relations[0]["varianceOfAInB"], share, "as a comparison says");
+    let words = printed(&[&["matrix"], &files[..]].concat());
+    assert!(words.contains("| 1 stars-1-a |     · | 50.0 |   – |"), "a table: {words}");
+    assert!(words.contains("! 1 and 3: A has points in 2 dimensions"), "a sentence: {words}");
+    let alone = shapevenn(&["matrix", "demo:stars-1-a"]);
+    assert_eq!(alone.status.code(), Some(2), "one model has no matrix");
 }
 
 /// a.{b,c} written out as a.b and a.c.

@@ -7,7 +7,9 @@ use std::cell::Cell;
 use serde_json::Value;
 use shapevenn::files;
 use shapevenn::model::LinearModel;
-use shapevenn::reproduce::{Observer, Plan, Table1, sigma, table1, table2};
+use shapevenn::reproduce::{
+    Observer, Plan, Table1, generated_pairs, overlap, sigma, table1, table2,
+};
 
 const OURS: Plan = Plan { repeats: 1, walks: false };
 
@@ -154,4 +156,24 @@ fn too_large_a_sigma_is_seen_and_the_mean_distance_of_heads_is_predicted() {
         let ratio = row.facts.predicted_distance / row.facts.mean_distance;
         assert!((ratio - 1.0).abs() < 0.02, "σ = {}: {:?}", row.sigma, row.facts);
     }
+}
+
+#[test]
+fn overlap_of_pairs_is_ordered_against_their_bhattacharyya_distance() {
+    let pairs = generated_pairs();
+    assert_eq!(pairs.len(), 7, "six pairs of stars, and the planes");
+    let found = overlap(&pairs, &Ticking::default()).unwrap();
+    for row in &found.rows {
+        assert!(row.sigma > 0.0 && row.bhattacharyya > 0.0, "{}", row.case);
+        assert!(row.bhattacharyya_about_one_mean < row.bhattacharyya, "{}: means apart", row.case);
+        assert!(row.shared_shapes() > 0.0 && row.shared_shapes() < 1.0, "{}", row.case);
+    }
+    let of_stars: Vec<_> = found.correlations.iter().filter(|one| one.among == "stars").collect();
+    assert_eq!(of_stars.len(), 3, "with three distances");
+    for one in of_stars {
+        // They share half of their variance and have one d_G: rounding must not make an order of that.
+        assert_eq!((one.variance, one.grassmann), (None, None), "{}: ties", one.with);
+        assert!(one.shapes.unwrap() < 0.0, "{}: fewer common shapes, farther apart", one.with);
+    }
+    assert!(found.correlations.iter().all(|one| one.among != "planes"), "one pair has no order");
 }

@@ -453,5 +453,7 @@ mod tests {
         for (found, expected) in maps.0.into_iter().zip(maps.1) {
             assert!((found - expected).abs() < 1e-13, "{found}, not {expected}");
         }
+        let nothing = joint.vertex_deviations(&DMatrix::zeros(joint.dimension(), 0));
+        assert_eq!(nothing, [0.0; 12], "what does not vary");
     }
 }

@@ -27,6 +27,7 @@ pub use joint::{Joint, JointModel, Moments};
 pub use kernel::DistanceKernel;
 pub use meeting::{Meeting, nearest_meeting, plausible_radius};
 pub use pair::{Pair, PairError, Side};
+pub(crate) use placing::sum_of;
 pub use placing::{formed, nearest_coefficients};
 pub use preparation::{PointSelection, Preparation, SelectionError, SidePreparation};
 pub use targets::Intersection;

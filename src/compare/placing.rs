@@ -11,12 +11,18 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::Joint;
-use crate::model::{LinearModel, combined};
+use crate::model::{LinearModel, Sum, combined};
 
 /// The shape m + U a (d·n), formed as fast as can be.
 pub fn formed(model: &LinearModel, coefficients: &DVector<f64>) -> Vec<f64> {
+    let [shape] = combined(&[sum_of(model, coefficients)]);
+    shape
+}
+
+/// m + U a as a sum of columns.
+pub(crate) fn sum_of<'a>(model: &'a LinearModel, coefficients: &DVector<f64>) -> Sum<'a> {
     let scaled = coefficients.component_mul(model.standard_deviations());
-    combined(model.mean(), &[(model.basis(), scaled.as_slice())])
+    Sum::new(model.mean()).plus(model.basis(), scaled.as_slice())
 }
 
 /// a′ = D^−½Eᵀ(x − m), the coefficients of the nearest shape to any shape x (d·n).
@@ -49,14 +55,19 @@ impl Joint {
 
     /// The shape m₁ + B c (d·n), formed as fast as can be.
     pub fn formed_shape(&self, coordinates: &DVector<f64>) -> Vec<f64> {
+        let [shape] = combined(&[self.sum_of(coordinates)]);
+        shape
+    }
+
+    /// m₁ + B c as a sum of columns.
+    pub(crate) fn sum_of(&self, coordinates: &DVector<f64>) -> Sum<'_> {
         let mixed = &self.mixing * coordinates;
         let mut from = 0;
-        let parts = self.parts().map(|part| {
+        self.parts().into_iter().fold(Sum::new(self.origin()), |sum, part| {
             let factors = &mixed.as_slice()[from..from + part.ncols()];
             from += part.ncols();
-            (part, factors)
-        });
-        combined(self.origin(), &parts)
+            sum.plus(part, factors)
+        })
     }
 
     /// The rows of B that make point `vertex` (d × p).

@@ -175,6 +175,10 @@ impl PointSelection {
             };
             if line.contains('-') || line.matches(',').count() > 1 {
                 a.extend(points_of_ranges(line).map_err(|_| wrong())?);
+                // A few letters a line can ask for millions of points, again and again.
+                if a.len() > MOST_POINTS {
+                    return Err(wrong());
+                }
                 continue;
             }
             let numbers: Result<Vec<u32>, _> = line
@@ -206,10 +210,11 @@ impl PointSelection {
     }
 }
 
+/// More points than any mesh of the field has; a bound for what a short text can ask for.
+const MOST_POINTS: usize = 10_000_000;
+
 /// "0-99,120": the points, ascending.
 fn points_of_ranges(ranges: &str) -> Result<Vec<u32>, SelectionError> {
-    /// More points than any mesh of the field has; a bound for what a short text can ask for.
-    const MOST: u32 = 10_000_000;
     let mut points = Vec::new();
     for range in ranges.split([',', ' ', ';']).filter(|range| !range.is_empty()) {
         let wrong = || SelectionError::Text { line: 0, found: range.chars().take(40).collect() };
@@ -218,7 +223,7 @@ fn points_of_ranges(ranges: &str) -> Result<Vec<u32>, SelectionError> {
             Some((first, last)) => (number(first)?, number(last)?),
             None => (number(range)?, number(range)?),
         };
-        if first > last || last >= MOST || points.len() > MOST as usize {
+        if first > last || points.len().saturating_add((last - first) as usize) >= MOST_POINTS {
             return Err(wrong());
         }
         points.extend(first..=last);
@@ -444,5 +449,12 @@ mod tests {
         let lengths = SelectionError::Lengths { a: 2, b: 1 };
         assert_eq!(PointSelection::parse("1 2\n3\n"), Err(lengths), "half a pair");
         assert!(PointSelection::parse("0-4000000000").is_err(), "more than any mesh has");
+        // Found by fuzzing: every line was bounded, all of them together were not.
+        let again = PointSelection::parse(&"0-5999999\n".repeat(100_000)).unwrap_err();
+        assert_eq!(
+            again.to_string(),
+            "Line 2 reads “0-5999999”; one or two point numbers were expected.",
+            "more than any mesh has, line after line"
+        );
     }
 }

@@ -10,6 +10,7 @@ mod grassmann;
 mod kullback_leibler;
 mod linear_split;
 mod principal_vectors;
+mod rank_correlation;
 mod relative;
 mod specificity;
 mod vertex_covariance;
@@ -25,6 +26,7 @@ pub use grassmann::{AffineSpace, Displacement, affine_grassmann_distance, princi
 pub use kullback_leibler::kullback_leibler;
 pub use linear_split::{LinearSplit, linear_split};
 pub use principal_vectors::principal_vectors;
+pub use rank_correlation::rank_correlation;
 pub use relative::{RelativeEigenmodes, patterns, relative_eigenmodes};
 pub use specificity::nearest_distances;
 pub use vertex_covariance::{VertexCovariances, scaled_modes, semi_axes};

@@ -20,7 +20,7 @@ mod procrustes;
 mod product;
 mod thin_svd;
 
-pub(crate) use combination::combined;
+pub(crate) use combination::{Sum, combined};
 pub(crate) use linear_model::lengths;
 pub use linear_model::{BasisCheck, Cells, Kind, LinearModel, ModelError, Unit};
 pub use normals::vertex_normals;

@@ -58,6 +58,8 @@ test("what is written is read back, for every field", () => {
     picture: "exclusiveModes" as const,
     exaggeration: 2.5,
     shapes: "7",
+    shelf: ["heads-male", "stars-1-a", "planes-b"],
+    measure: "grassmann-affine" as const,
     camera: { yaw: -1.25, pitch: 0.5, zoom: 2, x: 0.25, y: -0.5 },
   };
   assert.deepEqual(readLink(`#${writeLink(state)}`), state);
@@ -86,6 +88,20 @@ test("addresses of models keep their queries", () => {
   const urls = { a: "https://a.example/m.h5?x=1&y=2#part", b: "https://b.example/n+o.npz" };
   const link = { ...defaultLink(), urls };
   assert.deepEqual(readLink(writeLink(link)).urls, urls);
+});
+
+test("two models of different examples, or of one and an address, have a link too", () => {
+  const urls = { a: "demo:heads-male", b: "https://b.example/m.npz" };
+  const text = writeLink({ ...defaultLink(), urls });
+  assert.match(text, /^v=1&a=demo:heads-male&b=https:/);
+  assert.deepEqual(readLink(text).urls, urls);
+  assert.equal(readLink("v=1&a=demo:heads-male&b=demo:nobody").urls, null);
+});
+
+test("a shelf holds the page's own models, each once, and nothing that there is not", () => {
+  const { shelf } = readLink("v=1&shelf=heads-male,nobody,heads-male,../x,planes-a");
+  assert.deepEqual(shelf, ["heads-male", "planes-a"]);
+  assert.deepEqual(readLink("v=1&demo=planes").shelf, [], "older links have none");
 });
 
 test("parts of the files at two addresses are kept", () => {
@@ -124,7 +140,7 @@ test("only web addresses are opened", () => {
 
 test("unknown keys and unreadable values are passed over", () => {
   const odd =
-    "v=9&demo=nothing&sigma=-3&seed=abc&chains=0&draws=1&view=xray&region=c&camera=a,b&z=1" +
+    "v=9&demo=nothing&sigma=-3&seed=abc&chains=0&draws=1&view=xray&region=c&camera=a,b&z=1&measure=love" +
     "&unit-a=ell&modes-b=0&variance-a=120&rebase=c&convert=1&points=9-3&subsample=2";
   assert.deepEqual(readLink(odd), defaultLink());
 });

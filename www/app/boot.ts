@@ -3,12 +3,16 @@ import { batch, effect } from "@preact/signals";
 import { storedResult, watchChoices, watchPictures } from "./comparison";
 import { FIRST_DEMO } from "./demos";
 import { engineClient } from "./engine";
-import { apply, keepLink, modelsOf } from "./history";
+import { apply, keepLink, modelsOf, shelfOf } from "./history";
 import { type LinkState, misread, readLink, SETTING_KEYS } from "./link";
 import { watchMaps } from "./maps";
 import { demoModels, openPair } from "./models";
 import { watchPair } from "./pair";
+import { watchRunFile } from "./runfile/run";
 import { settingsKey } from "./settings";
+import { restoreShelf } from "./shelf/actions";
+import { watchMatrix } from "./shelf/matrix";
+import { watchEngine } from "./shelf/reopen";
 import { notify, nouns, pageState, result, run } from "./state";
 import { fetchStored } from "./stored";
 import { watchTheme } from "./theme";
@@ -19,6 +23,7 @@ export async function boot(): Promise<void> {
   tellMisread();
   watchTheme();
   watchDocument();
+  watchEngine();
   engineClient();
   const models = openModels(link);
   const stored = await fetchStored();
@@ -34,8 +39,11 @@ export async function boot(): Promise<void> {
   watchChoices(stored);
   watchPictures();
   watchMaps();
+  watchMatrix();
+  watchRunFile();
   await models;
   keepLink();
+  await restoreShelf(shelfOf(link));
 }
 
 /** Whether the address asks for the stored comparison, as an address that says nothing does. */

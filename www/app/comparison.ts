@@ -1,13 +1,14 @@
 /** Runs, restores and shows comparisons: whatever is chosen is what gets compared. */
-import { batch, effect } from "@preact/signals";
+import { batch, computed, effect } from "@preact/signals";
 import { wasAborted } from "../worker/engine-errors";
-import type { Progress, Region, Report, SweepPoint } from "../worker/protocol";
+import type { BothSides, Progress, Region, Report, SweepPoint } from "../worker/protocol";
 import { FIRST_DEMO } from "./demos";
 import { engineClient, onEngineRestart, report as reportError } from "./engine";
 import { latest } from "./latest";
 import { REGIONS } from "./link";
 import { plain } from "./phrase";
 import { selectsPoints } from "./preparation";
+import { demoSource, sourceText } from "./sources";
 import {
   canPreview,
   compared,
@@ -109,7 +110,11 @@ async function restore(key: string): Promise<void> {
 
 export function storedResult(first: Stored): Result {
   const { report, text, key } = first;
-  return { report, text, key, nouns: FIRST_DEMO.nouns, stored: true, cancelled: false };
+  const sources = {
+    a: sourceText(demoSource(FIRST_DEMO.a)),
+    b: sourceText(demoSource(FIRST_DEMO.b)),
+  };
+  return { report, text, key, sources, nouns: FIRST_DEMO.nouns, stored: true, cancelled: false };
 }
 
 export async function start(): Promise<void> {
@@ -121,6 +126,7 @@ export async function start(): Promise<void> {
     base: currentBase.value,
     selects: selectsPoints(settings.value.prepare),
   };
+  const sources = { a: sourceText(a.source), b: sourceText(b.source) };
   forgetRun();
   const controller = new AbortController();
   runController = controller;
@@ -147,7 +153,7 @@ export async function start(): Promise<void> {
       },
     );
     if (runController !== controller) return;
-    finish(running, done.report, done.cancelled);
+    finish(running, done.report, done.cancelled, sources);
     await showRegions(REGIONS);
   } catch (thrown) {
     if (runController !== controller) return;
@@ -182,12 +188,18 @@ function giveUp(): void {
   controller?.abort();
 }
 
-function finish(done: Held, text: string, cancelled: boolean): void {
+function finish(
+  done: Held,
+  text: string,
+  cancelled: boolean,
+  sources: BothSides<string | null>,
+): void {
   const report = JSON.parse(text) as Report;
+  const { key } = done;
   batch(() => {
     preview.value = null;
     held.value = done;
-    result.value = { report, text, key: done.key, nouns: nouns.value, stored: false, cancelled };
+    result.value = { report, text, key, sources, nouns: nouns.value, stored: false, cancelled };
     run.value = null;
   });
   const verdict = plain(belief(report).phrase);
@@ -283,25 +295,25 @@ async function showCompared(signal: AbortSignal): Promise<void> {
 }
 
 /** Other shapes of the same draws. */
-export async function resample(): Promise<void> {
+export function resample(): void {
   shapesSeed.value = (BigInt(shapesSeed.value) + 1n).toString();
-  await reshow();
-}
-
-export async function reshow(): Promise<void> {
-  if (held.value !== null) await showRegions(REGIONS);
 }
 
 const DIFFERENCES: Region[] = ["aWithoutB", "bWithoutA"];
 
-/** Exaggeration and exclusive modes are other pictures of the same draws. */
+/** Other samples, exaggeration and exclusive modes are other pictures of the same draws. */
 export function watchPictures(): void {
-  const show = latest<undefined>(() => showRegions(DIFFERENCES));
-  let shown = `${picture.value} ${exaggeration.value}`;
+  let drawn = shapesSeed.value;
+  const show = latest<undefined>(() => {
+    const others = shapesSeed.peek() !== drawn;
+    drawn = shapesSeed.peek();
+    return showRegions(others ? REGIONS : DIFFERENCES);
+  });
+  const picked = computed(() => `${picture.value} ${exaggeration.value} ${shapesSeed.value}`);
+  let shown = picked.value;
   effect(() => {
-    const wanted = `${picture.value} ${exaggeration.value}`;
-    if (wanted === shown) return;
-    shown = wanted;
+    if (picked.value === shown) return;
+    shown = picked.value;
     if (held.peek() !== null) show(undefined);
   });
 }

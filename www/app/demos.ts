@@ -76,6 +76,11 @@ export const DEMO_GROUPS: { label: string; demos: Demo[] }[] = [
   { label: "Geometry", demos: [planes] },
 ];
 
+/** The models of all pairs, each by itself. */
+export const DEMO_MODELS: string[] = DEMO_GROUPS.flatMap(({ demos }) =>
+  demos.flatMap(({ a, b }) => [a, b]),
+);
+
 const FIRST = heads[0] as Demo;
 
 /** The comparison that is stored with the page. */

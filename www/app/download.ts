@@ -13,8 +13,8 @@ export async function download(what: ExportKind): Promise<void> {
   }
 }
 
-export function saveText(name: string, text: string): void {
-  saveBlob(name, new Blob([text], { type: "application/json" }));
+export function saveText(name: string, text: string, type = "application/json"): void {
+  saveBlob(name, new Blob([text], { type }));
 }
 
 export function saveBlob(name: string, blob: Blob): void {

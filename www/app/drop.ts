@@ -3,7 +3,7 @@ import { signal } from "@preact/signals";
 import type { DroppedFile } from "../worker/protocol";
 import { filesBelow, filesOf, MOST_FILES } from "./folders";
 import { count } from "./format";
-import { openFiles } from "./models";
+import { openFiles } from "./intake";
 import { notify, type Side } from "./state";
 
 /** The half under the dragged files; null while nothing is dragged. */

@@ -3,7 +3,12 @@ import { batch, computed, effect, untracked } from "@preact/signals";
 import type { PointSelection } from "../worker/protocol";
 import { findDemo } from "./demos";
 import { fitsLink, type LinkState, readLink, writeLink } from "./link";
-import { demoModels, openPair } from "./models";
+import { demoModels, giveUpOpening, openPair } from "./models";
+import { arrange, giveUpAdding, restoreShelf } from "./shelf/actions";
+import { closeUnused } from "./shelf/handles";
+import { measure } from "./shelf/matrix";
+import { isUsed } from "./shelf/order";
+import { demoSource, first, isOpen, wantedOf } from "./sources";
 import {
   camera,
   demo,
@@ -16,34 +21,56 @@ import {
   room,
   SIDES,
   type Side,
+  type Source,
   settings,
+  settledExaggeration,
   shapesSeed,
+  shelf,
   slotKey,
   slots,
+  spoken,
   vertex,
   vertexMap,
   view,
   type Wanted,
 } from "./state";
+import { Steps } from "./steps";
 
 const WRITE_AFTER_MS = 1000;
 
 /** What a step of the history holds that no address can: files, and long lists of points. */
 interface Place {
   models: Record<Side, Wanted> | null;
+  shelf: Wanted[];
   points: PointSelection | null;
 }
 
-const places: Place[] = [];
+const steps = new Steps<Place>(history, performance.timeOrigin);
+
+export const { undoable, redoable } = steps;
 
 /** Models from the user's own computer cannot be linked; their names are not put in a link. */
-export const linkable = computed(
-  () => (demo.value !== null || urls() !== null) && fitsLink(settings.value.prepare.points),
-);
+export const linkable = computed(() => {
+  const linked = demo.value !== null || urls() !== null;
+  const kept = !isUsed(shelf.value) || shelf.value.every(({ source }) => source.kind === "demo");
+  return linked && kept && fitsLink(settings.value.prepare.points);
+});
 
+/** Addresses of both models, unless they are a pair that comes with the page. */
 function urls(): LinkState["urls"] {
-  const [a, b] = [slots.a.value?.source, slots.b.value?.source];
-  return a?.kind === "url" && b?.kind === "url" ? { a: a.url, b: b.url } : null;
+  const [a, b] = SIDES.map((side) => addressOf(slots[side].value?.source));
+  return demo.value === null && a && b ? { a, b } : null;
+}
+
+function addressOf(source: Source | undefined): string | null {
+  if (source?.kind === "demo") return `demo:${source.name}`;
+  return source?.kind === "url" ? source.url : null;
+}
+
+/** Those of the page's own models that are on the shelf, if it is in use. */
+function shelved(): string[] {
+  if (!isUsed(shelf.value)) return [];
+  return shelf.value.flatMap(({ source }) => (source.kind === "demo" ? source.name : []));
 }
 
 /** The part of each file, where it is not the first. */
@@ -69,8 +96,10 @@ export function currentLink(): string {
     scale: lockedRange.value,
     region: region.value,
     picture: picture.value,
-    exaggeration: exaggeration.value,
+    exaggeration: settledExaggeration.value,
     shapes: shapesSeed.value,
+    shelf: shelved(),
+    measure: measure.value,
     camera: camera.value,
   });
 }
@@ -94,14 +123,20 @@ const step = computed(() => {
     lockedRange.value,
     region.value,
     picture.value,
+    settledExaggeration.value,
+    shapesSeed.value,
+    shelf.value.map(slotKey),
+    measure.value,
   ]);
 });
 
 let applied = "";
+/** What changes just now belongs to the step before. */
+let joins = false;
 
 export function keepLink(): void {
   applied = untracked(() => step.value);
-  history.replaceState(placed(), "");
+  steps.begin(placed());
   let timer: ReturnType<typeof setTimeout> | undefined;
   effect(() => {
     const fragment = `#${currentLink()}`;
@@ -109,7 +144,8 @@ export function keepLink(): void {
     clearTimeout(timer);
     if (meaningful) {
       applied = step.value;
-      history.pushState(placed(), "", fragment);
+      // What is written down of a step is nothing that another one waits for.
+      untracked(() => (joins ? steps.join(placed(), fragment) : steps.push(placed(), fragment)));
       return;
     }
     timer = setTimeout(writeAddress, WRITE_AFTER_MS);
@@ -118,16 +154,43 @@ export function keepLink(): void {
   addEventListener("keydown", undoByKey);
 }
 
-/** Remembers where the page is; `undo` counts the steps that Back can take within it. */
-function placed(): { place: number; undo: number } {
+/** Changes something as a part of a step that was taken, unless others were taken since. */
+export function joinStep(change: () => void, of: number): void {
+  joins = steps.at === of;
+  try {
+    batch(change);
+  } finally {
+    joins = false;
+  }
+}
+
+/** The number of the present step. */
+export function currentStep(): number {
+  return steps.at;
+}
+
+export function undo(): void {
+  steps.undo();
+  if (undoable.peek()) spoken.value = "Undone.";
+}
+
+export function redo(): void {
+  steps.redo();
+  if (redoable.peek()) spoken.value = "Done again.";
+}
+
+/** Where the page is. */
+function placed(): Place {
   const wanted = (side: Side): Wanted | null => {
     const slot = slots[side].peek();
-    return slot && { source: slot.source, part: slot.part, scale: slot.scale };
+    return slot && wantedOf(slot);
   };
   const [a, b] = [wanted("a"), wanted("b")];
-  places.push({ models: a && b && { a, b }, points: settings.peek().prepare.points });
-  const former = history.state as { undo?: number } | null;
-  return { place: places.length - 1, undo: places.length === 1 ? 0 : (former?.undo ?? 0) + 1 };
+  return {
+    models: a && b && { a, b },
+    shelf: shelf.peek().map(wantedOf),
+    points: settings.peek().prepare.points,
+  };
 }
 
 /** Undo and redo as everywhere, but never out of the page, nor where text is typed. */
@@ -138,22 +201,32 @@ function undoByKey(event: KeyboardEvent): void {
   const { target } = event;
   if (target instanceof HTMLInputElement && !/range|radio|checkbox|file/.test(target.type)) return;
   const key = event.key.toLowerCase();
-  const redo = (key === "z" && event.shiftKey) || (key === "y" && !event.shiftKey);
-  if (key !== "z" && !redo) return;
+  const again = (key === "z" && event.shiftKey) || (key === "y" && !event.shiftKey);
+  if (key !== "z" && !again) return;
   event.preventDefault();
-  if (redo) history.forward();
-  else if ((history.state as { undo?: number } | null)?.undo) history.back();
+  if (again) redo();
+  else undo();
 }
+
+/** How often the browser went to another step: what was begun for a former one is given up. */
+let journeys = 0;
 
 /** Takes over what the address says; with the models, so that nothing half-changed is compared. */
 async function follow(state: unknown): Promise<void> {
+  journeys += 1;
+  const mine = journeys;
+  const place = steps.arrive(state);
   const link = readLink(location.hash);
-  const place = places[(state as { place?: number } | null)?.place ?? -1];
+  const wanted = place?.shelf ?? shelfOf(link);
+  giveUpOpening();
+  giveUpAdding();
   const complete = () => {
+    if (mine !== journeys) return;
     apply(link);
     const { prepare } = settings.value;
     if (place)
       settings.value = { ...settings.value, prepare: { ...prepare, points: place.points } };
+    arrange(wanted);
     applied = step.value;
   };
   const models = place?.models ?? modelsOf(link);
@@ -164,14 +237,10 @@ async function follow(state: unknown): Promise<void> {
     return wanted;
   };
   const [a, b] = [changed("a"), changed("b")];
-  if (a || b) await openPair(a, b, () => batch(complete));
-  else batch(complete);
-}
-
-function isOpen(slot: NonNullable<typeof slots.a.value>, wanted: Wanted): boolean {
-  return (
-    slotKey(slot) === slotKey({ ...slot, ...wanted, part: wanted.part ?? slot.parts[0] ?? "" })
-  );
+  const opened = (a || b) && (await openPair(a, b, () => batch(complete)));
+  if (!opened) batch(complete);
+  closeUnused();
+  if (mine === journeys) await restoreShelf(wanted);
 }
 
 /** What an address says of models; those of nobody's own files. */
@@ -179,7 +248,7 @@ export function modelsOf(link: LinkState): Record<Side, Wanted> | null {
   const { urls: found, parts: named } = link;
   if (found) {
     const wanted = (side: Side): Wanted => ({
-      source: { kind: "url", url: found[side] },
+      source: sourceOf(found[side]),
       part: named[side],
       scale: false,
     });
@@ -187,6 +256,16 @@ export function modelsOf(link: LinkState): Record<Side, Wanted> | null {
   }
   const known = findDemo(link.demo);
   return known ? demoModels(known) : null;
+}
+
+function sourceOf(address: string): Source {
+  const demo = /^demo:(.+)/.exec(address)?.[1];
+  return demo ? demoSource(demo) : { kind: "url", url: address };
+}
+
+/** What an address says of the shelf. */
+export function shelfOf(link: LinkState): Wanted[] {
+  return link.shelf.map((name) => first(demoSource(name)));
 }
 
 export function apply(link: LinkState): void {
@@ -201,6 +280,8 @@ export function apply(link: LinkState): void {
     region.value = link.region;
     picture.value = link.picture;
     exaggeration.value = link.exaggeration;
+    settledExaggeration.value = link.exaggeration;
+    measure.value = link.measure;
     shapesSeed.value = link.shapes;
     camera.value = link.camera;
   });

@@ -13,7 +13,7 @@ import type {
   Settings,
   SidePreparation,
 } from "../worker/protocol";
-import { FIRST_DEMO, findDemo } from "./demos";
+import { DEMO_MODELS, FIRST_DEMO, findDemo } from "./demos";
 import { UNITS } from "./preparation";
 import { parseRanges } from "./ranges";
 import {
@@ -36,6 +36,7 @@ import {
   SIDES_USED,
   SUBSAMPLE,
 } from "./settings";
+import { MEASURE_NAMES, type MeasureName } from "./shelf/measures";
 import { type Camera, HOME } from "./viewer/camera";
 
 export const LINK_VERSION = 1;
@@ -77,6 +78,7 @@ const PICTURES: Picture[] = ["draws", "exclusiveModes"];
 export interface LinkState {
   /** A pair that comes with the page, unless both models have addresses. */
   demo: string;
+  /** `https:…`, or `demo:NAME` of one model that comes with the page. */
   urls: { a: string; b: string } | null;
   /** Parts of the files at these addresses; null for the first. */
   parts: { a: string | null; b: string | null };
@@ -97,6 +99,10 @@ export interface LinkState {
   exaggeration: number;
   /** Seed of the shapes shown in “Samples”. */
   shapes: string;
+  /** Models that come with the page and are in the table, if there are more than two. */
+  shelf: string[];
+  /** What the table shows of each pair. */
+  measure: MeasureName;
   camera: Camera;
 }
 
@@ -116,6 +122,8 @@ export function defaultLink(): LinkState {
     picture: "draws",
     exaggeration: 0,
     shapes: "1",
+    shelf: [],
+    measure: "variance",
     camera: HOME,
   };
 }
@@ -151,6 +159,8 @@ export function writeLink(state: LinkState): string {
   if (state.picture !== "draws") pairs.push(["picture", state.picture]);
   if (state.exaggeration !== 0) pairs.push(["exaggerate", state.exaggeration]);
   if (state.shapes !== "1") pairs.push(["shapes", state.shapes]);
+  if (state.shelf.length > 0) pairs.push(["shelf", state.shelf.join(",")]);
+  if (state.measure !== "variance") pairs.push(["measure", state.measure]);
   const turned = cameraText(camera);
   if (turned !== cameraText(HOME)) pairs.push(["camera", turned]);
   return pairs.map(([key, value]) => `${key}=${escapeValue(String(value))}`).join("&");
@@ -219,6 +229,8 @@ export function readLink(fragment: string): LinkState {
     picture: oneOf(given.get("picture"), PICTURES) ?? fallback.picture,
     exaggeration: readExaggeration(given.get("exaggerate")),
     shapes: valid(parseSeed(given.get("shapes") ?? "1"), fallback.shapes),
+    shelf: readShelf(given.get("shelf")),
+    measure: oneOf(given.get("measure"), MEASURE_NAMES) ?? fallback.measure,
     camera: readCamera(given.get("camera")),
   };
 }
@@ -335,7 +347,13 @@ function oneOf<T extends string>(text: string | null, allowed: readonly T[]): T 
 }
 
 function isAddress(text: string): boolean {
-  return /^https?:\/\//.test(text);
+  return /^https?:\/\//.test(text) || DEMO_MODELS.some((name) => text === `demo:${name}`);
+}
+
+/** Each model once, and those that there are. */
+function readShelf(text: string | null): string[] {
+  const names = new Set((text ?? "").split(","));
+  return [...names].filter((name) => DEMO_MODELS.includes(name));
 }
 
 /** Only what would break the fragment: the rest stays readable. */

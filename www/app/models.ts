@@ -1,10 +1,22 @@
 /** Opening models into the two slots. A model that cannot be opened leaves the former one. */
 import { batch, signal } from "@preact/signals";
 import { EngineFailure, wasAborted } from "../worker/engine-errors";
-import type { DroppedFile, OpenedModel } from "../worker/protocol";
-import { type Demo, packagedFile } from "./demos";
-import { engineClient, onEngineRestart, report } from "./engine";
+import type { DroppedFile } from "../worker/protocol";
+import type { Demo } from "./demos";
+import { engineClient, report } from "./engine";
 import { withoutSides } from "./preparation";
+import { carry, closeUnused, putDown } from "./shelf/handles";
+import { afterChoice } from "./shelf/order";
+import {
+  baseName,
+  demoSource,
+  filesSource,
+  first,
+  isOpen,
+  type NamedSource,
+  nameOf,
+  openWanted,
+} from "./sources";
 import {
   change,
   compared,
@@ -14,11 +26,13 @@ import {
   lockedRange,
   opening,
   painting,
+  reopening,
   SIDES,
   type Side,
   type Slot,
   type Source,
   settings,
+  shelf,
   slots,
   sourceKey,
   spoken,
@@ -26,28 +40,13 @@ import {
 } from "./state";
 
 const loads: Record<Side, AbortController | null> = { a: null, b: null };
-let fileSerial = 0;
-
-export interface NamedSource {
-  name: string;
-  source: Source;
-}
 
 /** More models than two were dropped, and nobody has said yet which are meant. */
 export const choosing = signal<NamedSource[] | null>(null);
 
-function first(source: Source): Wanted {
-  return { source, part: null, scale: false };
-}
-
-function filesSource(name: string, files: DroppedFile[]): Source {
-  fileSerial += 1;
-  return { kind: "files", name, files, serial: fileSerial };
-}
-
 /** A demo that an address asks for, with whatever settings. */
 export function demoModels({ a, b }: Demo): Record<Side, Wanted> {
-  return { a: first({ kind: "demo", name: a }), b: first({ kind: "demo", name: b }) };
+  return { a: first(demoSource(a)), b: first(demoSource(b)) };
 }
 
 /** A demo that a visitor chooses, with the σ that suits it. */
@@ -58,34 +57,33 @@ export async function chooseDemo(chosen: Demo): Promise<void> {
 
 /**
  * Both change at once, so that no comparison of an old with a new one begins between. `alongside` is
- * changed in the same step.
+ * changed in the same step. Resolves to whether anything changed: where neither can be opened, nothing
+ * does.
  */
 export async function openPair(
   a: Wanted | null,
   b: Wanted | null,
   alongside: () => void = () => {},
-): Promise<void> {
+): Promise<boolean> {
   const opened = await Promise.all([a && load("a", a), b && load("b", b)]);
-  show({ a: opened[0], b: opened[1] }, alongside);
+  const some = opened.some((slot) => slot !== null);
+  if (some) show({ a: opened[0], b: opened[1] }, alongside);
+  putDown(opened.flatMap((slot) => slot?.model ?? []));
+  return some;
 }
 
 /** Lengths in use, those of the former models, say nothing of these. */
-function forget(sigma: number | null = null): () => void {
+export function forget(sigma: number | null = null): () => void {
   return () => change({ sigma, noise: null, differenceThreshold: null });
 }
 
 /** Files that were dropped or chosen: one model fills the slot it was meant for, two fill both. */
-export async function openFiles(files: DroppedFile[], side: Side): Promise<void> {
+export async function openModels(files: DroppedFile[], side: Side): Promise<void> {
   if (files.length === 0) return;
   dismiss("page");
-  const groups = await grouped(files, side);
-  if (groups === null) return;
-  const models = groups.map((group) => {
-    const own = group.files.flatMap((index) => files[index] ?? []);
-    return { name: group.name, source: filesSource(group.name, own) };
-  });
-  const [one, two, ...rest] = models;
-  if (!one) return;
+  const models = await modelsIn(files, side);
+  const [one, two, ...rest] = models ?? [];
+  if (!one || !models) return;
   if (rest.length > 0) {
     choosing.value = models;
     spoken.value = `${models.length} models were found. Choose two of them.`;
@@ -114,11 +112,25 @@ async function reread(side: Side, wanted: Wanted, alongside?: () => void): Promi
   await openPair(side === "a" ? wanted : null, side === "b" ? wanted : null, alongside);
 }
 
+/** The models that these files make; null where they cannot be looked at. */
+export async function modelsIn(
+  files: DroppedFile[],
+  side: Side | null,
+): Promise<NamedSource[] | null> {
+  const groups = await grouped(files, side);
+  return (
+    groups?.map((group) => {
+      const own = group.files.flatMap((index) => files[index] ?? []);
+      return { name: group.name, source: filesSource(group.name, own) };
+    }) ?? null
+  );
+}
+
 /** Which files belong together; null where they cannot be looked at. */
-async function grouped(files: DroppedFile[], side: Side) {
+async function grouped(files: DroppedFile[], side: Side | null) {
   const [only] = files;
   if (only && files.length === 1) return [{ name: baseName(only.name), files: [0] }];
-  const controller = begin(side, `${files.length} files`);
+  const controller = side ? begin(side, `${files.length} files`) : new AbortController();
   try {
     const groups = await engineClient().groups(controller.signal, files);
     if (groups.length > 0) return groups;
@@ -131,7 +143,7 @@ async function grouped(files: DroppedFile[], side: Side) {
     if (!wasAborted(thrown)) report("page", thrown);
     return null;
   } finally {
-    end(side, controller);
+    if (side) end(side, controller);
   }
 }
 
@@ -163,19 +175,18 @@ function show(opened: Record<Side, Slot | null>, alongside: () => void): void {
   batch(() => {
     const sides = { a: replaces("a", opened.a), b: replaces("b", opened.b) };
     if (sides.a || sides.b) change({ prepare: withoutSides(settings.value.prepare, sides) });
+    const before = { a: slots.a.value, b: slots.b.value };
     for (const side of SIDES) {
       const slot = opened[side];
       if (!slot) continue;
-      const former = slots[side].value;
-      if (former) engineClient().close(former.model);
       slots[side].value = slot;
       opening[side].value = null;
     }
+    const now = { a: slots.a.value, b: slots.b.value };
+    shelf.value = afterChoice(shelf.value, before, now);
     // Every population lies in the frame of its own first shape: side by side those mean nothing.
     const populations = SIDES.every((side) => slots[side].value?.origin.kind === "shapes");
-    if ((opened.a || opened.b) && populations && settings.value.align === "none") {
-      change({ align: "rigid" });
-    }
+    if (populations && settings.value.align === "none") change({ align: "rigid" });
     emptyRegions.value = {};
     lockedRange.value = null;
     compared.value = null;
@@ -184,6 +195,7 @@ function show(opened: Record<Side, Slot | null>, alongside: () => void): void {
     dismiss("pair");
     alongside();
   });
+  closeUnused();
 }
 
 /** A declared unit, a number of modes and a list of points are about one model. */
@@ -208,8 +220,8 @@ function end(side: Side, controller: AbortController): void {
   opening[side].value = null;
 }
 
-/** Null if it failed or another was asked for meanwhile. */
-async function load(side: Side, wanted: Wanted): Promise<Slot | null> {
+/** Null if it failed or another was asked for meanwhile; else whoever asked puts the model down. */
+export async function load(side: Side, wanted: Wanted): Promise<Slot | null> {
   const { source } = wanted;
   const name = nameOf(source);
   const controller = begin(side, name);
@@ -217,7 +229,7 @@ async function load(side: Side, wanted: Wanted): Promise<Slot | null> {
     if (loads[side] === controller) opening[side].value = { name, read: { bytes, of } };
   };
   try {
-    const slot = await openWanted(controller.signal, wanted, onRead);
+    const slot = await openToShow(controller.signal, wanted, onRead);
     if (source.kind !== "demo") spoken.value = `${name} opened as model ${side}.`;
     return slot;
   } catch (thrown) {
@@ -228,88 +240,25 @@ async function load(side: Side, wanted: Wanted): Promise<Slot | null> {
   }
 }
 
-type OnRead = (bytes: number, of: number) => void;
-
-async function openWanted(signal: AbortSignal, wanted: Wanted, onRead: OnRead): Promise<Slot> {
-  const { source, part, scale } = wanted;
-  const client = engineClient();
-  let opened: OpenedModel;
-  let bytes: number | null = null;
-  if (source.kind === "demo") {
-    const file = packagedFile(source.name);
-    const packaged = file === null ? null : await (await fetched(signal, file)).arrayBuffer();
-    opened = await client.openDemo(signal, source.name, packaged);
-  } else {
-    const files = source.kind === "files" ? source.files : [await download(signal, source.url)];
-    bytes = files.reduce((sum, { blob }) => sum + blob.size, 0);
-    opened = await client.open(signal, files, part, scale, onRead);
+/** With its geometry; one that is on the shelf is not opened again. Whoever asked puts it down. */
+async function openToShow(
+  signal: AbortSignal,
+  wanted: Wanted,
+  onRead: (bytes: number, of: number) => void,
+): Promise<Slot> {
+  const kept = reopening.peek() ? undefined : shelf.peek().find((slot) => isOpen(slot, wanted));
+  const slot = kept ?? (await openWanted(signal, wanted, onRead));
+  carry(slot.model);
+  try {
+    const geometry = slot.geometry ?? (await engineClient().geometry(signal, slot.model));
+    return slot.geometry === geometry ? slot : { ...slot, geometry };
+  } catch (thrown) {
+    putDown([slot.model]);
+    throw thrown;
   }
-  const geometry = await client.geometry(signal, opened.model);
-  const { format, parts, model, report, origin, hasMap } = opened;
-  return {
-    source,
-    scale,
-    bytes,
-    geometry,
-    format,
-    parts,
-    model,
-    part: opened.part,
-    report,
-    origin,
-    hasMap,
-  };
 }
 
-async function download(signal: AbortSignal, url: string): Promise<DroppedFile> {
-  return { name: nameOf({ kind: "url", url }), blob: await (await fetched(signal, url)).blob() };
+/** Gives up whatever is being opened as A or B. */
+export function giveUpOpening(): void {
+  for (const side of SIDES) loads[side]?.abort();
 }
-
-async function fetched(signal: AbortSignal, address: string): Promise<Response> {
-  const url = rawAddress(address);
-  const failure = (what: string) =>
-    new EngineFailure({
-      code: "download",
-      message: `${url} cannot be downloaded: ${what}.`,
-      hint: "Check the address; its server must allow other sites to read it (CORS).",
-    });
-  const response = await fetch(url, { signal }).catch((thrown: unknown) => {
-    signal.throwIfAborted();
-    throw failure(thrown instanceof Error ? thrown.message : "no answer");
-  });
-  if (!response.ok) throw failure(`the server answered ${response.status}`);
-  return response;
-}
-
-/** A link to a file's page on GitHub means the file. */
-function rawAddress(address: string): string {
-  return address.replace(
-    /^https:\/\/github\.com\/([^/]+)\/([^/]+)\/blob\//,
-    "https://raw.githubusercontent.com/$1/$2/",
-  );
-}
-
-export function nameOf(source: Source): string {
-  if (source.kind !== "url") return source.name;
-  return decodeURIComponent(source.url.split(/[?#]/)[0]?.split("/").pop() ?? source.url);
-}
-
-function baseName(path: string): string {
-  return path.split("/").pop() ?? path;
-}
-
-async function reopen(): Promise<void> {
-  const again = (side: Side) => {
-    const slot = slots[side].value;
-    return slot ? load(side, { source: slot.source, part: slot.part, scale: slot.scale }) : null;
-  };
-  const [a, b] = await Promise.all([again("a"), again("b")]);
-  batch(() => {
-    // The old handles died with the old worker: nothing is to be closed, and what is done to the
-    // models stays.
-    if (a) slots.a.value = a;
-    if (b) slots.b.value = b;
-  });
-}
-
-onEngineRestart(() => void reopen());

@@ -16,7 +16,7 @@ import type {
   Settings,
   SettingsPatch,
 } from "../worker/protocol";
-import { FIRST_DEMO, findDemo, type Nouns, nounsOf } from "./demos";
+import { DEMO_GROUPS, FIRST_DEMO, findDemo, type Nouns, nounsOf } from "./demos";
 import { defaultLink, type LinkState, type Room, type ViewMode } from "./link";
 import { patched } from "./preparation";
 import { DEFAULTS, settingsKey } from "./settings";
@@ -60,6 +60,8 @@ export interface Result {
   text: string;
   key: string;
   nouns: Nouns;
+  /** Where its models are from, as a run file says it. */
+  sources: BothSides<string | null>;
   /** Made beforehand, by the same engine. */
   stored: boolean;
   cancelled: boolean;
@@ -86,6 +88,12 @@ export type Theme = "system" | "light" | "dark";
 const first: LinkState = defaultLink();
 
 export const slots: Record<Side, Signal<Slot | null>> = { a: signal(null), b: signal(null) };
+/** All models that are open, in the order of their table; the two that are compared among them. */
+export const shelf = signal<Slot[]>([]);
+/** What is being put on the shelf, and how many of how many are done. */
+export const shelving = signal<(Opening & { done: number; of: number }) | null>(null);
+/** While models of a former engine are opened anew, their handles are void. */
+export const reopening = signal(false);
 export const opening: Record<Side, Signal<Opening | null>> = { a: signal(null), b: signal(null) };
 
 export const settings = signal<Settings>(DEFAULTS);
@@ -111,6 +119,8 @@ export const shapesSeed = signal(first.shapes);
 /** What is shown of the differences, and how far they are exaggerated. */
 export const picture = signal(first.picture);
 export const exaggeration = signal(first.exaggeration);
+/** The same once its slider was let go: one step to undo, however far it went. */
+export const settledExaggeration = signal(first.exaggeration);
 export const camera = signal<Camera>(HOME);
 export const shapes = signal<Partial<Record<Region, RegionShapes>>>({});
 /** What the engine predicts at the σ that is being tried, until a run replaces it. */
@@ -144,9 +154,22 @@ export const demo = computed(() => {
 export const nouns = computed<Nouns>(() => {
   if (demo.value) return demo.value.nouns;
   const [a, b] = [slots.a.value, slots.b.value];
+  const turned = a && b && turnedNouns(a.source, b.source);
+  if (turned) return turned;
   const one = a && b && sourceKey(a.source) === sourceKey(b.source) && a.part !== b.part;
   return one ? nounsOf(partName(a.part), partName(b.part)) : nounsOf("model A", "model B");
 });
+
+/** Of a pair that comes with the page, the other way round. */
+function turnedNouns(a: Source, b: Source): Nouns | null {
+  if (a.kind !== "demo" || b.kind !== "demo") return null;
+  const found = DEMO_GROUPS.flatMap(({ demos }) => demos).find(
+    (pair) => pair.a === b.name && pair.b === a.name,
+  );
+  if (!found) return null;
+  const { nouns } = found;
+  return { a: nouns.b, b: nouns.a, shapesOfA: nouns.shapesOfB, shapesOfB: nouns.shapesOfA };
+}
 
 /** What a part of a file is called in a sentence. */
 export function partName(part: string): string {

@@ -472,7 +472,7 @@ fn list(heading: &str, items: &[String]) -> String {
 }
 
 /// A Markdown table whose columns line up.
-fn markdown(headings: &[&str], rows: &[Vec<String>]) -> String {
+pub(crate) fn markdown(headings: &[&str], rows: &[Vec<String>]) -> String {
     let width = |column: usize| {
         let cells = rows.iter().filter_map(|row| row.get(column)).map(|cell| cell.chars().count());
         cells.chain([headings[column].chars().count(), 3]).max().unwrap_or(3)

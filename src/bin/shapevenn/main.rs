@@ -1,10 +1,12 @@
-//! The command line: `shapevenn info | compare | inspect | convert | sweep | evaluate | reproduce`.
+//! The command line: `shapevenn info | compare | inspect | matrix | convert | sweep | evaluate | reproduce`.
 //!
 //! Exit status 0: done. 2: a bad input, with the error on standard error. 1: anything else.
 #![allow(clippy::print_stdout, reason = "a command prints its result")]
 
 mod document;
 mod evaluate;
+mod matrix;
+mod overlap_document;
 mod prepare;
 mod reproduce;
 mod rerun;
@@ -60,6 +62,8 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// How every two of several models lie to one another: shares of variance and Grassmann distances
+    Matrix(matrix::Arguments),
     /// Write a model in another format, chosen by the ending of OUT: .h5, .h5.json, .npz, .json, .glb, or .ply and .obj (mean shape)
     Convert {
         /// A file, `FILE#part` or `demo:NAME`
@@ -229,6 +233,7 @@ fn main() -> ExitCode {
         Command::Info { files, json } => info(&files, json),
         Command::Compare(arguments) => compare(&arguments),
         Command::Inspect { a, b, prepare, json } => inspect([&a, &b], &prepare, json),
+        Command::Matrix(arguments) => matrix::matrix(&arguments),
         Command::Sweep { a, b, sigma, prepare, json } => sweep([&a, &b], sigma, &prepare, json),
         Command::Convert { input, output } => convert(&input, &output),
         Command::Evaluate(arguments) => evaluate::evaluate(&arguments),
@@ -483,6 +488,7 @@ fn print_in_words(report: &Report) {
         share(report.overlap.variance_of_a_in_b),
         share(report.overlap.variance_of_b_in_a)
     );
+    print_distances(report);
     let both = &report.intersection;
     println!(
         "A∩B  {} modes; its shapes lie {:.4} ± {:.4} {unit} from both models.",
@@ -497,6 +503,14 @@ fn print_in_words(report: &Report) {
             share(part.standard_error),
             part.mean_distance.mean
         );
+        if let Some(split) = &part.linear_split {
+            println!(
+                "     by linear splitting instead: its mean {:.4} {unit} away, {:.2} times the variance, {:.1} % of it negative.",
+                split.mean_to_mean,
+                split.variance_ratio,
+                share(split.negative_share)
+            );
+        }
     }
     println!(
         "d_G  to A {:.4}, to B {:.4}, to the union {:.4}",
@@ -514,6 +528,30 @@ fn print_in_words(report: &Report) {
     );
     for warning in &report.warnings {
         println!("! {} {}", warning.message, warning.hint);
+    }
+}
+
+/// Distances of the two laws, and how compact the models are.
+fn print_distances(report: &Report) {
+    let unit = report.models.a.unit.symbol();
+    if let Some(divergence) = &report.overlap.kullback_leibler {
+        println!(
+            "Bhattacharyya {:.2}, KL(A‖B) {:.2}, KL(B‖A) {:.2} nats, with noise of {:.4} {unit}.",
+            report.overlap.bhattacharyya,
+            divergence.a_from_b,
+            divergence.b_from_a,
+            report.overlap.bhattacharyya_noise
+        );
+    }
+    if let Some(found) = &report.compactness {
+        const MOST: f64 = 0.9;
+        let modes = |shares: &[f64]| shares.iter().take_while(|share| **share < MOST).count() + 1;
+        println!(
+            "90 % of the variance lie in {} modes of A, {} of B, {} of A∩B.",
+            modes(&found.a),
+            modes(&found.b),
+            modes(&found.intersection)
+        );
     }
 }
 

@@ -233,6 +233,10 @@ export class MeshViewer implements Viewer {
     this.#hideAll();
     for (const object of objects) object.visible = true;
     const ratio = this.#renderer.getPixelRatio();
+    const own = this.#size;
+    // In a part of the page without the stage the canvas has no size of its own.
+    const hidden = own.width < 2 || own.height < 2;
+    if (hidden) this.setLayout(size, size, this.#layout);
     const side = Math.floor(Math.min(size, this.#size.width, this.#size.height));
     const cell = { x: 0, y: 0, width: side, height: side };
     this.#renderer.setScissorTest(false);
@@ -245,6 +249,7 @@ export class MeshViewer implements Viewer {
     copy.width = copy.height = Math.round(side * ratio);
     copy.getContext("2d")?.drawImage(this.#canvas, 0, 0);
     discard(objects);
+    if (hidden) this.setLayout(own.width, own.height, this.#layout);
     this.#render();
     return copy;
   }

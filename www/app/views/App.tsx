@@ -13,6 +13,7 @@ import { Notices } from "./Notices";
 import { PairCard } from "./PairCard";
 import { Headline, Results } from "./Results";
 import { Rooms } from "./Rooms";
+import { RunFileCard } from "./RunFileCard";
 import { RunPanel } from "./RunPanel";
 import { SettingsPanel } from "./SettingsPanel";
 import { Stage } from "./Stage";
@@ -36,6 +37,7 @@ export function App() {
         <div class="rail models">
           <ModelCard side="a" />
           <ModelCard side="b" />
+          <RunFileCard />
           <p class="privacy">
             {demo.value && `${demo.value.note} `}
             Drop files or folders anywhere. Your files stay on this computer.

@@ -1,6 +1,8 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { choosing, type NamedSource, nameOf, openChosen } from "../models";
+import { choosing, openChosen } from "../models";
+import { openEvery } from "../shelf/actions";
+import { type NamedSource, nameOf } from "../sources";
 import { SIDES, type Side, slots, sourceKey } from "../state";
 
 /** More models than two were dropped: which of them are A and B. */
@@ -55,6 +57,13 @@ function Dialog({ models }: { models: NamedSource[] }) {
         <div class="card-row">
           <button type="submit" class="primary" disabled={nothing}>
             Open
+          </button>
+          <button
+            type="button"
+            onClick={() => void openEvery(models, source("a"), source("b"))}
+            title="Opens every one of them, compares these two, and shows how each lies to each other one"
+          >
+            All: show the table
           </button>
           <button type="button" class="quiet" onClick={close}>
             Cancel

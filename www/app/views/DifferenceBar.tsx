@@ -2,7 +2,15 @@ import { batch } from "@preact/signals";
 import { number, percent } from "../format";
 import { MOST_EXAGGERATION } from "../link";
 import { DIFFERENCES } from "../settings";
-import { change, exaggeration, picture, result, settings, view } from "../state";
+import {
+  change,
+  exaggeration,
+  picture,
+  result,
+  settings,
+  settledExaggeration,
+  view,
+} from "../state";
 import { DEFINITIONS, type DifferencePicture, exclusive, nearlyTheModel } from "../words";
 import { Phrase } from "./Phrase";
 
@@ -142,6 +150,9 @@ function Exaggeration() {
         }
         onInput={(event) => {
           exaggeration.value = Number(event.currentTarget.value);
+        }}
+        onChange={(event) => {
+          settledExaggeration.value = Number(event.currentTarget.value);
         }}
       />
       <span class="num">γ {exaggeration.value.toFixed(1)}</span>

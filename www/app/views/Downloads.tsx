@@ -1,9 +1,13 @@
 import { useSignal } from "@preact/signals";
+import { useRef } from "preact/hooks";
 import type { ExportKind, Region } from "../../worker/protocol";
 import { shapeCount } from "../comparison";
 import { download, saveText } from "../download";
+import { filesOf } from "../folders";
+import { openFiles } from "../intake";
 import { REGIONS } from "../link";
-import { engine, exaggeration, picture, result, run, shapes, shapesSeed } from "../state";
+import { saveRun } from "../runfile/run";
+import { engine, exaggeration, held, picture, result, run, shapes, shapesSeed } from "../state";
 import { REGION_NAMES } from "./names";
 import { Methods, Pictures } from "./Pictures";
 
@@ -30,7 +34,7 @@ const KINDS: { of: string; files: [ending: string, kind: ExportKind["kind"], hel
 ];
 
 export function Downloads() {
-  const held = result.value;
+  const shown = result.value;
   const ready = engine.value !== null && !run.value && Object.keys(shapes.value).length > 0;
   return (
     <section class="downloads" aria-label="Downloads">
@@ -49,8 +53,8 @@ export function Downloads() {
           type="button"
           aria-label="Report .json"
           title="All numbers of the page, unrounded"
-          disabled={held === null}
-          onClick={() => held && saveText("shapevenn-report.json", held.text)}
+          disabled={shown === null}
+          onClick={() => shown && saveText("shapevenn-report.json", shown.text)}
         >
           .json
         </button>
@@ -62,10 +66,47 @@ export function Downloads() {
           ready={ready}
         />
       </fieldset>
+      <RunFileRow ready={ready} />
       <Shape ready={ready} />
       <Pictures ready={ready} />
       <Methods />
     </section>
+  );
+}
+
+/** What makes this comparison again, to the last digit. */
+function RunFileRow({ ready }: { ready: boolean }) {
+  const input = useRef<HTMLInputElement>(null);
+  // The engine writes down the comparison that it holds.
+  const holds = ready && held.value !== null && held.value.key === result.value?.key;
+  return (
+    <fieldset class="download-row">
+      <legend>Run file</legend>
+      <button
+        type="button"
+        aria-label="Run file .json"
+        title="Models by name and fingerprint, and every setting: open it again for the same numbers"
+        disabled={!holds}
+        onClick={() => void saveRun()}
+      >
+        .json
+      </button>
+      <button type="button" class="as-link" onClick={() => input.current?.click()}>
+        Open a run file…
+      </button>
+      <input
+        ref={input}
+        class="unseen"
+        type="file"
+        multiple
+        tabIndex={-1}
+        aria-label="Run file or report, with its models or without"
+        onChange={(event) => {
+          void openFiles(filesOf(event.currentTarget.files ?? []), "a");
+          event.currentTarget.value = "";
+        }}
+      />
+    </fieldset>
   );
 }
 

@@ -1,10 +1,10 @@
 import { useSignal } from "@preact/signals";
 import { DEMO_GROUPS, findDemo } from "../demos";
-import { linkable, writeAddress } from "../history";
+import { linkable, redo, redoable, undo, undoable, writeAddress } from "../history";
 import { chooseDemo } from "../models";
-import { demo, spoken } from "../state";
+import { demo, painting, spoken } from "../state";
 import { isDark, toggleTheme } from "../theme";
-import { LinkIcon, MoonIcon, SunIcon } from "./icons";
+import { LinkIcon, MoonIcon, RedoIcon, SunIcon, UndoIcon } from "./icons";
 
 export function Header() {
   return (
@@ -18,6 +18,7 @@ export function Header() {
         <p class="tagline">Which shapes can both models make?</p>
       </div>
       <div class="tools">
+        <UndoButtons />
         <DemoChooser />
         <CopyLink />
         <button
@@ -30,6 +31,39 @@ export function Header() {
         </button>
       </div>
     </header>
+  );
+}
+
+const MAC = /Mac|iPhone|iPad/.test(navigator.platform);
+
+/** While something is painted its own bar undoes strokes. */
+function UndoButtons() {
+  const paints = painting.value !== null;
+  return (
+    <fieldset class="undo" aria-label="Steps">
+      <button
+        type="button"
+        class="quiet icon-only"
+        disabled={!undoable.value || paints}
+        onClick={undo}
+        aria-label="Undo"
+        aria-keyshortcuts="Control+Z Meta+Z"
+        title={MAC ? "Undo (⌘Z)" : "Undo (Ctrl+Z)"}
+      >
+        <UndoIcon />
+      </button>
+      <button
+        type="button"
+        class="quiet icon-only"
+        disabled={!redoable.value || paints}
+        onClick={redo}
+        aria-label="Redo"
+        aria-keyshortcuts="Control+Shift+Z Control+Y Meta+Shift+Z"
+        title={MAC ? "Redo (⇧⌘Z)" : "Redo (Ctrl+Shift+Z)"}
+      >
+        <RedoIcon />
+      </button>
+    </fieldset>
   );
 }
 
@@ -84,7 +118,14 @@ function CopyLink() {
     }
   };
   return (
-    <button type="button" class="quiet" onClick={() => void copy()}>
+    <button
+      type="button"
+      class="quiet copy-link"
+      aria-label={said.value || "Copy link"}
+      title="Copy link"
+      data-said={said.value !== ""}
+      onClick={() => void copy()}
+    >
       <LinkIcon />
       <span>{said.value || "Copy link"}</span>
     </button>

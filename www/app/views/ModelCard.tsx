@@ -1,8 +1,9 @@
 import { useEffect, useRef } from "preact/hooks";
 import type { ModelReport } from "../../worker/protocol";
 import { bytes, count, length } from "../format";
-import { cancelOpening, choosePart, chooseScale, nameOf, openParts } from "../models";
+import { cancelOpening, choosePart, chooseScale, openParts } from "../models";
 import { keptModes } from "../preparation";
+import { nameOf } from "../sources";
 import { demo, opening, partName, result, type Side, type Slot, settings, slots } from "../state";
 import { isDark } from "../theme";
 import { cardPicture, drawable } from "../viewer/stage-controller";

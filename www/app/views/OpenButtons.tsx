@@ -1,6 +1,6 @@
 import { useRef } from "preact/hooks";
 import { filesOf } from "../folders";
-import { openFiles } from "../models";
+import { openFiles } from "../intake";
 import type { Side } from "../state";
 
 /** Files, as many as belong together; or a folder of them. */

@@ -34,7 +34,7 @@ export function Toolbar() {
         ))}
       </fieldset>
       {view.value === "samples" && (
-        <button type="button" class="quiet" onClick={() => void resample()}>
+        <button type="button" class="quiet" onClick={resample}>
           Resample
         </button>
       )}

@@ -50,3 +50,15 @@ export const DownloadIcon = () => (
     <path d="M10 3.500v9M6.500 9.500 10 13l3.500-3.500M4 16.500h12" />
   </Icon>
 );
+
+export const UndoIcon = () => (
+  <Icon>
+    <path d="M7 4 3.5 7.500 7 11M4 7.500h7.500a4.250 4.250 0 0 1 0 8.500H8" />
+  </Icon>
+);
+
+export const RedoIcon = () => (
+  <Icon>
+    <path d="m13 4 3.500 3.500L13 11M16 7.500H8.500a4.250 4.250 0 0 0 0 8.500H12" />
+  </Icon>
+);

@@ -1,0 +1,15 @@
+/** What was dropped or chosen: models, a run file, or a run file with its models. */
+import type { DroppedFile } from "../worker/protocol";
+import { openModels } from "./models";
+import { openRun, runAmong } from "./runfile/run";
+import type { Side } from "./state";
+
+/** Folders of shapes have no run file among them. */
+const MOST_LOOKED_INTO = 20;
+
+export async function openFiles(files: DroppedFile[], side: Side): Promise<void> {
+  const run = files.length <= MOST_LOOKED_INTO ? await runAmong(files) : null;
+  const models = files.filter((file) => file !== run?.file);
+  if (run) await openRun(run.file.name, run.text, models.length > 0);
+  await openModels(models, side);
+}

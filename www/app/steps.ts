@@ -1,0 +1,109 @@
+/**
+ * The page's own steps in the browser's history, so that Undo is Back and never leads out of the page.
+ *
+ * The browser does not say how far it can go in either direction: every entry carries its number, and
+ * what no address can hold is kept here beside it. Entries of an earlier life of the page (before it was
+ * loaded anew) have numbers too, which mean nothing any more.
+ */
+import { computed, signal } from "@preact/signals";
+
+export type Entries = Pick<History, "state" | "pushState" | "replaceState" | "go">;
+
+/** What an entry of the history carries. */
+interface Mark {
+  life: number;
+  step: number;
+}
+
+export class Steps<Place> {
+  #entries: Entries;
+  #life: number;
+  #places = new Map<number, Place>();
+  #at = signal(0);
+  #top = signal(0);
+  /** The browser is on its way to another entry. */
+  #travelling = false;
+  /** Steps that were asked for meanwhile. */
+  #queued = 0;
+
+  readonly undoable = computed(() => this.#at.value > 0);
+  readonly redoable = computed(() => this.#at.value < this.#top.value);
+
+  /** `life` tells this page from what it was before it was loaded anew. */
+  constructor(entries: Entries, life: number) {
+    this.#entries = entries;
+    this.#life = life;
+  }
+
+  /** The number of the present step. */
+  get at(): number {
+    return this.#at.peek();
+  }
+
+  /** Makes the present entry the first step. */
+  begin(place: Place): void {
+    this.#places.set(0, place);
+    this.#entries.replaceState(this.#mark(0), "");
+  }
+
+  push(place: Place, address: string): void {
+    const step = this.#at.peek() + 1;
+    this.#at.value = step;
+    this.#top.value = step;
+    this.#places.set(step, place);
+    this.#entries.pushState(this.#mark(step), "", address);
+  }
+
+  /** What came after a step belongs to it: they are undone together. */
+  join(place: Place, address: string): void {
+    this.#places.set(this.#at.peek(), place);
+    this.#entries.replaceState(this.#mark(this.#at.peek()), "", address);
+  }
+
+  undo(): void {
+    this.#travel(-1);
+  }
+
+  redo(): void {
+    this.#travel(1);
+  }
+
+  /** Where the browser has come to; null where only the address says what was there. */
+  arrive(state: unknown): Place | null {
+    this.#travelling = false;
+    const mark = state as Mark | null;
+    if (mark?.life === this.#life) this.#at.value = mark.step;
+    else if (mark) {
+      // An entry from before the page was loaded anew, or after it: nothing is undone from there.
+      this.#at.value = 0;
+    } else {
+      // Somebody typed another address.
+      const step = this.#at.peek() + 1;
+      this.#at.value = step;
+      this.#top.value = step;
+      this.#places.delete(step);
+      this.#entries.replaceState(this.#mark(step), "");
+    }
+    if (this.#queued !== 0) this.#leap();
+    return mark?.life === this.#life ? (this.#places.get(mark.step) ?? null) : null;
+  }
+
+  /** One journey at a time: browsers drop all but one of several that are asked for at once. */
+  #travel(by: 1 | -1): void {
+    this.#queued += by;
+    if (!this.#travelling) this.#leap();
+  }
+
+  #leap(): void {
+    const [at, top] = [this.#at.peek(), this.#top.peek()];
+    const by = Math.max(-at, Math.min(top - at, this.#queued));
+    this.#queued = 0;
+    if (by === 0) return;
+    this.#travelling = true;
+    this.#entries.go(by);
+  }
+
+  #mark(step: number): Mark {
+    return { life: this.#life, step };
+  }
+}

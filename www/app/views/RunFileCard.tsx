@@ -1,0 +1,72 @@
+import {
+  advice,
+  awaited,
+  forgetRunFile,
+  repeated,
+  reproduced,
+  useSettingsAnyway,
+} from "../runfile/run";
+import { outOfDate, run } from "../state";
+import { CloseIcon } from "./icons";
+import { showNotice } from "./Notices";
+
+/** A run file that waits for its models, or what became of one. */
+export function RunFileCard() {
+  if (awaited.value) return <Awaited file={awaited.value.file} />;
+  const shown = repeated.value;
+  if (!shown) return null;
+  return (
+    <div class="run-file" role="status" aria-label="Run file" data-about="taken">
+      <p>
+        With the settings of “{shown.file}”
+        {shown.engine !== null && `, made by engine ${shown.engine}`}. <Numbers />
+      </p>
+      <button
+        type="button"
+        class="quiet icon-only"
+        onClick={forgetRunFile}
+        aria-label="Dismiss the run file"
+      >
+        <CloseIcon />
+      </button>
+    </div>
+  );
+}
+
+function Awaited({ file }: { file: string }) {
+  const sentences = [advice.value.a, advice.value.b].flatMap((sentence) => sentence ?? []);
+  return (
+    <section ref={showNotice} class="run-file" aria-label="Run file" data-about="awaited">
+      <div class="run-file-body">
+        <h2>“{file}” waits for its models</h2>
+        <div role="alert">
+          {sentences.map((sentence) => (
+            <p key={sentence}>{sentence}</p>
+          ))}
+        </div>
+        <p class="small">Once they are open it runs by itself; until then nothing changes.</p>
+        <div class="card-row">
+          <button type="button" onClick={useSettingsAnyway}>
+            Use its settings for these
+          </button>
+          <button type="button" class="quiet" onClick={forgetRunFile}>
+            Forget it
+          </button>
+        </div>
+      </div>
+    </section>
+  );
+}
+
+/** Whether a report was met again, number by number. */
+function Numbers() {
+  const found = reproduced.value;
+  if (found === undefined || run.value || outOfDate.value) return null;
+  return found === null ? (
+    <strong data-reproduced="true">Every number is that of the report.</strong>
+  ) : (
+    <strong data-reproduced="false">
+      Not every number is that of the report: {found} differs.
+    </strong>
+  );
+}
