@@ -67,10 +67,8 @@ export interface Keyframe {
 
 /** Between two keyframes everything is mixed; models are linear, so that this is their own shape. */
 export function blend(keys: readonly Keyframe[], position: number): Omit<Keyframe, "at"> | null {
-  const next = Math.max(
-    1,
-    keys.findIndex(({ at }) => at >= position),
-  );
+  const beyond = keys.findIndex(({ at }) => at >= position);
+  const next = beyond === -1 ? keys.length - 1 : Math.max(1, beyond);
   const [from, to] = [keys[next - 1], keys[next]];
   if (!from || !to) return keys[0] ?? null;
   const share = Math.min(1, Math.max(0, (position - from.at) / (to.at - from.at)));
