@@ -19,10 +19,11 @@ import {
   vertex,
 } from "../state";
 import { contentsOf, ELLIPSOID_SD, type Scene, sceneFrame } from "../viewer/contents";
-import { scene, viewer } from "../viewer/stage-controller";
+import { scene } from "../viewer/stage-controller";
 import type { Frame, PaneContent } from "../viewer/viewer";
 import { differencePicture, REGION_NAMES } from "../views/names";
 import { captionOf, type FigureKind } from "./caption";
+import { darkroom } from "./darkroom";
 import {
   captionLine,
   type FigureLayout,
@@ -170,19 +171,19 @@ function captionLines(text: string, width: number, em: number): string[] {
   return wrapped(text, width - 2 * em, (part) => pen.measureText(part).width);
 }
 
-/** Drawn in one task, at so many pixels across; null where there is nothing to draw with. */
+/** Drawn in one task, at so many pixels across; null where there is nothing to draw. */
 export async function drawFigure(
   options: FigureOptions,
   across: number,
 ): Promise<HTMLCanvasElement | null> {
   const figure = await compose(options);
-  const made = viewer.peek();
   const { layout, contents } = figure;
   const scale = across / layout.width;
-  if (!made || contents.length === 0) return null;
+  if (contents.length === 0) return null;
   if (Math.max(layout.width, layout.height) * scale > LARGEST_PX + 1) {
     throw new Error(`That is more than ${LARGEST_PX} pixels high. Choose fewer pixels.`);
   }
+  const viewer = await darkroom();
   const canvas = document.createElement("canvas");
   canvas.width = Math.round(layout.width * scale);
   canvas.height = Math.round(layout.height * scale);
@@ -192,7 +193,7 @@ export async function drawFigure(
     pen.fillStyle = "#fff";
     pen.fillRect(0, 0, canvas.width, canvas.height);
   }
-  const shot = made.capture(scale, {
+  const shot = viewer.capture(scale, {
     width: layout.width,
     height: layout.height,
     layout: layout.blocks,

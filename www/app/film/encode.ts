@@ -4,7 +4,7 @@
  */
 import { applyPalette, GIFEncoder, quantize } from "gifenc";
 import { type FilmOptions, FRAMES_PER_SECOND, frameCount } from "./film";
-import { frameOfReel, type Reel } from "./reel";
+import { framesOf, type Reel } from "./reel";
 
 type OnProgress = (share: number) => void;
 
@@ -29,13 +29,15 @@ export async function encodeGif(
   onProgress: OnProgress,
 ): Promise<Blob> {
   const frames = frameCount(options);
+  const draw = framesOf(reel, options);
   const encoder = GIFEncoder();
   // One palette for all, from the beginning, the middle and the end: colours do not flicker.
-  const palette = quantize(someFrames(reel, options, [0, frames >> 2, frames >> 1]), GIF_COLOURS);
+  const palette = quantize(
+    together([0, frames >> 2, frames >> 1].map((i) => draw(i).data)),
+    GIF_COLOURS,
+  );
   for (let i = 0; i < frames; i += 1) {
-    const frame = frameOfReel(reel, options, i);
-    if (!frame) break;
-    encoder.writeFrame(applyPalette(frame.data, palette), reel.width, reel.height, {
+    encoder.writeFrame(applyPalette(draw(i).data, palette), reel.width, reel.height, {
       delay: FRAME_MS,
       ...(i === 0 ? { palette, repeat: options.loops ? 0 : -1 } : {}),
     });
@@ -47,8 +49,7 @@ export async function encodeGif(
   return new Blob([encoder.bytes()], { type: "image/gif" });
 }
 
-function someFrames(reel: Reel, options: FilmOptions, which: number[]): Uint8ClampedArray {
-  const found = which.flatMap((i) => frameOfReel(reel, options, i)?.data ?? []);
+function together(found: Uint8ClampedArray[]): Uint8ClampedArray {
   const all = new Uint8ClampedArray(found.reduce((sum, { length }) => sum + length, 0));
   let place = 0;
   for (const data of found) {

@@ -2,11 +2,12 @@
 
 import type { Region, Space } from "../../worker/protocol";
 import { engineClient } from "../engine";
+import { darkroom } from "../figure/darkroom";
 import { FONT, INK } from "../figure/lettering";
 import { camera } from "../state";
 import { contentOf, type Scene } from "../viewer/contents";
-import { scene, viewer } from "../viewer/stage-controller";
-import { type Frame, frameOf, type PaneContent } from "../viewer/viewer";
+import { scene } from "../viewer/stage-controller";
+import { type Frame, frameOf, type PaneContent, type Viewer } from "../viewer/viewer";
 import {
   blend,
   type FilmOptions,
@@ -51,11 +52,13 @@ export async function reelOf(signal: AbortSignal, options: FilmOptions): Promise
   // Codecs want even numbers.
   const even = (value: number) => 2 * Math.round(value / 2);
   const [width, height] = [even(options.size), even(options.size / aspect + room * scale)];
-  const reel = { width, height, scale, room, frame, content, keys, options };
+  const viewer = await darkroom();
+  const reel = { viewer, width, height, scale, room, frame, content, keys, options };
   return { width, height, draw: (pen, moment) => drawMoment(pen, reel, moment) };
 }
 
 interface Drawn {
+  viewer: Viewer;
   width: number;
   height: number;
   scale: number;
@@ -71,12 +74,11 @@ function drawMoment(pen: CanvasRenderingContext2D, reel: Drawn, moment: number):
   const dark = options.background === "dark";
   const position = positionAt(options, moment);
   const mixed = blend(reel.keys, position);
-  const made = viewer.peek();
-  if (!mixed || !made) return;
+  if (!mixed) return;
   pen.fillStyle = dark ? "#131519" : "#fff";
   pen.fillRect(0, 0, width, height);
   const [w, h] = [width / scale, height / scale];
-  const shot = made.capture(scale, {
+  const shot = reel.viewer.capture(scale, {
     width: w,
     height: h,
     layout: new Map([[content.region, { x: 0, y: room, width: w, height: h - room }]]),
@@ -133,8 +135,15 @@ export function stillOf(reel: Reel, moment: number): HTMLCanvasElement {
   return canvas;
 }
 
-/** The pixels of every frame in turn. */
-export function frameOfReel(reel: Reel, options: FilmOptions, frame: number): ImageData | null {
-  const canvas = stillOf(reel, momentOf(options, frame));
-  return canvas.getContext("2d")?.getImageData(0, 0, reel.width, reel.height) ?? null;
+/** The pixels of a frame, drawn on a canvas that is there for being read. */
+export function framesOf(reel: Reel, options: FilmOptions): (frame: number) => ImageData {
+  const canvas = document.createElement("canvas");
+  canvas.width = reel.width;
+  canvas.height = reel.height;
+  const pen = canvas.getContext("2d", { willReadFrequently: true });
+  if (!pen) throw new Error("This browser has no canvas to draw on.");
+  return (frame) => {
+    reel.draw(pen, momentOf(options, frame));
+    return pen.getImageData(0, 0, reel.width, reel.height);
+  };
 }

@@ -57,6 +57,8 @@ export class MeshViewer implements Viewer {
   #key = new DirectionalLight();
   #rim = new DirectionalLight();
   #panes: Pane[] = [];
+  /** What was drawn last for a picture that is not on the canvas. */
+  #last: Pane | null = null;
   #frame: Frame = { centre: [0, 0, 0], halfWidth: 1, halfHeight: 1 };
   #layout: ReadonlyMap<Region, Rect> = new Map();
   #size = { width: 1, height: 1 };
@@ -197,8 +199,17 @@ export class MeshViewer implements Viewer {
     use(pane);
     for (const { material } of points) material.size /= enlarged;
     if (shown) return;
-    discard(objects);
-    if (ellipsoid) discardEllipsoid(ellipsoid);
+    for (const object of [...objects, ...(ellipsoid ? [ellipsoid] : [])]) object.removeFromParent();
+    this.#letGo();
+    this.#last = pane;
+  }
+
+  /** Not at once: with the last material its program would go too, and be compiled for every picture anew. */
+  #letGo(): void {
+    if (!this.#last) return;
+    discard(this.#last.objects);
+    if (this.#last.ellipsoid) discardEllipsoid(this.#last.ellipsoid);
+    this.#last = null;
   }
 
   /** One cell at its size in the picture, part by part. */
@@ -256,6 +267,7 @@ export class MeshViewer implements Viewer {
 
   dispose(): void {
     cancelAnimationFrame(this.#scheduled);
+    this.#letGo();
     for (const { objects, ellipsoid } of this.#panes) {
       discard(objects);
       if (ellipsoid) discardEllipsoid(ellipsoid);

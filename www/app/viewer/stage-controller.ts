@@ -137,7 +137,7 @@ const viewers = {
   space: () => import("./mesh-viewer"),
 };
 
-async function createViewer(canvas: HTMLCanvasElement, flat: boolean): Promise<Viewer> {
+export async function createViewer(canvas: HTMLCanvasElement, flat: boolean): Promise<Viewer> {
   const made = flat
     ? new (await viewers.flat()).FlatViewer(canvas)
     : new (await viewers.space()).MeshViewer(canvas);

@@ -2,6 +2,7 @@ import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { copyText } from "../download";
 import type { FigureKind } from "../figure/caption";
+import { closeDarkroom } from "../figure/darkroom";
 import {
   type Background,
   captionFor,
@@ -45,6 +46,7 @@ export function FigureDialog({ onClose }: { onClose: () => void }) {
       mapIsWanted.value = false;
     };
   }, [options.shows]);
+  useEffect(() => closeDarkroom, []);
   const kinds: [FigureKind, string][] = [
     ["shapes", "Random shapes"],
     ["variance", "Variance"],
@@ -231,6 +233,7 @@ function Preview({ options }: { options: FigureOptions }) {
 }
 
 /** One click in the list of downloads: as it would first be offered. */
-export function saveAsOffered(shows: FigureKind): Promise<void> {
-  return saveFigure({ ...FIRST_OPTIONS, shows });
+export async function saveAsOffered(shows: FigureKind): Promise<void> {
+  await saveFigure({ ...FIRST_OPTIONS, shows });
+  closeDarkroom();
 }

@@ -2,6 +2,7 @@ import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { wasAborted } from "../../worker/engine-errors";
 import { saveBlob } from "../download";
+import { closeDarkroom } from "../figure/darkroom";
 import { canRecord, encodeGif, recordWebm } from "../film/encode";
 import {
   FIRST_FILM,
@@ -27,6 +28,9 @@ const SUBJECTS: [Subject, string][] = [
   ["morph", "From A to B"],
 ];
 
+/** How often the bar moves: drawing the page takes time that the film needs. */
+const PROGRESS_STEP = 0.02;
+
 /** A mode that swings, or the way from A to B, as a film. */
 export function FilmDialog({ onClose }: { onClose: () => void }) {
   const options = useSignal<FilmOptions>({ ...FIRST_FILM, format: canRecord() ? "webm" : "gif" });
@@ -37,7 +41,13 @@ export function FilmDialog({ onClose }: { onClose: () => void }) {
   const said = useSignal("");
   const { subject, format, size, seconds, loops, label, mode, background } = options.value;
   const report = result.value?.report;
-  useEffect(() => () => making.peek()?.controller.abort(), []);
+  useEffect(
+    () => () => {
+      making.peek()?.controller.abort();
+      closeDarkroom();
+    },
+    [],
+  );
 
   const save = async () => {
     const controller = new AbortController();
@@ -45,7 +55,8 @@ export function FilmDialog({ onClose }: { onClose: () => void }) {
     said.value = "";
     const wanted = options.peek();
     const onProgress = (share: number) => {
-      if (making.peek()) making.value = { share, controller };
+      const shown = making.peek()?.share ?? 1;
+      if (share - shown >= PROGRESS_STEP) making.value = { share, controller };
     };
     try {
       const reel = await reelOf(controller.signal, wanted);
