@@ -12,6 +12,8 @@ import { demoSource, first, isOpen, wantedOf } from "./sources";
 import {
   camera,
   demo,
+  diagnosedMode,
+  diagnosedSide,
   exaggeration,
   lockedRange,
   mapMode,
@@ -94,6 +96,8 @@ export function currentLink(): string {
     mapMode: mapMode.value,
     vertex: vertex.value,
     scale: lockedRange.value,
+    side: diagnosedSide.value,
+    coefficient: diagnosedMode.value,
     region: region.value,
     picture: picture.value,
     exaggeration: settledExaggeration.value,
@@ -121,6 +125,8 @@ const step = computed(() => {
     mapMode.value,
     vertex.value,
     lockedRange.value,
+    diagnosedSide.value,
+    diagnosedMode.value,
     region.value,
     picture.value,
     settledExaggeration.value,
@@ -277,6 +283,8 @@ export function apply(link: LinkState): void {
     mapMode.value = link.mapMode;
     vertex.value = link.vertex;
     lockedRange.value = link.scale;
+    diagnosedSide.value = link.side;
+    diagnosedMode.value = link.coefficient;
     region.value = link.region;
     picture.value = link.picture;
     exaggeration.value = link.exaggeration;

@@ -92,6 +92,9 @@ export interface LinkState {
   vertex: number | null;
   /** Range of the colours while it is locked. */
   scale: [number, number] | null;
+  /** Whose draws are diagnosed, and which coefficient, from 0; null for the worst. */
+  side: "a" | "b" | null;
+  coefficient: number | null;
   /** The region shown alone, if one is. */
   region: Region | null;
   picture: Picture;
@@ -118,6 +121,8 @@ export function defaultLink(): LinkState {
     mapMode: 0,
     vertex: null,
     scale: null,
+    side: null,
+    coefficient: null,
     region: null,
     picture: "draws",
     exaggeration: 0,
@@ -155,6 +160,8 @@ export function writeLink(state: LinkState): string {
   if (state.mapMode !== 0) pairs.push(["mode", state.mapMode + 1]);
   if (state.vertex !== null) pairs.push(["vertex", state.vertex]);
   if (state.scale !== null) pairs.push(["scale", state.scale.map(shortNumber).join(",")]);
+  if (state.side) pairs.push(["side", state.side]);
+  if (state.coefficient !== null) pairs.push(["coefficient", state.coefficient + 1]);
   if (state.region) pairs.push(["region", state.region]);
   if (state.picture !== "draws") pairs.push(["picture", state.picture]);
   if (state.exaggeration !== 0) pairs.push(["exaggerate", state.exaggeration]);
@@ -224,6 +231,8 @@ export function readLink(fragment: string): LinkState {
     mapMode: valid(parseCount(given.get("mode") ?? "", ...RANGES.modes), 1) - 1,
     vertex: valid<number | null>(parseCount(given.get("vertex") ?? "", 0, MOST_VERTICES), null),
     scale: readScale(given.get("scale")),
+    side: oneOf(given.get("side"), ["a", "b"] as const) ?? null,
+    coefficient: readCoefficient(given.get("coefficient")),
     view: oneOf(given.get("view"), VIEW_MODES) ?? fallback.view,
     region: oneOf(given.get("region"), REGIONS) ?? null,
     picture: oneOf(given.get("picture"), PICTURES) ?? fallback.picture,
@@ -318,6 +327,11 @@ function shortNumber(value: number): string {
 function readScale(text: string | null): [number, number] | null {
   const [low = Number.NaN, high = Number.NaN, ...more] = (text ?? "").split(",").map(Number);
   return low < high && Number.isFinite(high - low) && more.length === 0 ? [low, high] : null;
+}
+
+function readCoefficient(text: string | null): number | null {
+  const mode = parseCount(text ?? "", ...RANGES.modes);
+  return mode === "invalid" ? null : mode - 1;
 }
 
 function readExaggeration(text: string | null): number {

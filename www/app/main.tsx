@@ -8,6 +8,7 @@ import "../styles/panels.css";
 import "../styles/pair.css";
 import "../styles/maps.css";
 import "../styles/several.css";
+import "../styles/charts.css";
 
 acceptDrops();
 const root = document.getElementById("app");

@@ -1,4 +1,5 @@
 /** Scales of the small plots. Pure. */
+import { number } from "./format";
 
 export type Scale = (value: number) => number;
 
@@ -22,6 +23,14 @@ export function ticks(low: number, high: number, count: number): number[] {
   const first = Math.ceil(low / step - 1e-9);
   const last = Math.ceil(high / step - 1e-9);
   return Array.from({ length: last - first + 1 }, (_, i) => (first + i) * step);
+}
+
+/** A round value beside its axis, without zeros that say nothing. */
+export function tickText(value: number): string {
+  const size = Math.abs(value);
+  if (size < 1e-12) return "0";
+  if (size < 1e-3 || size >= 1e4) return number(value, 2);
+  return String(Number(value.toPrecision(4))).replace("-", "−");
 }
 
 const SWEEP_POINTS = 17;

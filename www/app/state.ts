@@ -114,6 +114,9 @@ export const vertexMap = signal<MapName>(first.map);
 export const mapMode = signal(first.mapMode);
 /** The vertex that is looked at, as a number of the points that are compared. */
 export const vertex = signal<number | null>(first.vertex);
+/** Whose draws are diagnosed, and which coefficient; null for the worst. */
+export const diagnosedSide = signal<Side | null>(first.side);
+export const diagnosedMode = signal<number | null>(first.coefficient);
 export const region = signal<Region | null>(null);
 export const shapesSeed = signal(first.shapes);
 /** What is shown of the differences, and how far they are exaggerated. */

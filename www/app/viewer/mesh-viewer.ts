@@ -244,12 +244,12 @@ export class MeshViewer implements Viewer {
     this.#hideAll();
     for (const object of objects) object.visible = true;
     const ratio = this.#renderer.getPixelRatio();
-    const own = this.#size;
-    // In a part of the page without the stage the canvas has no size of its own.
-    const hidden = own.width < 2 || own.height < 2;
-    if (hidden) this.setLayout(size, size, this.#layout);
-    const side = Math.floor(Math.min(size, this.#size.width, this.#size.height));
-    const cell = { x: 0, y: 0, width: side, height: side };
+    // Drawn on the canvas of the stage, which has no size while another room is looked at.
+    const stage = this.#size;
+    this.#size = { width: Math.max(size, stage.width), height: Math.max(size, stage.height) };
+    const resized = this.#size.width !== stage.width || this.#size.height !== stage.height;
+    if (resized) this.#renderer.setSize(this.#size.width, this.#size.height, false);
+    const cell = { x: 0, y: 0, width: size, height: size };
     this.#renderer.setScissorTest(false);
     this.#renderer.clear();
     const camera = this.#camera;
@@ -257,10 +257,11 @@ export class MeshViewer implements Viewer {
     this.#draw(cell, frame);
     this.#camera = camera;
     const copy = document.createElement("canvas");
-    copy.width = copy.height = Math.round(side * ratio);
+    copy.width = copy.height = Math.round(size * ratio);
     copy.getContext("2d")?.drawImage(this.#canvas, 0, 0);
     discard(objects);
-    if (hidden) this.setLayout(own.width, own.height, this.#layout);
+    this.#size = stage;
+    if (resized) this.#renderer.setSize(stage.width, stage.height, false);
     this.#render();
     return copy;
   }

@@ -4,6 +4,7 @@ import { linear, logarithmic, type Scale } from "../plots";
 import { ESS, inferred, R_HAT, worstModes } from "../words";
 import { Mark } from "./Mark";
 import { Metric, Phrase } from "./Phrase";
+import { SaveTable } from "./SaveTable";
 import { ShowNumbers } from "./ShowNumbers";
 
 const SIDES = ["a", "b"] as const;
@@ -122,45 +123,47 @@ const COLUMNS: { name: keyof ModeDiagnostics; title: string; show: (value: numbe
 
 function ModeTable({ both }: { both: BothSides<ModeDiagnostics> }) {
   return (
-    // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls must be reached by keys
-    <section class="scrolled" tabIndex={0} aria-label="Diagnostics of every mode">
-      <table class="numbers" data-columns="6">
-        <caption>In standard deviations of each mode</caption>
-        <thead>
-          <tr>
-            <th scope="col">Mode</th>
-            {COLUMNS.map(({ name, title }) => (
-              <th key={name} scope="col">
-                {title}
-              </th>
-            ))}
-          </tr>
-        </thead>
-        <tbody>
-          {SIDES.flatMap((side) =>
-            both[side].essBulk.map((_, i) => (
-              <tr key={`${side}${i}`}>
-                <th scope="row">
-                  {side.toUpperCase()}&nbsp;{i + 1}
+    <SaveTable file="coefficients" of="every mode’s numbers">
+      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls must be reached by keys */}
+      <section class="scrolled" tabIndex={0} aria-label="Diagnostics of every mode">
+        <table class="numbers" data-columns="6">
+          <caption>In standard deviations of each mode</caption>
+          <thead>
+            <tr>
+              <th scope="col">Mode</th>
+              {COLUMNS.map(({ name, title }) => (
+                <th key={name} scope="col">
+                  {title}
                 </th>
-                {COLUMNS.map(({ name, show }) => {
-                  const value = both[side][name]?.[i];
-                  const path = `intersection.coefficients.${side}.${name}.${i}`;
-                  return (
-                    <td key={name}>
-                      {value == null ? (
-                        <span class="dim">–</span>
-                      ) : (
-                        <Metric path={path} value={value} text={show(value)} />
-                      )}
-                    </td>
-                  );
-                })}
-              </tr>
-            )),
-          )}
-        </tbody>
-      </table>
-    </section>
+              ))}
+            </tr>
+          </thead>
+          <tbody>
+            {SIDES.flatMap((side) =>
+              both[side].essBulk.map((_, i) => (
+                <tr key={`${side}${i}`}>
+                  <th scope="row">
+                    {side.toUpperCase()}&nbsp;{i + 1}
+                  </th>
+                  {COLUMNS.map(({ name, show }) => {
+                    const value = both[side][name]?.[i];
+                    const path = `intersection.coefficients.${side}.${name}.${i}`;
+                    return (
+                      <td key={name}>
+                        {value == null ? (
+                          <span class="dim">–</span>
+                        ) : (
+                          <Metric path={path} value={value} text={show(value)} />
+                        )}
+                      </td>
+                    );
+                  })}
+                </tr>
+              )),
+            )}
+          </tbody>
+        </table>
+      </section>
+    </SaveTable>
   );
 }

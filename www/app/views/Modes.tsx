@@ -2,6 +2,7 @@ import type { Report } from "../../worker/protocol";
 import { degrees, length, number, percent } from "../format";
 import { unsettled, unsettledModes } from "../words";
 import { Metric } from "./Phrase";
+import { SaveTable } from "./SaveTable";
 import { Scree } from "./Scree";
 import { ShowNumbers } from "./ShowNumbers";
 
@@ -79,45 +80,47 @@ function ModesTable({ report, doubtful }: { report: Report; doubtful: Set<number
     </td>
   );
   return (
-    // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls must be reached by keys
-    <section class="scrolled" tabIndex={0} aria-label="Modes of the intersection model">
-      <table class="numbers" data-columns={accuracy ? 4 : 1}>
-        <caption>Modes of A∩B</caption>
-        <thead>
-          <tr>
-            <th scope="col">Mode</th>
-            <th scope="col">SD, {unit}</th>
-            {accuracy && (
-              <>
-                <th scope="col">± error</th>
-                <th scope="col">may turn</th>
-                <th scope="col">determined</th>
-              </>
-            )}
-          </tr>
-        </thead>
-        <tbody>
-          {deviations.map((deviation, i) => (
-            <tr key={i} data-doubtful={doubtful.has(i + 1)}>
-              <th scope="row">{i + 1}</th>
-              {cell(`standardDeviations.${i}`, deviation, (value) => number(value))}
+    <SaveTable file="modes" of="the modes of A∩B">
+      {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls must be reached by keys */}
+      <section class="scrolled" tabIndex={0} aria-label="Modes of the intersection model">
+        <table class="numbers" data-columns={accuracy ? 4 : 1}>
+          <caption>Modes of A∩B</caption>
+          <thead>
+            <tr>
+              <th scope="col">Mode</th>
+              <th scope="col">SD, {unit}</th>
               {accuracy && (
                 <>
-                  {cell(
-                    `accuracy.standardDeviations.${i}`,
-                    accuracy.standardDeviations[i],
-                    (value) => length(value, unit),
-                  )}
-                  {cell(`accuracy.modeTurns.${i}`, accuracy.modeTurns[i], (value) =>
-                    degrees((180 * value) / Math.PI),
-                  )}
-                  <td>{doubtful.has(i + 1) ? "not alone" : "yes"}</td>
+                  <th scope="col">± error</th>
+                  <th scope="col">may turn</th>
+                  <th scope="col">determined</th>
                 </>
               )}
             </tr>
-          ))}
-        </tbody>
-      </table>
-    </section>
+          </thead>
+          <tbody>
+            {deviations.map((deviation, i) => (
+              <tr key={i} data-doubtful={doubtful.has(i + 1)}>
+                <th scope="row">{i + 1}</th>
+                {cell(`standardDeviations.${i}`, deviation, (value) => number(value))}
+                {accuracy && (
+                  <>
+                    {cell(
+                      `accuracy.standardDeviations.${i}`,
+                      accuracy.standardDeviations[i],
+                      (value) => length(value, unit),
+                    )}
+                    {cell(`accuracy.modeTurns.${i}`, accuracy.modeTurns[i], (value) =>
+                      degrees((180 * value) / Math.PI),
+                    )}
+                    <td>{doubtful.has(i + 1) ? "not alone" : "yes"}</td>
+                  </>
+                )}
+              </tr>
+            ))}
+          </tbody>
+        </table>
+      </section>
+    </SaveTable>
   );
 }

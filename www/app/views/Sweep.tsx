@@ -1,53 +1,62 @@
-import { useSignal } from "@preact/signals";
+import { signal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { wasAborted } from "../../worker/engine-errors";
 import type { SweepPoint } from "../../worker/protocol";
+import { sweepAdvice } from "../advice";
 import { sweepPoint } from "../comparison";
-import { length, number } from "../format";
-import { linear, logarithmic, sweepSigmas, ticks } from "../plots";
-import { canPreview, held, recommended, result, settings, unit } from "../state";
-import { Mark } from "./Mark";
+import { length } from "../format";
+import { sweepSigmas } from "../plots";
+import { canPreview, held, recommended, result, room, settings, unit } from "../state";
+import { Chart } from "./Chart";
 import { ShowNumbers } from "./ShowNumbers";
+import { SweepLegend, SweepLines, SweepTable } from "./SweepPlot";
 
 const [WIDTH, HEIGHT] = [320, 190];
-const BOX = { left: 34, right: 8, top: 20, bottom: 34 };
 
-const SERIES = [
-  { key: "distance", label: "predicted mean distance", mark: "circle" },
-  { key: "nearest", label: "nearest common shape", mark: "square" },
-  { key: "vertexSd", label: "SD per vertex", mark: "diamond" },
-] as const;
+/** What was asked of which models and settings; whoever looks at it again need not wait again. */
+const swept = signal<{ base: string | null; points: SweepPoint[]; done: boolean }>({
+  base: null,
+  points: [],
+  done: false,
+});
 
-/** The paper's ablation of σ, by the fit alone: asked for when it is opened, one σ at a time. */
-export function Sweep() {
-  const open = useSignal(false);
+/** The paper's ablation of σ, by the fit alone: asked for when it is looked at, one σ at a time. */
+function useSweep(open: boolean) {
   const base = held.value?.base ?? null;
-  const asked = useSignal<{ base: string | null; points: SweepPoint[]; done: boolean }>({
-    base: null,
-    points: [],
-    done: false,
-  });
   const middle = recommended.value ?? result.value?.report.settings.sigma ?? null;
-  const ready = open.value && canPreview.value && middle !== null;
+  const ready = open && canPreview.value && middle !== null;
   useEffect(() => {
-    if (!ready || (asked.peek().base === base && asked.peek().done)) return;
+    if (!ready || (swept.peek().base === base && swept.peek().done)) return;
     const controller = new AbortController();
     void (async () => {
-      asked.value = { base, points: [], done: false };
+      swept.value = { base, points: [], done: false };
       for (const sigma of sweepSigmas(middle)) {
         const point = await sweepPoint(controller.signal, sigma);
-        const points = [...asked.peek().points, ...(point ? [point] : [])];
-        asked.value = { base, points, done: false };
+        const points = [...swept.peek().points, ...(point ? [point] : [])];
+        swept.value = { base, points, done: false };
       }
-      asked.value = { ...asked.peek(), done: true };
+      swept.value = { ...swept.peek(), done: true };
     })().catch((thrown: unknown) => {
       // The engine says what stopped it; the sweep begins anew with the next comparison.
-      if (!wasAborted(thrown)) asked.value = { ...asked.peek(), base: null };
+      if (!wasAborted(thrown)) swept.value = { ...swept.peek(), base: null };
     });
     return () => controller.abort();
   }, [ready, base, middle]);
-  const { points, done } = asked.value;
-  const current = asked.value.base === base;
+  const { points, done } = swept.value;
+  return { points, done, current: swept.value.base === base };
+}
+
+function waiting(done: boolean): string {
+  if (done) return "The fit breaks down at every σ that was tried.";
+  return canPreview.value ? "Trying other σ…" : "Shown once the comparison is finished.";
+}
+
+/** Beside the results; where the draws are diagnosed it is among their plots. */
+export function Sweep() {
+  const open = useSignal(false);
+  const elsewhere = room.value === "diagnostics";
+  const { points, done, current } = useSweep(open.value && !elsewhere);
+  if (elsewhere) return null;
   return (
     <details
       class="more sweep"
@@ -57,159 +66,50 @@ export function Sweep() {
     >
       <summary>How the intersection depends on σ</summary>
       {open.value && current && points.length > 1 ? (
-        <SweepPlot points={points} done={done} />
+        <figure class="sweep-figure" data-done={done} data-points={points.length}>
+          <svg viewBox={`0 0 ${WIDTH} ${HEIGHT}`} class="plot" aria-hidden="true">
+            <SweepLines points={points} width={WIDTH} height={HEIGHT} />
+          </svg>
+          <SweepLegend />
+          <ShowNumbers>{() => <SweepTable points={points} />}</ShowNumbers>
+        </figure>
       ) : (
-        <p class="small">
-          {done && current
-            ? "The fit breaks down at every σ that was tried."
-            : canPreview.value
-              ? "Trying other σ…"
-              : "Shown once the comparison is finished."}
-        </p>
+        <p class="small">{waiting(done && current)}</p>
       )}
     </details>
   );
 }
 
-function SweepPlot({ points, done }: { points: SweepPoint[]; done: boolean }) {
-  const sigmas = points.map((point) => point.sigma);
-  const x = logarithmic(Math.min(...sigmas), Math.max(...sigmas), BOX.left, WIDTH - BOX.right);
-  const highest = Math.max(...points.flatMap((point) => SERIES.map(({ key }) => point[key])));
-  const steps = ticks(0, highest, 4);
-  const top = Math.max(highest, steps.at(-1) ?? 0);
-  const y = linear(0, top, HEIGHT - BOX.bottom, BOX.top);
+/** The same in the room of the diagnostics, with what it says of the σ in use. */
+export function SweepChart() {
+  const { points, done } = useSweep(true);
   const used = settings.value.sigma ?? recommended.value;
-  const marks = [
-    { sigma: recommended.value, label: "recommended", kind: "recommended" },
-    { sigma: used === recommended.value ? null : used, label: "in use", kind: "used" },
-  ];
+  if (points.length < 2) {
+    return (
+      <section class="chart">
+        <h3>How A∩B depends on σ</h3>
+        <p class="small">{waiting(done)}</p>
+      </section>
+    );
+  }
+  const [first, last] = [points[0], points.at(-1)];
   return (
-    <figure class="sweep-figure" data-done={done} data-points={points.length}>
-      <svg viewBox={`0 0 ${WIDTH} ${HEIGHT}`} class="plot" aria-hidden="true">
-        {steps.map((value) => (
-          <g key={value}>
-            <line class="grid" x1={BOX.left} x2={WIDTH - BOX.right} y1={y(value)} y2={y(value)} />
-            <text class="tick" x={BOX.left - 5} y={y(value) + 3} text-anchor="end">
-              {number(value, 2)}
-            </text>
-          </g>
-        ))}
-        <text class="tick" x={0} y={BOX.top - 7}>
-          {unit.value}
-        </text>
-        {decades(sigmas).map((sigma) => (
-          <text
-            key={sigma}
-            class="tick"
-            x={x(sigma)}
-            y={HEIGHT - BOX.bottom + 13}
-            text-anchor="middle"
-          >
-            {number(sigma, 1)}
-          </text>
-        ))}
-        <text class="tick" x={(BOX.left + WIDTH) / 2} y={HEIGHT - 5} text-anchor="middle">
-          σ in {unit.value}, logarithmic
-        </text>
-        {marks.map(({ sigma, label, kind }) =>
-          sigma === null || x(sigma) < BOX.left || x(sigma) > WIDTH - BOX.right ? null : (
-            <g key={kind} class="at-sigma" data-kind={kind}>
-              <line x1={x(sigma)} x2={x(sigma)} y1={BOX.top} y2={HEIGHT - BOX.bottom} />
-              <text
-                class="tick"
-                x={x(sigma)}
-                y={BOX.top - 7}
-                text-anchor={anchor(kind, used, recommended.value)}
-              >
-                {label}
-              </text>
-            </g>
-          ),
-        )}
-        {SERIES.map(({ key, mark }) => (
-          <g key={key} class="series" data-series={key}>
-            <polyline
-              points={points.map((point) => `${x(point.sigma)},${y(point[key])}`).join(" ")}
-            />
-            {points.map((point) => (
-              <Mark key={point.sigma} kind={mark} x={x(point.sigma)} y={y(point[key])} />
-            ))}
-          </g>
-        ))}
-      </svg>
-      <ul class="legend" aria-hidden="true">
-        {SERIES.map(({ key, label, mark }) => (
-          <li key={key} class="series" data-series={key}>
-            <svg viewBox="0 0 22 10" aria-hidden="true">
-              <polyline points="0,5 22,5" />
-              <Mark kind={mark} x={11} y={5} />
-            </svg>
-            {label}
-          </li>
-        ))}
-      </ul>
-      <ShowNumbers>{() => <SweepTable points={points} />}</ShowNumbers>
-    </figure>
-  );
-}
-
-/** The two labels lean away from one another. */
-function anchor(
-  kind: string,
-  used: number | null,
-  theirs: number | null,
-): "start" | "middle" | "end" {
-  if (used === null || theirs === null || used === theirs) return "middle";
-  return (kind === "used") === used < theirs ? "end" : "start";
-}
-
-function decades(sigmas: number[]): number[] {
-  const [low, high] = [Math.min(...sigmas), Math.max(...sigmas)];
-  const first = Math.ceil(Math.log10(low) - 1e-9);
-  const last = Math.floor(Math.log10(high) + 1e-9);
-  return Array.from({ length: Math.max(0, last - first + 1) }, (_, i) => 10 ** (first + i));
-}
-
-function SweepTable({ points }: { points: SweepPoint[] }) {
-  const columns: [string, (point: SweepPoint) => number][] = [
-    ["Distance", (point) => point.distance],
-    ["Dimensions", (point) => point.effectiveDimensions],
-    ["d_G to A", (point) => point.grassmann.toA],
-    ["to B", (point) => point.grassmann.toB],
-    ["to union", (point) => point.grassmann.toUnion],
-  ];
-  return (
-    <table class="numbers sweep-table" data-columns="5">
-      <caption>
-        σ and distance in {unit.value}, dimensions on which the distance acts, and Grassmann
-        distances of A∩B in radians
-      </caption>
-      <thead>
-        <tr>
-          <th scope="col">σ</th>
-          {columns.map(([name]) => (
-            <th key={name} scope="col">
-              {name}
-            </th>
-          ))}
-        </tr>
-      </thead>
-      <tbody>
-        {points.map((point) => (
-          <tr key={point.sigma} data-sigma={point.sigma}>
-            <th scope="row">{number(point.sigma)}</th>
-            {columns.map(([name, of]) => (
-              <td
-                key={name}
-                data-value={of(point)}
-                title={name === "Distance" ? length(of(point), unit.value) : undefined}
-              >
-                {number(of(point))}
-              </td>
-            ))}
-          </tr>
-        ))}
-      </tbody>
-    </table>
+    <div data-done={done}>
+      <Chart
+        name="sweep"
+        title="How A∩B depends on σ"
+        about="What the Gaussian fit alone predicts of A∩B at other tolerances σ, without a draw."
+        label={
+          first && last
+            ? `At σ ${length(first.sigma, unit.value)} A∩B varies by ${length(first.vertexSd, unit.value)} per vertex, at σ ${length(last.sigma, unit.value)} by ${length(last.vertexSd, unit.value)}.`
+            : ""
+        }
+        height={() => 236}
+        draw={(width) => <SweepLines points={points} width={width} height={236} />}
+        legend={<SweepLegend />}
+        advice={done && used !== null ? sweepAdvice(points, used) : null}
+        table={() => <SweepTable points={points} />}
+      />
+    </div>
   );
 }

@@ -6,6 +6,7 @@ import { change, settings } from "../state";
 import { sidesDisagree, twoSides } from "../words";
 import { Numbers } from "./Numbers";
 import { Metric, Phrase } from "./Phrase";
+import { SaveTable } from "./SaveTable";
 
 const ALONE: Group = {
   title: "Each side’s own model",
@@ -47,33 +48,35 @@ export function TwoSides({ report }: { report: Report }) {
       </p>
       {sentence && <Numbers group={ALONE} report={report} />}
       {distances.length > 0 && (
-        <table class="numbers" data-columns="4">
-          <caption>Grassmann distance between the two, radians</caption>
-          <thead>
-            <tr>
-              <td />
-              {distances.map((_, i) => (
-                <th key={COMPARED_MODES[i]} scope="col">
-                  {COMPARED_MODES[i]}
-                </th>
-              ))}
-            </tr>
-          </thead>
-          <tbody>
-            <tr>
-              <th scope="row">First modes</th>
-              {distances.map((value, i) => (
-                <td key={COMPARED_MODES[i]}>
-                  <Metric
-                    path={`intersection.disagreement.grassmann.${i}`}
-                    value={value}
-                    text={number(value)}
-                  />
-                </td>
-              ))}
-            </tr>
-          </tbody>
-        </table>
+        <SaveTable file="two-sides-grassmann" of="the Grassmann distance between the two">
+          <table class="numbers" data-columns="4">
+            <caption>Grassmann distance between the two, radians</caption>
+            <thead>
+              <tr>
+                <td />
+                {distances.map((_, i) => (
+                  <th key={COMPARED_MODES[i]} scope="col">
+                    {COMPARED_MODES[i]}
+                  </th>
+                ))}
+              </tr>
+            </thead>
+            <tbody>
+              <tr>
+                <th scope="row">First modes</th>
+                {distances.map((value, i) => (
+                  <td key={COMPARED_MODES[i]}>
+                    <Metric
+                      path={`intersection.disagreement.grassmann.${i}`}
+                      value={value}
+                      text={number(value)}
+                    />
+                  </td>
+                ))}
+              </tr>
+            </tbody>
+          </table>
+        </SaveTable>
       )}
       <fieldset class="segments">
         <legend class="unseen">Sides that make the intersection model</legend>
