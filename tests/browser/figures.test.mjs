@@ -79,7 +79,7 @@ test("a figure has any size and background, and what is left out makes it lower"
   await withPage({}, async ({ url, page }) => {
     await open(page, url, "demo=stars-1&view=sd&map=ratio");
     const dialog = await openDialog(page);
-    await dialog.getByRole("radio", { name: /^Ratio of variances/ }).check({ force: true });
+    await dialog.getByRole("radio", { name: /^Variance ratio/ }).check({ force: true });
     await dialog.getByLabel("Unit of the width").selectOption("px");
     const width = dialog.getByRole("spinbutton", { name: "Width" });
     await width.fill("1000");

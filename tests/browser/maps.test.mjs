@@ -85,12 +85,12 @@ test("the numbers of a vertex are those of the models as the command line has th
       near(shortest, 2 * Math.sqrt(Math.max(0, half - root)), `shortest in ${name}`);
     }
 
-    const ratios = await choose(page, "Ratio of variances, A to B", /^Ratio of variances/);
+    const ratios = await choose(page, "Variance ratio, A to B", /^Variance ratio/);
     assert.equal(new Set(ratios).size, 1, "the ratio is the same in all regions");
     near(ratios[0], Math.log2(variance(ofA) / variance(ofB)), "log₂ of the ratio");
 
     // The mean of A lies on itself.
-    const displaced = await choose(page, "Displacement of the mean", /^Displacement of the mean/);
+    const displaced = await choose(page, "Displacement of mean", /^Displacement of mean/);
     near(displaced[0], 0, "A from A");
     const moved = [0, 1].map((axis) => b.mean[2 * vertex + axis] - a.mean[2 * vertex + axis]);
     assert.ok(Math.abs(displaced[4]) <= Math.hypot(...moved) + 1e-6, "no more than it moves");
@@ -115,7 +115,7 @@ test("normal and tangential part make up the standard deviation, in every region
 test("the ratio has a scale that is centred at 0 and says which end is which", async () => {
   await withPage({}, async ({ url, page }) => {
     await open(page, url, "demo=heads-sex&view=sd&map=ratio&vertex=10");
-    await figuresOf(page, /^Ratio of variances/);
+    await figuresOf(page, /^Variance ratio/);
     const legend = page.getByRole("figure", { name: /^Variance of A over variance of B, log₂/ });
     const { low, high } = await legend.evaluate(({ dataset }) => dataset);
     assert.equal(Number(low), -Number(high));
@@ -124,7 +124,7 @@ test("the ratio has a scale that is centred at 0 and says which end is which", a
       /B varies more\s*−[\d.]+\s*0\s*\+[\d.]+\s*A varies more/,
     );
     const seen = await untilDrawn(page);
-    await chooser(page).selectOption({ label: "Distance to the other model" });
+    await chooser(page).selectOption({ label: "Distance to the other" });
     await page.getByRole("figure", { name: /^Distance of .* to the other model, mm/ }).waitFor();
     assert.ok(Number(await scale(page).getAttribute("data-low")) >= 0, "a distance has no sign");
     assert.doesNotMatch(await scale(page).innerText(), /outwards|varies/);
@@ -133,7 +133,7 @@ test("the ratio has a scale that is centred at 0 and says which end is which", a
 });
 
 test("a locked scale stays for maps of one kind, is in the link, and goes with another kind", async () => {
-  await withPage({}, async ({ url, page }) => {
+  await withPage({}, async ({ url, page, browser }) => {
     await open(page, url, "demo=stars-1&view=sd&vertex=0");
     const high = await scale(page).getAttribute("data-high");
     await page.getByRole("checkbox", { name: "Lock scale" }).check();
@@ -141,7 +141,13 @@ test("a locked scale stays for maps of one kind, is in the link, and goes with a
     await page.getByRole("figure", { name: /along the normal.*\(locked\)/ }).waitFor();
     assert.equal(await scale(page).getAttribute("data-high"), high);
     await page.waitForURL(/scale=[^&,]+,[\d.]+(&|$)/);
-    await choose(page, "Ratio of variances, A to B", /^Ratio/);
+    const other = await browser.newPage();
+    await other.goto(page.url());
+    await other.getByRole("figure", { name: /along the normal.*\(locked\)/ }).waitFor();
+    const kept = Number(await scale(other).getAttribute("data-high"));
+    assert.ok(Math.abs(kept / Number(high) - 1) < 1e-6, `${kept} is ${high}`);
+    await other.close();
+    await choose(page, "Variance ratio, A to B", /^Variance ratio/);
     assert.equal(await page.getByRole("checkbox", { name: "Lock scale" }).isChecked(), false);
   });
 });
@@ -149,12 +155,12 @@ test("a locked scale stays for maps of one kind, is in the link, and goes with a
 test("which mode is mapped is a number in the link, and Back undoes it", async () => {
   await withPage({}, async ({ url, page }) => {
     await open(page, url, "demo=heads-sex&view=sd&map=mode&vertex=3000");
-    const first = await figuresOf(page, /^Displacement by a mode/);
+    const first = await figuresOf(page, /^Displacement by mode/);
     const mode = page.getByRole("spinbutton", { name: "Mode", exact: true });
     await mode.fill("3");
     await mode.press("Enter");
     await page.getByRole("figure", { name: /−2 to \+2 SD of mode 3/ }).waitFor();
-    const third = await figuresOf(page, /^Displacement by a mode/);
+    const third = await figuresOf(page, /^Displacement by mode/);
     assert.ok(
       third.every((value, i) => value !== first[i]),
       `${third} is not ${first}`,
@@ -162,7 +168,7 @@ test("which mode is mapped is a number in the link, and Back undoes it", async (
     await page.waitForURL(/map=mode&mode=3&vertex=3000/);
     await page.goBack();
     await page.getByRole("figure", { name: /−2 to \+2 SD of mode 1/ }).waitFor();
-    assert.deepEqual(await figuresOf(page, /^Displacement by a mode/), first);
+    assert.deepEqual(await figuresOf(page, /^Displacement by mode/), first);
   });
 });
 

@@ -156,10 +156,7 @@ export function writeLink(state: LinkState): string {
     ["view", state.view],
   );
   if (state.room !== "regions") pairs.push(["room", state.room]);
-  if (state.map !== "sd") pairs.push(["map", state.map]);
-  if (state.mapMode !== 0) pairs.push(["mode", state.mapMode + 1]);
-  if (state.vertex !== null) pairs.push(["vertex", state.vertex]);
-  if (state.scale !== null) pairs.push(["scale", state.scale.map(shortNumber).join(",")]);
+  pairs.push(...mapPairs(state));
   if (state.side) pairs.push(["side", state.side]);
   if (state.coefficient !== null) pairs.push(["coefficient", state.coefficient + 1]);
   if (state.region) pairs.push(["region", state.region]);
@@ -171,6 +168,16 @@ export function writeLink(state: LinkState): string {
   const turned = cameraText(camera);
   if (turned !== cameraText(HOME)) pairs.push(["camera", turned]);
   return pairs.map(([key, value]) => `${key}=${escapeValue(String(value))}`).join("&");
+}
+
+/** What is coloured onto the vertices, and which of them is looked at. */
+function mapPairs({ map, mapMode, vertex, scale }: LinkState): [string, string | number][] {
+  const pairs: [string, string | number][] = [];
+  if (map !== "sd") pairs.push(["map", map]);
+  if (mapMode !== 0) pairs.push(["mode", mapMode + 1]);
+  if (vertex !== null) pairs.push(["vertex", vertex]);
+  if (scale !== null) pairs.push(["scale", scale.map(shortNumber).join(",")]);
+  return pairs;
 }
 
 /** Settings that links leave out while they are the default, to stay short. */

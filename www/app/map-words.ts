@@ -37,27 +37,27 @@ export const MAP_WORDS: Record<MapName, MapWords> = {
     kind: "deviation",
   },
   distance: {
-    label: "Distance to the other model",
+    label: "Distance to the other",
     quantity: () => "Distance of the region’s mean shape to the other model",
     help: "From each vertex of the mean shape to its place in the nearest shape that the other model can make: of A and A∖B to B, of B and B∖A to A, of A∩B to the farther of the two.",
     kind: "distance",
   },
   means: {
-    label: "Displacement of the mean",
+    label: "Displacement of mean",
     quantity: ({ signed }) =>
       `Displacement of the region’s mean from the mean of A${signed ? ", along the normal" : ""}`,
     help: "How far the mean shape of the region lies outside of that of A, or inside of it.",
     kind: "displacement",
   },
   mode: {
-    label: "Displacement by a mode",
+    label: "Displacement by mode",
     quantity: ({ mode, signed }) =>
       `Displacement from −2 to +2 SD of mode ${mode + 1}${signed ? ", along the normal" : ""}`,
     help: "What one mode of the region does; of A∖B and B∖A, one of the modes that only A or only B has. Its sign is arbitrary: inwards and outwards may be exchanged.",
     kind: "displacement",
   },
   ratio: {
-    label: "Ratio of variances, A to B",
+    label: "Variance ratio, A to B",
     quantity: () => "Variance of A over variance of B",
     help: "1 where A varies twice as much as B, −1 where B varies twice as much as A. The same in all regions.",
     kind: "ratio",

@@ -19,7 +19,7 @@ import type { DrawnEllipsoid } from "./viewer";
 
 const STEPS = 48;
 /** What of it lies inside a surface or behind it still shows a little. */
-const [BEFORE, BEHIND] = [0.3, 0.14];
+const [BEFORE, BEHIND] = [0.22, 0.1];
 
 export function ellipsoidObject({ centre, axes, ink }: DrawnEllipsoid): Object3D {
   const [r, g, b] = ink;

@@ -164,7 +164,7 @@ function Lengths({ values, show }: { values: number[]; show: (value: number) => 
       {values.length === 0 && <span class="dim">–</span>}
       {values.map((value, i) => (
         <span key={String(i)}>
-          {i > 0 && " × "}
+          {i > 0 && "\u200a×\u200a"}
           <data value={String(value)}>{show(value)}</data>
         </span>
       ))}
