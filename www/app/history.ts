@@ -16,6 +16,7 @@ import {
   diagnosedMode,
   diagnosedSide,
   exaggeration,
+  lockedRange,
   mapMode,
   painting,
   picture,
@@ -96,6 +97,7 @@ export function currentLink(): string {
     mapMode: mapMode.value,
     vertex: vertex.value,
     explorer: settledExplorer.value,
+    scale: lockedRange.value,
     side: diagnosedSide.value,
     coefficient: diagnosedMode.value,
     region: region.value,
@@ -125,6 +127,7 @@ const step = computed(() => {
     mapMode.value,
     vertex.value,
     settledExplorer.value,
+    lockedRange.value,
     diagnosedSide.value,
     diagnosedMode.value,
     region.value,
@@ -283,6 +286,7 @@ export function apply(link: LinkState): void {
     mapMode.value = link.mapMode;
     vertex.value = link.vertex;
     applyExplorer(link.explorer);
+    lockedRange.value = link.scale;
     diagnosedSide.value = link.side;
     diagnosedMode.value = link.coefficient;
     region.value = link.region;
