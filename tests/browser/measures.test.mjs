@@ -260,7 +260,9 @@ test("shapes that a model has not seen, and those that it was made of, put it to
       await chart(page, "evaluation-a").innerText(),
       /12 test shapes that the model was not made of/,
     );
-    const drawn = chart(page, "evaluation-a").locator(".series[data-series=generalization] circle");
+    const drawn = chart(page, "evaluation-a").locator(
+      ".chart-box .series[data-series=generalization] circle",
+    );
     assert.equal(await drawn.count(), modes.length);
     const csv = await saveCsv(
       page,
@@ -313,6 +315,8 @@ test("what was tested before another model is marked as old", async (t) => {
     const card = page.getByRole("region", { name: "Model A" });
     await open.setInputFiles(one);
     await card.getByRole("heading", { name: "one" }).waitFor();
+    // Its name is there while it is still read; this once it is.
+    await page.getByRole("button", { name: "Use the shapes A was made of" }).waitFor();
     await page
       .getByLabel("Folder of test shapes for model A", { exact: true })
       .setInputFiles(unseen);

@@ -14,6 +14,10 @@ test("lines end as RFC 4180 has it, and only what needs quotes has them", () => 
   assert.equal(csvText([]), "");
 });
 
+test("a name is no formula, and a negative number is a number", () => {
+  assert.equal(csvText([["=A1", "-x", -0.5, "-1e-7"]]), "'=A1,'-x,-0.5,-1e-7\r\n");
+});
+
 interface Given {
   text: string;
   value?: string;

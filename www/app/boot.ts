@@ -7,6 +7,7 @@ import { watchExplorer } from "./explore/asking";
 import { watchPlaying } from "./explore/playing";
 import { apply, keepLink, modelsOf, shelfOf } from "./history";
 import { type LinkState, misread, readLink, SETTING_KEYS } from "./link";
+import { watchMaps } from "./maps";
 import { demoModels, openPair } from "./models";
 import { watchPair } from "./pair";
 import { watchRunFile } from "./runfile/run";
@@ -41,6 +42,7 @@ export async function boot(): Promise<void> {
   watchPictures();
   watchExplorer();
   watchPlaying();
+  watchMaps();
   watchMatrix();
   watchRunFile();
   await models;

@@ -7,9 +7,11 @@ export function csvText(rows: readonly (readonly (string | number)[])[]): string
   return rows.map((row) => row.map(field).join(",") + END).join("");
 }
 
+/** A name that begins like a formula would be worked out by a spreadsheet. */
 function field(value: string | number): string {
   const text = String(value);
-  return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  const plain = /^[=+@\t\r]|^-(?!\d)/.test(text) ? `'${text}` : text;
+  return /[",\r\n]/.test(plain) ? `"${plain.replaceAll('"', '""')}"` : plain;
 }
 
 /** The few members of a table cell that are read here. */

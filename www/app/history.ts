@@ -16,6 +16,7 @@ import {
   diagnosedMode,
   diagnosedSide,
   exaggeration,
+  lockedRange,
   mapMode,
   painting,
   picture,
@@ -97,6 +98,7 @@ function present(): LinkState {
     mapMode: mapMode.value,
     vertex: vertex.value,
     explorer: settledExplorer.value,
+    scale: lockedRange.value,
     side: diagnosedSide.value,
     coefficient: diagnosedMode.value,
     region: region.value,
@@ -271,6 +273,7 @@ export function apply(link: LinkState): void {
     mapMode.value = link.mapMode;
     vertex.value = link.vertex;
     applyExplorer(link.explorer);
+    lockedRange.value = link.scale;
     diagnosedSide.value = link.side;
     diagnosedMode.value = link.coefficient;
     region.value = link.region;

@@ -92,6 +92,8 @@ export interface LinkState {
   /** The vertex that is looked at. */
   vertex: number | null;
   explorer: ExplorerState;
+  /** Range of the colours while it is locked. */
+  scale: [number, number] | null;
   /** Whose draws are diagnosed, and which coefficient, from 0; null for the worst. */
   side: "a" | "b" | null;
   coefficient: number | null;
@@ -121,6 +123,7 @@ export function defaultLink(): LinkState {
     mapMode: 0,
     vertex: null,
     explorer: defaultExplorer(),
+    scale: null,
     side: null,
     coefficient: null,
     region: null,
@@ -170,6 +173,7 @@ function lookPairs(state: LinkState): [string, string | number][] {
       ["map", state.map, first.map],
       ["mode", state.mapMode + 1, first.mapMode + 1],
       ["vertex", state.vertex, first.vertex],
+      ["scale", state.scale?.map(shortNumber).join(",") ?? null, null],
       ["side", state.side, first.side],
       ["coefficient", state.coefficient === null ? null : state.coefficient + 1, null],
       ["region", state.region, first.region],
@@ -243,6 +247,7 @@ export function readLink(fragment: string): LinkState {
     mapMode: valid(parseCount(given.get("mode") ?? "", ...RANGES.modes), 1) - 1,
     vertex: valid<number | null>(parseCount(given.get("vertex") ?? "", 0, MOST_VERTICES), null),
     explorer: readExplorer(given),
+    scale: readScale(given.get("scale")),
     side: oneOf(given.get("side"), ["a", "b"] as const) ?? null,
     coefficient: readCoefficient(given.get("coefficient")),
     view: oneOf(given.get("view"), VIEW_MODES) ?? fallback.view,
@@ -329,6 +334,16 @@ export function misread(fragment: string): string[] {
     const value = given.get(key);
     return value === null || known.includes(value) ? [] : `${key}=${value}`;
   });
+}
+
+/** As many digits as single precision has. */
+function shortNumber(value: number): string {
+  return String(Number(value.toPrecision(7)));
+}
+
+function readScale(text: string | null): [number, number] | null {
+  const [low = Number.NaN, high = Number.NaN, ...more] = (text ?? "").split(",").map(Number);
+  return low < high && Number.isFinite(high - low) && more.length === 0 ? [low, high] : null;
 }
 
 function readCoefficient(text: string | null): number | null {

@@ -19,9 +19,10 @@ import {
   WebGLRenderer,
 } from "three";
 import type { Region } from "../../worker/protocol";
-import { viridis } from "../colormap";
+import { colourOf, shareIn } from "../colormap";
 import { isTimed, note } from "../explore/timing";
 import { type Camera, HOME } from "./camera";
+import { discardEllipsoid, ellipsoidObject } from "./ellipsoid";
 import { dots, isLit, readyToMove, surface, viridisTable } from "./materials";
 import { writeColours, writeNormals } from "./morph";
 import { pickVertex } from "./pick";
@@ -33,14 +34,19 @@ import {
   type Moved,
   type PaneContent,
   type Rect,
+  type Shot,
   type Viewer,
 } from "./viewer";
 
 const FIELD_OF_VIEW = 22;
+/** Larger pictures are drawn in parts: no browser promises a larger drawing buffer. */
+const LARGEST_TILE = 2048;
 
 interface Pane {
   content: PaneContent;
   objects: Object3D[];
+  /** Drawn over each of the shapes. */
+  ellipsoid: Object3D | null;
 }
 
 export class MeshViewer implements Viewer {
@@ -52,6 +58,8 @@ export class MeshViewer implements Viewer {
   #key = new DirectionalLight();
   #rim = new DirectionalLight();
   #panes: Pane[] = [];
+  /** What was drawn last for a picture that is not on the canvas. */
+  #last: Pane | null = null;
   #frame: Frame = { centre: [0, 0, 0], halfWidth: 1, halfHeight: 1 };
   #layout: ReadonlyMap<Region, Rect> = new Map();
   #size = { width: 1, height: 1 };
@@ -87,12 +95,15 @@ export class MeshViewer implements Viewer {
     this.#frame = frame;
     this.#panes = panes.map((content) => {
       const kept = former.find((pane) => sameShapes(pane.content, content));
-      return { content, objects: kept?.objects ?? this.#objectsOf(content) };
+      const objects = kept?.objects ?? this.#objectsOf(content);
+      return { content, objects, ellipsoid: ellipsoidOf(content) };
     });
+    for (const { ellipsoid } of former) if (ellipsoid) discardEllipsoid(ellipsoid);
     const used = new Set(this.#panes.flatMap((pane) => pane.objects));
     discard(former.flatMap((pane) => pane.objects).filter((object) => !used.has(object)));
     this.#paint();
     for (const object of used) this.#scene.add(object);
+    for (const { ellipsoid } of this.#panes) if (ellipsoid) this.#scene.add(ellipsoid);
     this.#request();
   }
 
@@ -178,22 +189,107 @@ export class MeshViewer implements Viewer {
     return place.unproject(this.#eye).toArray();
   }
 
-  capture(scale: number): HTMLCanvasElement {
-    const before = this.#renderer.getPixelRatio();
-    this.#renderer.setPixelRatio(scale);
-    this.#render();
+  capture(scale: number, shot: Shot = this.#shot()): HTMLCanvasElement {
     const copy = document.createElement("canvas");
-    copy.width = this.#canvas.width;
-    copy.height = this.#canvas.height;
-    copy.getContext("2d")?.drawImage(this.#canvas, 0, 0);
-    this.#renderer.setPixelRatio(before);
-    this.#render();
+    copy.width = Math.round(shot.width * scale);
+    copy.height = Math.round(shot.height * scale);
+    const pen = copy.getContext("2d");
+    const [ratio, kept] = [this.#renderer.getPixelRatio(), this.#shot()];
+    this.#renderer.setPixelRatio(1);
+    this.#renderer.setScissorTest(false);
+    [this.#camera, this.#range] = [shot.camera, shot.range];
+    this.#light();
+    for (const content of shot.panes) {
+      const rect = shot.layout.get(content.region);
+      if (!pen || !rect || rect.width < 2 || rect.height < 2) continue;
+      this.#withObjects(content, scale / ratio, (pane) => {
+        const cells = cellsOf(rect, pane.content.overlaid ? 1 : pane.objects.length, shot.frame);
+        cells.forEach((cell, i) => {
+          this.#show(pane, i);
+          this.#drawTiles(pen, cell, scale, shot.frame);
+        });
+      });
+    }
+    [this.#camera, this.#range] = [kept.camera, kept.range];
+    this.#eye.clearViewOffset();
+    this.#renderer.setPixelRatio(ratio);
+    this.#renderer.setSize(this.#size.width, this.#size.height, false);
+    // Before the page is painted again, and once for many pictures.
+    this.#request();
     return copy;
+  }
+
+  /** What is on the canvas. */
+  #shot(): Shot {
+    const { width, height } = this.#size;
+    return {
+      width,
+      height,
+      layout: this.#layout,
+      panes: this.#panes.map(({ content }) => content),
+      frame: this.#frame,
+      camera: this.#camera,
+      range: this.#range,
+    };
+  }
+
+  /** Objects of a content: those on the canvas, or others that are let go of afterwards. */
+  #withObjects(content: PaneContent, enlarged: number, use: (pane: Pane) => void): void {
+    const shown = this.#panes.find((pane) => pane.content === content);
+    const objects = shown?.objects ?? this.#objectsOf(content);
+    const ellipsoid = shown?.ellipsoid ?? ellipsoidOf(content);
+    const pane = { content, objects, ellipsoid };
+    if (!shown) {
+      this.#paintPane(pane);
+      this.#scene.add(...objects, ...(ellipsoid ? [ellipsoid] : []));
+    }
+    const points = objects.filter((object) => object instanceof Points);
+    // Points are so many pixels wide, whatever the size of the picture.
+    for (const { material } of points) material.size *= enlarged;
+    use(pane);
+    for (const { material } of points) material.size /= enlarged;
+    if (shown) return;
+    for (const object of [...objects, ...(ellipsoid ? [ellipsoid] : [])]) object.removeFromParent();
+    this.#letGo();
+    this.#last = pane;
+  }
+
+  /** Not at once: with the last material its program would go too, and be compiled for every picture anew. */
+  #letGo(): void {
+    if (!this.#last) return;
+    discard(this.#last.objects);
+    if (this.#last.ellipsoid) discardEllipsoid(this.#last.ellipsoid);
+    this.#last = null;
+  }
+
+  /** One cell at its size in the picture, part by part. */
+  #drawTiles(pen: CanvasRenderingContext2D, cell: Rect, scale: number, frame: Frame): void {
+    const [left, top] = [Math.round(cell.x * scale), Math.round(cell.y * scale)];
+    const width = Math.max(1, Math.round(cell.width * scale));
+    const height = Math.max(1, Math.round(cell.height * scale));
+    const tile = { width: Math.min(width, LARGEST_TILE), height: Math.min(height, LARGEST_TILE) };
+    const canvas = this.#canvas;
+    // Giving it a size, even its own, makes the canvas anew.
+    if (canvas.width !== tile.width || canvas.height !== tile.height) {
+      this.#renderer.setSize(tile.width, tile.height, false);
+    }
+    this.#renderer.setViewport(0, 0, tile.width, tile.height);
+    for (let y = 0; y < height; y += tile.height) {
+      for (let x = 0; x < width; x += tile.width) {
+        this.#eye.clearViewOffset();
+        this.#aim(cell, frame);
+        this.#eye.setViewOffset(width, height, x, y, tile.width, tile.height);
+        this.#renderer.clear();
+        this.#renderer.render(this.#scene, this.#eye);
+        const [w, h] = [Math.min(tile.width, width - x), Math.min(tile.height, height - y)];
+        pen.drawImage(canvas, 0, 0, w, h, left + x, top + y, w, h);
+      }
+    }
   }
 
   thumbnail(content: PaneContent, frame: Frame, size: number): HTMLCanvasElement {
     const objects = this.#objectsOf(content);
-    this.#paintPane({ content, objects });
+    this.#paintPane({ content, objects, ellipsoid: null });
     this.#scene.add(...objects);
     this.#hideAll();
     for (const object of objects) object.visible = true;
@@ -222,7 +318,11 @@ export class MeshViewer implements Viewer {
 
   dispose(): void {
     cancelAnimationFrame(this.#scheduled);
-    for (const pane of this.#panes) discard(pane.objects);
+    this.#letGo();
+    for (const { objects, ellipsoid } of this.#panes) {
+      discard(objects);
+      if (ellipsoid) discardEllipsoid(ellipsoid);
+    }
     this.#renderer.dispose();
     // A page may have only so many contexts; the oldest would be lost instead of this one.
     this.#renderer.forceContextLoss();
@@ -240,14 +340,12 @@ export class MeshViewer implements Viewer {
     this.#renderer.setScissorTest(false);
     this.#renderer.clear();
     this.#light();
-    for (const { content, objects } of this.#panes) {
-      const rect = this.#layout.get(content.region);
+    for (const pane of this.#panes) {
+      const rect = this.#layout.get(pane.content.region);
       if (!rect || rect.width < 2 || rect.height < 2) continue;
-      const side = content.overlaid ? 1 : objects.length;
+      const side = pane.content.overlaid ? 1 : pane.objects.length;
       cellsOf(rect, side, this.#frame).forEach((cell, i) => {
-        this.#hideAll();
-        const shown = content.overlaid ? objects : objects.slice(i, i + 1);
-        for (const object of shown) object.visible = true;
+        this.#show(pane, i);
         this.#draw(cell, this.#frame);
       });
     }
@@ -263,8 +361,20 @@ export class MeshViewer implements Viewer {
     note("until it is drawn", begun);
   }
 
+  /** Only the shapes that are in one cell of a pane. */
+  #show({ content, objects, ellipsoid }: Pane, cell: number): void {
+    this.#hideAll();
+    objects.forEach((object, i) => {
+      object.visible = content.overlaid || i === cell;
+    });
+    if (ellipsoid) ellipsoid.visible = true;
+  }
+
   #hideAll(): void {
-    for (const pane of this.#panes) for (const object of pane.objects) object.visible = false;
+    for (const pane of this.#panes) {
+      for (const object of pane.objects) object.visible = false;
+      if (pane.ellipsoid) pane.ellipsoid.visible = false;
+    }
   }
 
   #draw(cell: Rect, frame: Frame): void {
@@ -349,7 +459,6 @@ export class MeshViewer implements Viewer {
 
   #paintPane({ content, objects }: Pane): void {
     const colour = new Color();
-    const [low, high] = this.#range ?? [0, 1];
     for (const object of objects) {
       const attribute = (object as Mesh).geometry.getAttribute("color") as BufferAttribute;
       for (let i = 0; i < attribute.count; i += 1) {
@@ -357,7 +466,7 @@ export class MeshViewer implements Viewer {
         const plain = content.marks?.mask[i] === 1 ? content.marks.tint : content.tint;
         const [r, g, b] =
           this.#range && value !== undefined
-            ? viridis((value - low) / Math.max(high - low, 1e-30))
+            ? colourOf(content.palette ?? "viridis", shareIn(this.#range, value))
             : plain;
         colour.setRGB(r / 255, g / 255, b / 255, SRGBColorSpace);
         const opacity = content.fade?.[i] ?? 1;
@@ -381,6 +490,10 @@ function sameShapes(one: PaneContent, other: PaneContent): boolean {
     !one.moves &&
     one.shapes.every((shape, i) => shape === other.shapes[i])
   );
+}
+
+function ellipsoidOf({ ellipsoid }: PaneContent): Object3D | null {
+  return ellipsoid ? ellipsoidObject(ellipsoid) : null;
 }
 
 function contains(rect: Rect, x: number, y: number): boolean {

@@ -3,6 +3,7 @@
  * its own), drawings in the plane with a 2-D canvas.
  */
 import type { Region } from "../../worker/protocol";
+import type { Palette, Rgb } from "../colormap";
 import type { SurfaceStyle } from "../explore/codec";
 import type { Camera } from "./camera";
 
@@ -26,6 +27,10 @@ export interface PaneContent {
   fade: Float32Array | null;
   /** One number per vertex, coloured by `range`. */
   values: Float32Array | null;
+  /** Viridis, where it is not given. */
+  palette?: Palette;
+  /** Covariance of one vertex, as it is drawn over every shape. */
+  ellipsoid?: DrawnEllipsoid | null;
   /** Vertices, 1 of each, that are drawn in another colour. */
   marks: { mask: Uint8Array; tint: readonly [number, number, number] } | null;
   /** sRGB, 0 … 255. */
@@ -44,6 +49,13 @@ export interface Moved {
   values: Float32Array | null;
 }
 
+/** An ellipsoid as it is drawn: `axes` are its semi-axes, column by column, however many SD they stand for. */
+export interface DrawnEllipsoid {
+  centre: readonly number[];
+  axes: readonly number[];
+  ink: Rgb;
+}
+
 /** The part of space that a pane must show. */
 export interface Frame {
   centre: [number, number, number];
@@ -56,6 +68,17 @@ export interface Hit {
   region: Region;
   vertex: number;
   shape: number;
+}
+
+/** A picture of any size that need not be what is on the canvas. */
+export interface Shot {
+  width: number;
+  height: number;
+  layout: ReadonlyMap<Region, Rect>;
+  panes: readonly PaneContent[];
+  frame: Frame;
+  camera: Camera;
+  range: readonly [number, number] | null;
 }
 
 export interface Viewer {
@@ -72,8 +95,8 @@ export interface Viewer {
   placeOf(region: Region, point: readonly number[]): { x: number; y: number } | null;
   /** What is at a place on the canvas, as far from the eye as `through`. */
   pointAt(region: Region, through: readonly number[], x: number, y: number): number[] | null;
-  /** All panes, `scale` pixels to a CSS pixel, drawn and copied in one task. */
-  capture(scale: number): HTMLCanvasElement;
+  /** What is on the canvas, or another picture, `scale` pixels to a CSS pixel, drawn and copied in one task. */
+  capture(scale: number, shot?: Shot): HTMLCanvasElement;
   /** One shape alone, for a card. */
   thumbnail(content: PaneContent, frame: Frame, size: number): HTMLCanvasElement;
   dispose(): void;

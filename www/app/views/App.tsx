@@ -18,6 +18,7 @@ import { RunFileCard } from "./RunFileCard";
 import { RunPanel } from "./RunPanel";
 import { SettingsPanel } from "./SettingsPanel";
 import { Stage } from "./Stage";
+import { Taking } from "./Taking";
 
 export function App() {
   return (
@@ -56,6 +57,7 @@ export function App() {
       </main>
       <DropOverlay />
       <Chooser />
+      <Taking />
       <p class="unseen" aria-live="polite">
         {spoken.value}
       </p>
