@@ -20,7 +20,7 @@ for (const demo of ["heads-sex", "stars-1", "planes"]) {
       let seen = await openDemo(page, url, demo);
       for (const [mode, label] of [
         ["Samples", /^Random shapes of the five regions$/],
-        ["Standard deviation", /^Standard deviations of the five regions$/],
+        ["Map", /^Standard deviations of the five regions$/],
       ]) {
         await choose(page, mode);
         await canvas(page).and(page.getByLabel(label)).waitFor();
@@ -57,7 +57,7 @@ test("other samples can be asked for, and the colours have a scale with a unit",
     await page.getByRole("button", { name: "Resample" }).click();
     await untilRedrawn(page, seen);
 
-    await choose(page, "Standard deviation");
+    await choose(page, "Map");
     const scale = page.getByRole("figure", { name: /^Standard deviation per vertex, mm/ });
     const ends = (await scale.locator(".num").allInnerTexts()).map(Number);
     assert.ok(ends.length === 2 && ends[0] >= 0 && ends[1] > ends[0], `from ${ends.join(" to ")}`);

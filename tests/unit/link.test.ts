@@ -50,6 +50,13 @@ test("what is written is read back, for every field", () => {
     },
     parts: { a: null, b: null },
     view: "sd" as const,
+    room: "diagnostics" as const,
+    side: "b" as const,
+    coefficient: 11,
+    map: "mode" as const,
+    mapMode: 3,
+    vertex: 0,
+    scale: [-2.5, 2.5] as [number, number],
     region: "aWithoutB" as const,
     picture: "exclusiveModes" as const,
     exaggeration: 2.5,
@@ -67,6 +74,17 @@ test("a link begins with its version, is short and can be read", () => {
   assert.match(text, /^v=1&demo=heads-sex&/);
   assert.ok(text.length < 300, `${text.length} characters`);
   assert.doesNotMatch(text, /%/);
+});
+
+test("a link of the page before there were maps shows standard deviations, on their own scale", () => {
+  const link = readLink("v=1&demo=stars-1&view=sd");
+  assert.deepEqual([link.view, link.map, link.vertex, link.scale], ["sd", "sd", null, null]);
+});
+
+test("a scale that is none is passed over", () => {
+  for (const text of ["2,1", "1", "1,2,3", "a,b", "0,Infinity"]) {
+    assert.equal(readLink(`v=1&scale=${text}`).scale, null, text);
+  }
 });
 
 test("addresses of models keep their queries", () => {

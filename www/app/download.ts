@@ -25,3 +25,13 @@ export function saveBlob(name: string, blob: Blob): void {
   // Some browsers begin to read only after the click.
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
+
+/** Whether the browser let it. */
+export async function copyText(text: string): Promise<boolean> {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    return false;
+  }
+}

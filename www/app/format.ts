@@ -11,6 +11,16 @@ export function number(value: number, digits = 3): string {
   return minus(group(value.toFixed(Math.min(decimals, 6))));
 }
 
+/** What is only rounding error beside numbers of a certain size is none. */
+export function withoutDust(value: number, size: number): number {
+  return Math.abs(value) < 1e-9 * size ? 0 : value;
+}
+
+/** With its sign, where it has one. */
+export function signed(value: number): string {
+  return value > 0 ? `+${number(value)}` : number(value);
+}
+
 export function count(value: number): string {
   return group(Math.round(value).toString());
 }

@@ -2,6 +2,7 @@
 import { batch, computed, effect, untracked } from "@preact/signals";
 import type { PointSelection } from "../worker/protocol";
 import { findDemo } from "./demos";
+import { applyExplorer, settledExplorer } from "./explore/state";
 import { fitsLink, type LinkState, readLink, writeLink } from "./link";
 import { demoModels, giveUpOpening, openPair } from "./models";
 import { arrange, giveUpAdding, restoreShelf } from "./shelf/actions";
@@ -15,6 +16,7 @@ import {
   diagnosedMode,
   diagnosedSide,
   exaggeration,
+  lockedRange,
   mapMode,
   painting,
   picture,
@@ -94,6 +96,8 @@ export function currentLink(): string {
     map: vertexMap.value,
     mapMode: mapMode.value,
     vertex: vertex.value,
+    explorer: settledExplorer.value,
+    scale: lockedRange.value,
     side: diagnosedSide.value,
     coefficient: diagnosedMode.value,
     region: region.value,
@@ -122,6 +126,8 @@ const step = computed(() => {
     vertexMap.value,
     mapMode.value,
     vertex.value,
+    settledExplorer.value,
+    lockedRange.value,
     diagnosedSide.value,
     diagnosedMode.value,
     region.value,
@@ -279,6 +285,8 @@ export function apply(link: LinkState): void {
     vertexMap.value = link.map;
     mapMode.value = link.mapMode;
     vertex.value = link.vertex;
+    applyExplorer(link.explorer);
+    lockedRange.value = link.scale;
     diagnosedSide.value = link.side;
     diagnosedMode.value = link.coefficient;
     region.value = link.region;

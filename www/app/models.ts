@@ -188,7 +188,8 @@ function show(opened: Record<Side, Slot | null>, alongside: () => void): void {
     const populations = SIDES.every((side) => slots[side].value?.origin.kind === "shapes");
     if (populations && settings.value.align === "none") change({ align: "rigid" });
     emptyRegions.value = {};
-    lockedRange.value = null;
+    // A link that opens its models brings its own.
+    if (before.a || before.b) lockedRange.value = null;
     compared.value = null;
     painting.value = null;
     dismiss("run");

@@ -1,19 +1,19 @@
 /** The panes as a picture, with labels, colour bar and caption. */
-import { viridis } from "./colormap";
 import { saveBlob } from "./download";
-import { number } from "./format";
+import { barOf } from "./figure/figure";
+import { drawBar, FONT, INK } from "./figure/lettering";
+import { shownMap } from "./maps";
 import { plain } from "./phrase";
-import { region, result, unit, view } from "./state";
+import { region, result, view } from "./state";
 import { isDark } from "./theme";
 import { VENN_BOX, vennOf } from "./venn";
-import { layoutOf, range, viewer } from "./viewer/stage-controller";
+import { layoutOf, viewer } from "./viewer/stage-controller";
 import { differencePicture, REGION_NAMES } from "./views/names";
 import { headline, settingsSentence } from "./words";
 
 const SCALE = 2;
-const FOOT = 84;
-const FONT = "system-ui, sans-serif";
-const INK = { light: "#20242c", dark: "#e9e7e2" } as const;
+/** Height of what stands below the shapes: more where there is a colour bar. */
+const FOOT = { bar: 48, words: 48 };
 
 /** White on the light theme; transparent on the dark one, with light lettering. */
 export async function savePicture(): Promise<void> {
@@ -21,16 +21,17 @@ export async function savePicture(): Promise<void> {
   const made = viewer.peek();
   if (!canvas || !made) return;
   const [width, height, panes] = layoutOf(canvas);
+  const foot = view.peek() === "sd" ? FOOT.bar + FOOT.words : FOOT.words;
   const picture = document.createElement("canvas");
   picture.width = width * SCALE;
-  picture.height = (height + FOOT) * SCALE;
+  picture.height = (height + foot) * SCALE;
   const pen = picture.getContext("2d");
   if (!pen) return;
   pen.scale(SCALE, SCALE);
   const dark = isDark();
   if (!dark) {
     pen.fillStyle = "#fff";
-    pen.fillRect(0, 0, width, height + FOOT);
+    pen.fillRect(0, 0, width, height + foot);
   }
   pen.drawImage(made.capture(SCALE), 0, 0, width, height);
   pen.fillStyle = INK[dark ? "dark" : "light"];
@@ -41,7 +42,7 @@ export async function savePicture(): Promise<void> {
     }
   }
   if (region.peek() === null) drawMap(pen, canvas, dark);
-  foot(pen, width, height);
+  drawFoot(pen, width, height);
   const blob = await new Promise<Blob | null>((resolve) => picture.toBlob(resolve));
   if (blob) saveBlob(`shapevenn-${view.peek()}.png`, blob);
 }
@@ -86,36 +87,19 @@ function drawMap(pen: CanvasRenderingContext2D, canvas: HTMLCanvasElement, dark:
   pen.restore();
 }
 
-function foot(pen: CanvasRenderingContext2D, width: number, top: number): void {
+function drawFoot(pen: CanvasRenderingContext2D, width: number, top: number): void {
   const held = result.peek();
-  const shown = range.peek();
+  const bar = view.peek() === "sd" ? barOf(shownMap.peek()) : null;
+  const above = view.peek() === "sd" ? FOOT.bar : 0;
   const line = (text: string, y: number, font: string) => {
     pen.font = font;
     pen.fillText(text, 12, top + y, width - 24);
   };
   if (held) {
-    line(plain(headline(held.report, held.nouns)), 52, `500 13px ${FONT}`);
+    line(plain(headline(held.report, held.nouns)), above + 16, `500 13px ${FONT}`);
     const drawn = differencePicture();
     const note = drawn === "" ? "" : ` · differences: ${drawn}`;
-    line(`${settingsSentence(held.report)}${note} · Shapevenn`, 72, `11px ${FONT}`);
+    line(`${settingsSentence(held.report)}${note} · Shapevenn`, above + 36, `11px ${FONT}`);
   }
-  if (!shown) return;
-  const [left, length] = [70, Math.min(260, width - 330)];
-  pen.font = `12px ${FONT}`;
-  pen.textAlign = "right";
-  pen.fillText(number(shown[0]), left - 8, top + 20);
-  pen.textAlign = "left";
-  pen.fillText(
-    `${number(shown[1])} ${unit.peek()}, standard deviation per vertex`,
-    left + length + 8,
-    top + 20,
-  );
-  const ink = pen.fillStyle;
-  for (let i = 0; i < length; i += 1) {
-    pen.fillStyle = `rgb(${viridis(i / length)
-      .map(Math.round)
-      .join(",")})`;
-    pen.fillRect(left + i, top + 10, 1.5, 12);
-  }
-  pen.fillStyle = ink;
+  if (bar) drawBar(pen, bar, { left: 12, top: top + 6, width: width - 24, em: 12 });
 }

@@ -1,8 +1,9 @@
 /** From the state to what the panes show. Pure. */
-import type { BothSides, Geometry, Region, RegionShapes } from "../../worker/protocol";
+import type { BothSides, Ellipsoid, Geometry, Region, RegionShapes } from "../../worker/protocol";
+import type { Palette } from "../colormap";
 import { REGIONS, type ViewMode } from "../link";
 import { rimFade } from "./rim";
-import { type Frame, frameOf, type PaneContent } from "./viewer";
+import { type DrawnEllipsoid, type Frame, frameOf, type PaneContent } from "./viewer";
 
 export interface Scene {
   geometry: { a: Geometry | null; b: Geometry | null };
@@ -13,7 +14,14 @@ export interface Scene {
   dark: boolean;
   /** Packaged heads are cut at the neck. */
   fadeRim: boolean;
+  /** What is coloured onto the vertices; where this is left out, their standard deviations. */
+  map?: { values: Partial<Record<Region, Float32Array>>; palette: Palette } | undefined;
+  /** Covariances of the vertex that is looked at. */
+  ellipsoids?: Partial<Record<Region, Ellipsoid>>;
 }
+
+/** Standard deviations to a semi-axis of an ellipsoid as it is drawn. */
+export const ELLIPSOID_SD = 2;
 
 const RIM_RINGS = 5;
 
@@ -85,9 +93,49 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
     // The rim of a region is no cut at the neck.
     fade:
       scene.fadeRim && geometry.triangles && !isCompared(scene, geometry) ? fadeOf(geometry) : null,
-    values: scene.mode === "sd" ? shown.vertexSd : null,
+    values: scene.mode === "sd" ? valuesOf(scene, region, shown.vertexSd) : null,
+    palette: scene.map?.palette ?? "viridis",
+    ellipsoid: current ? drawnEllipsoid(scene, region) : null,
     marks: null,
     tint: (surface ? CLAY : INK)[shade][region],
+  };
+}
+
+/** What a shape of so many numbers is drawn with in the pane of a region; null where no model has as many. */
+export function drawnWith(
+  scene: Scene,
+  region: Region,
+  length: number,
+): Pick<PaneContent, "region" | "triangles" | "segments" | "fade" | "overlaid"> | null {
+  const geometry = geometryFor(scene, region, length);
+  if (!geometry || geometry.dimension !== dimensionOf(scene)) return null;
+  const { triangles, segments } = geometry;
+  const cut = scene.fadeRim && triangles !== null && !isCompared(scene, geometry);
+  return { region, triangles, segments, fade: cut ? fadeOf(geometry) : null, overlaid: true };
+}
+
+/** The colour of a region: as clay, or as lines of its full hue. */
+export function tintOf(scene: Scene, region: Region, lines: boolean): Rgb {
+  return (lines ? INK : CLAY)[scene.dark ? "dark" : "light"][region];
+}
+
+/** Of other points than are drawn, a map says nothing. */
+function valuesOf(scene: Scene, region: Region, vertexSd: Float32Array): Float32Array | null {
+  if (!scene.map) return vertexSd;
+  const found = scene.map.values[region];
+  return found?.length === vertexSd.length ? found : null;
+}
+
+/** Over light and dark colours of a map: neither is any of its own. */
+const ELLIPSOID_INK: Record<"light" | "dark", Rgb> = { light: [24, 22, 30], dark: [250, 246, 252] };
+
+function drawnEllipsoid(scene: Scene, region: Region): DrawnEllipsoid | null {
+  const found = scene.ellipsoids?.[region];
+  if (!found || found.centre.length !== dimensionOf(scene)) return null;
+  return {
+    centre: found.centre,
+    axes: found.axes.map((length) => ELLIPSOID_SD * length),
+    ink: ELLIPSOID_INK[scene.dark ? "dark" : "light"],
   };
 }
 

@@ -1,19 +1,28 @@
 /** Drawings in the plane, on a 2-D canvas: outlines, over one another where there are several. */
 import type { Region } from "../../worker/protocol";
-import { viridis } from "../colormap";
+import { colourOf, shareIn } from "../colormap";
 import { type Camera, HOME } from "./camera";
 import { pickVertex } from "./pick";
 import {
   cellsOf,
+  type DrawnEllipsoid,
   type Frame,
   type Hit,
   halfHeightIn,
+  type Moved,
   type PaneContent,
   type Rect,
+  type Shot,
   type Viewer,
 } from "./viewer";
 
 const MARK_PX = 6;
+const DASH_PX = [6, 4];
+/** Colours of a map run from dark to light: a rim keeps the light ones apart from the page. */
+const MAP_PX = 4;
+/** Along a line, what lies between its two ends is coloured in steps. */
+const STEP_PX = 8;
+const RIM = { width: MAP_PX + 1.5, colour: "rgb(110 110 116)" };
 
 export class FlatViewer implements Viewer {
   #canvas: HTMLCanvasElement;
@@ -41,6 +50,14 @@ export class FlatViewer implements Viewer {
     this.#request();
   }
 
+  morph(moved: readonly (Moved | null)[]): void {
+    this.#panes = this.#panes.map((pane, i) => {
+      const change = moved[i];
+      return change ? { ...pane, shapes: [change.shape], values: change.values } : pane;
+    });
+    this.#request();
+  }
+
   setColors(range: readonly [number, number] | null): void {
     this.#range = range;
     this.#request();
@@ -64,10 +81,45 @@ export class FlatViewer implements Viewer {
     return null;
   }
 
-  capture(scale: number): HTMLCanvasElement {
+  placeOf(region: Region, point: readonly number[]): { x: number; y: number } | null {
+    const rect = this.#layout.get(region);
+    if (!rect) return null;
+    const [sx, , , , , sy, , , , , , , tx, ty] = this.#matrix(rect, this.#frame, this.#camera);
+    const [x = 0, y = 0] = point;
+    return {
+      x: rect.x + ((sx * x + tx + 1) * rect.width) / 2,
+      y: rect.y + ((1 - sy * y - ty) * rect.height) / 2,
+    };
+  }
+
+  pointAt(region: Region, _through: readonly number[], x: number, y: number): number[] | null {
+    const rect = this.#layout.get(region);
+    if (!rect) return null;
+    const [sx, , , , , sy, , , , , , , tx, ty] = this.#matrix(rect, this.#frame, this.#camera);
+    return [
+      ((2 * (x - rect.x)) / rect.width - 1 - tx) / sx,
+      (1 - (2 * (y - rect.y)) / rect.height - ty) / sy,
+    ];
+  }
+
+  capture(scale: number, shot: Shot = this.#shot()): HTMLCanvasElement {
     const copy = document.createElement("canvas");
-    this.#render(copy, scale);
+    this.#render(copy, scale, shot);
     return copy;
+  }
+
+  /** What is on the canvas. */
+  #shot(): Shot {
+    const { width, height } = this.#size;
+    return {
+      width,
+      height,
+      layout: this.#layout,
+      panes: this.#panes,
+      frame: this.#frame,
+      camera: this.#camera,
+      range: this.#range,
+    };
   }
 
   thumbnail(content: PaneContent, frame: Frame, size: number): HTMLCanvasElement {
@@ -77,7 +129,8 @@ export class FlatViewer implements Viewer {
     const pen = copy.getContext("2d");
     if (pen) {
       pen.scale(scale, scale);
-      this.#pane(pen, content, { x: 0, y: 0, width: size, height: size }, frame, HOME);
+      const whole = { x: 0, y: 0, width: size, height: size };
+      this.#pane(pen, content, whole, { frame, camera: HOME, range: null });
     }
     return copy;
   }
@@ -90,23 +143,27 @@ export class FlatViewer implements Viewer {
     if (this.#scheduled !== 0) return;
     this.#scheduled = requestAnimationFrame(() => {
       this.#scheduled = 0;
-      this.#render(this.#canvas, Math.min(devicePixelRatio, 2));
+      this.#render(this.#canvas, Math.min(devicePixelRatio, 2), this.#shot());
     });
   }
 
-  #render(canvas: HTMLCanvasElement, scale: number): void {
-    canvas.width = Math.round(this.#size.width * scale);
-    canvas.height = Math.round(this.#size.height * scale);
+  #render(canvas: HTMLCanvasElement, scale: number, shot: Shot): void {
+    const width = Math.round(shot.width * scale);
+    const height = Math.round(shot.height * scale);
+    // Giving it a size, even its own, makes the canvas anew.
+    if (canvas.width !== width) canvas.width = width;
+    if (canvas.height !== height) canvas.height = height;
     const pen = canvas.getContext("2d");
     if (!pen) return;
-    pen.scale(scale, scale);
-    for (const pane of this.#panes) {
-      const rect = this.#layout.get(pane.region);
+    pen.setTransform(scale, 0, 0, scale, 0, 0);
+    pen.clearRect(0, 0, shot.width, shot.height);
+    for (const pane of shot.panes) {
+      const rect = shot.layout.get(pane.region);
       if (!rect || rect.width < 2) continue;
-      const cells = cellsOf(rect, pane.overlaid ? 1 : pane.shapes.length, this.#frame);
+      const cells = cellsOf(rect, pane.overlaid ? 1 : pane.shapes.length, shot.frame);
       cells.forEach((cell, i) => {
         const shapes = pane.overlaid ? pane.shapes : pane.shapes.slice(i, i + 1);
-        this.#pane(pen, { ...pane, shapes }, cell, this.#frame, this.#camera);
+        this.#pane(pen, { ...pane, shapes }, cell, shot);
       });
     }
   }
@@ -115,8 +172,7 @@ export class FlatViewer implements Viewer {
     pen: CanvasRenderingContext2D,
     pane: PaneContent,
     rect: Rect,
-    frame: Frame,
-    camera: Camera,
+    { frame, camera, range }: Pick<Shot, "frame" | "camera" | "range">,
   ): void {
     const matrix = this.#matrix(rect, frame, camera);
     const place = (shape: Float32Array, point: number): [number, number] => [
@@ -129,10 +185,13 @@ export class FlatViewer implements Viewer {
     pen.clip();
     pen.lineJoin = pen.lineCap = "round";
     const many = pane.shapes.length > 1;
+    pen.setLineDash(pane.outline ? DASH_PX : []);
     for (const shape of pane.shapes) {
       const colour = `rgb(${pane.tint.join(" ")} / ${many ? 0.22 : 1})`;
-      this.#outline(pen, pane, shape, place, colour, many ? 1 : 2.25);
+      const width = many ? 1 : pane.outline ? 1.5 : 2.25;
+      this.#outline(pen, pane, shape, place, colour, width, range);
     }
+    if (pane.ellipsoid) drawEllipse(pen, pane.ellipsoid, place);
     const { marks } = pane;
     pen.fillStyle = `rgb(${marks?.tint.join(" ")})`;
     marks?.mask.forEach((marked, point) => {
@@ -149,34 +208,53 @@ export class FlatViewer implements Viewer {
     place: (shape: Float32Array, point: number) => [number, number],
     colour: string,
     width: number,
+    range: Shot["range"],
   ): void {
-    const values = this.#range ? pane.values : null;
-    const [low, high] = this.#range ?? [0, 1];
-    const share = (point: number) => ((values?.[point] ?? 0) - low) / Math.max(high - low, 1e-30);
+    const values = range ? pane.values : null;
+    const share = (point: number) => shareIn(range ?? [0, 1], values?.[point] ?? 0);
+    const colourAt = (at: number) =>
+      `rgb(${colourOf(pane.palette ?? "viridis", at)
+        .map(Math.round)
+        .join(" ")})`;
     const segments = pane.segments;
     if (!segments) {
       for (let point = 0; point < shape.length / 2; point += 1) {
-        pen.fillStyle = values ? `rgb(${viridis(share(point)).join(" ")})` : colour;
+        pen.fillStyle = values ? colourAt(share(point)) : colour;
         const [x, y] = place(shape, point);
         pen.fillRect(x - width, y - width, 2 * width, 2 * width);
       }
       return;
     }
-    pen.lineWidth = values ? 4 : width;
-    pen.strokeStyle = colour;
+    pen.lineWidth = values ? RIM.width : width;
+    pen.strokeStyle = values ? RIM.colour : colour;
     pen.beginPath();
     for (let i = 0; i + 1 < segments.length; i += 2) {
       const [from = 0, to = 0] = [segments[i], segments[i + 1]];
-      if (values) pen.beginPath();
       // A path that goes on from where it ended is joined, not begun anew.
-      if (values || i === 0 || segments[i - 1] !== from) pen.moveTo(...place(shape, from));
+      if (i === 0 || segments[i - 1] !== from) pen.moveTo(...place(shape, from));
       pen.lineTo(...place(shape, to));
-      if (values) {
-        pen.strokeStyle = `rgb(${viridis((share(from) + share(to)) / 2).join(" ")})`;
+    }
+    pen.stroke();
+    if (!values) return;
+    pen.lineWidth = MAP_PX;
+    for (let i = 0; i + 1 < segments.length; i += 2) {
+      const [from = 0, to = 0] = [segments[i], segments[i + 1]];
+      const [start, end] = [place(shape, from), place(shape, to)];
+      const [low, high] = [share(from), share(to)];
+      const steps = Math.max(
+        1,
+        Math.ceil(Math.hypot(end[0] - start[0], end[1] - start[1]) / STEP_PX),
+      );
+      const between = (one: number, other: number, step: number) =>
+        one + ((other - one) * step) / steps;
+      for (let step = 0; step < steps; step += 1) {
+        pen.strokeStyle = colourAt(between(low, high, step + 0.5));
+        pen.beginPath();
+        pen.moveTo(between(start[0], end[0], step), between(start[1], end[1], step));
+        pen.lineTo(between(start[0], end[0], step + 1), between(start[1], end[1], step + 1));
         pen.stroke();
       }
     }
-    if (!values) pen.stroke();
   }
 
   /** To clip space, column major; only its scale and shift are not zero or one. */
@@ -188,4 +266,30 @@ export class FlatViewer implements Viewer {
     const [sx, sy] = [1 / halfWidth, 1 / halfHeight];
     return [sx, 0, 0, 0, 0, sy, 0, 0, 0, 0, 1, 0, -x * sx, -y * sy, 0, 1] as const;
   }
+}
+
+const ELLIPSE_STEPS = 64;
+
+function drawEllipse(
+  pen: CanvasRenderingContext2D,
+  { centre, axes, ink }: DrawnEllipsoid,
+  place: (shape: Float32Array, point: number) => [number, number],
+): void {
+  const [x = 0, y = 0] = centre;
+  const [ax = 0, ay = 0, bx = 0, by = 0] = axes;
+  const outline = new Float32Array(2 * ELLIPSE_STEPS);
+  for (let i = 0; i < ELLIPSE_STEPS; i += 1) {
+    const [c, s] = [Math.cos, Math.sin].map((of) => of((2 * Math.PI * i) / ELLIPSE_STEPS));
+    outline[2 * i] = x + ax * (c ?? 0) + bx * (s ?? 0);
+    outline[2 * i + 1] = y + ay * (c ?? 0) + by * (s ?? 0);
+  }
+  const colour = ink.join(" ");
+  pen.beginPath();
+  for (let i = 0; i < ELLIPSE_STEPS; i += 1) pen.lineTo(...place(outline, i));
+  pen.closePath();
+  pen.fillStyle = `rgb(${colour} / 0.18)`;
+  pen.fill();
+  pen.lineWidth = 1.25;
+  pen.strokeStyle = `rgb(${colour} / 0.9)`;
+  pen.stroke();
 }

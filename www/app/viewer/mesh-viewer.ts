@@ -4,42 +4,49 @@ import {
   BufferGeometry,
   Color,
   DirectionalLight,
-  DoubleSide,
   HemisphereLight,
   LineBasicMaterial,
   LineSegments,
   type Material,
   Matrix4,
   Mesh,
-  MeshLambertMaterial,
-  NoBlending,
   type Object3D,
   PerspectiveCamera,
   Points,
-  PointsMaterial,
   Scene,
   SRGBColorSpace,
+  Vector3,
   WebGLRenderer,
 } from "three";
 import type { Region } from "../../worker/protocol";
-import { viridis } from "../colormap";
+import { colourOf, shareIn } from "../colormap";
+import { isTimed, note } from "../explore/timing";
 import { type Camera, HOME } from "./camera";
+import { discardEllipsoid, ellipsoidObject } from "./ellipsoid";
+import { dots, isLit, readyToMove, surface, viridisTable } from "./materials";
+import { writeColours, writeNormals } from "./morph";
 import { pickVertex } from "./pick";
 import {
   cellsOf,
   type Frame,
   type Hit,
   halfHeightIn,
+  type Moved,
   type PaneContent,
   type Rect,
+  type Shot,
   type Viewer,
 } from "./viewer";
 
 const FIELD_OF_VIEW = 22;
+/** Larger pictures are drawn in parts: no browser promises a larger drawing buffer. */
+const LARGEST_TILE = 2048;
 
 interface Pane {
   content: PaneContent;
   objects: Object3D[];
+  /** Drawn over each of the shapes. */
+  ellipsoid: Object3D | null;
 }
 
 export class MeshViewer implements Viewer {
@@ -51,6 +58,8 @@ export class MeshViewer implements Viewer {
   #key = new DirectionalLight();
   #rim = new DirectionalLight();
   #panes: Pane[] = [];
+  /** What was drawn last for a picture that is not on the canvas. */
+  #last: Pane | null = null;
   #frame: Frame = { centre: [0, 0, 0], halfWidth: 1, halfHeight: 1 };
   #layout: ReadonlyMap<Region, Rect> = new Map();
   #size = { width: 1, height: 1 };
@@ -86,16 +95,50 @@ export class MeshViewer implements Viewer {
     this.#frame = frame;
     this.#panes = panes.map((content) => {
       const kept = former.find((pane) => sameShapes(pane.content, content));
-      return { content, objects: kept?.objects ?? this.#objectsOf(content) };
+      const objects = kept?.objects ?? this.#objectsOf(content);
+      return { content, objects, ellipsoid: ellipsoidOf(content) };
     });
+    for (const { ellipsoid } of former) if (ellipsoid) discardEllipsoid(ellipsoid);
     const used = new Set(this.#panes.flatMap((pane) => pane.objects));
     discard(former.flatMap((pane) => pane.objects).filter((object) => !used.has(object)));
     this.#paint();
     for (const object of used) this.#scene.add(object);
+    for (const { ellipsoid } of this.#panes) if (ellipsoid) this.#scene.add(ellipsoid);
     this.#request();
   }
 
+  morph(moved: readonly (Moved | null)[]): void {
+    const begun = performance.now();
+    moved.forEach((change, i) => {
+      const pane = this.#panes[i];
+      const object = pane?.objects[0];
+      if (!change || !pane || !object) return;
+      this.#move(pane, (object as Mesh).geometry, change);
+    });
+    this.#request();
+    note("normals and colours", begun);
+  }
+
+  #move(pane: Pane, geometry: BufferGeometry, { shape, values }: Moved): void {
+    const { content } = pane;
+    pane.content = { ...content, shapes: [shape], values };
+    const position = geometry.getAttribute("position") as BufferAttribute;
+    if (position.array.length !== shape.length) return;
+    position.array.set(shape);
+    position.needsUpdate = true;
+    const normal = geometry.getAttribute("normal") as BufferAttribute | undefined;
+    if (normal && content.triangles && isLit(content)) {
+      writeNormals(shape, content.triangles, normal.array as Float32Array);
+      normal.needsUpdate = true;
+    }
+    if (!values || !this.#range) return;
+    const colour = geometry.getAttribute("color") as BufferAttribute;
+    writeColours(values, this.#range, viridisTable(), colour.array as Float32Array);
+    colour.needsUpdate = true;
+  }
+
   setColors(range: readonly [number, number] | null): void {
+    if (range?.[0] === this.#range?.[0] && range?.[1] === this.#range?.[1]) return;
     this.#range = range;
     this.#paint();
     this.#request();
@@ -128,22 +171,125 @@ export class MeshViewer implements Viewer {
     return null;
   }
 
-  capture(scale: number): HTMLCanvasElement {
-    const before = this.#renderer.getPixelRatio();
-    this.#renderer.setPixelRatio(scale);
-    this.#render();
+  placeOf(region: Region, point: readonly number[]): { x: number; y: number } | null {
+    const cell = this.#layout.get(region);
+    if (!cell) return null;
+    this.#aim(cell, this.#frame);
+    const { x, y } = vector(point).project(this.#eye);
+    return { x: cell.x + ((x + 1) * cell.width) / 2, y: cell.y + ((1 - y) * cell.height) / 2 };
+  }
+
+  pointAt(region: Region, through: readonly number[], x: number, y: number): number[] | null {
+    const cell = this.#layout.get(region);
+    if (!cell) return null;
+    this.#aim(cell, this.#frame);
+    const place = vector(through).project(this.#eye);
+    place.x = (2 * (x - cell.x)) / cell.width - 1;
+    place.y = 1 - (2 * (y - cell.y)) / cell.height;
+    return place.unproject(this.#eye).toArray();
+  }
+
+  capture(scale: number, shot: Shot = this.#shot()): HTMLCanvasElement {
     const copy = document.createElement("canvas");
-    copy.width = this.#canvas.width;
-    copy.height = this.#canvas.height;
-    copy.getContext("2d")?.drawImage(this.#canvas, 0, 0);
-    this.#renderer.setPixelRatio(before);
-    this.#render();
+    copy.width = Math.round(shot.width * scale);
+    copy.height = Math.round(shot.height * scale);
+    const pen = copy.getContext("2d");
+    const [ratio, kept] = [this.#renderer.getPixelRatio(), this.#shot()];
+    this.#renderer.setPixelRatio(1);
+    this.#renderer.setScissorTest(false);
+    [this.#camera, this.#range] = [shot.camera, shot.range];
+    this.#light();
+    for (const content of shot.panes) {
+      const rect = shot.layout.get(content.region);
+      if (!pen || !rect || rect.width < 2 || rect.height < 2) continue;
+      this.#withObjects(content, scale / ratio, (pane) => {
+        const cells = cellsOf(rect, pane.content.overlaid ? 1 : pane.objects.length, shot.frame);
+        cells.forEach((cell, i) => {
+          this.#show(pane, i);
+          this.#drawTiles(pen, cell, scale, shot.frame);
+        });
+      });
+    }
+    [this.#camera, this.#range] = [kept.camera, kept.range];
+    this.#eye.clearViewOffset();
+    this.#renderer.setPixelRatio(ratio);
+    this.#renderer.setSize(this.#size.width, this.#size.height, false);
+    // Before the page is painted again, and once for many pictures.
+    this.#request();
     return copy;
+  }
+
+  /** What is on the canvas. */
+  #shot(): Shot {
+    const { width, height } = this.#size;
+    return {
+      width,
+      height,
+      layout: this.#layout,
+      panes: this.#panes.map(({ content }) => content),
+      frame: this.#frame,
+      camera: this.#camera,
+      range: this.#range,
+    };
+  }
+
+  /** Objects of a content: those on the canvas, or others that are let go of afterwards. */
+  #withObjects(content: PaneContent, enlarged: number, use: (pane: Pane) => void): void {
+    const shown = this.#panes.find((pane) => pane.content === content);
+    const objects = shown?.objects ?? this.#objectsOf(content);
+    const ellipsoid = shown?.ellipsoid ?? ellipsoidOf(content);
+    const pane = { content, objects, ellipsoid };
+    if (!shown) {
+      this.#paintPane(pane);
+      this.#scene.add(...objects, ...(ellipsoid ? [ellipsoid] : []));
+    }
+    const points = objects.filter((object) => object instanceof Points);
+    // Points are so many pixels wide, whatever the size of the picture.
+    for (const { material } of points) material.size *= enlarged;
+    use(pane);
+    for (const { material } of points) material.size /= enlarged;
+    if (shown) return;
+    for (const object of [...objects, ...(ellipsoid ? [ellipsoid] : [])]) object.removeFromParent();
+    this.#letGo();
+    this.#last = pane;
+  }
+
+  /** Not at once: with the last material its program would go too, and be compiled for every picture anew. */
+  #letGo(): void {
+    if (!this.#last) return;
+    discard(this.#last.objects);
+    if (this.#last.ellipsoid) discardEllipsoid(this.#last.ellipsoid);
+    this.#last = null;
+  }
+
+  /** One cell at its size in the picture, part by part. */
+  #drawTiles(pen: CanvasRenderingContext2D, cell: Rect, scale: number, frame: Frame): void {
+    const [left, top] = [Math.round(cell.x * scale), Math.round(cell.y * scale)];
+    const width = Math.max(1, Math.round(cell.width * scale));
+    const height = Math.max(1, Math.round(cell.height * scale));
+    const tile = { width: Math.min(width, LARGEST_TILE), height: Math.min(height, LARGEST_TILE) };
+    const canvas = this.#canvas;
+    // Giving it a size, even its own, makes the canvas anew.
+    if (canvas.width !== tile.width || canvas.height !== tile.height) {
+      this.#renderer.setSize(tile.width, tile.height, false);
+    }
+    this.#renderer.setViewport(0, 0, tile.width, tile.height);
+    for (let y = 0; y < height; y += tile.height) {
+      for (let x = 0; x < width; x += tile.width) {
+        this.#eye.clearViewOffset();
+        this.#aim(cell, frame);
+        this.#eye.setViewOffset(width, height, x, y, tile.width, tile.height);
+        this.#renderer.clear();
+        this.#renderer.render(this.#scene, this.#eye);
+        const [w, h] = [Math.min(tile.width, width - x), Math.min(tile.height, height - y)];
+        pen.drawImage(canvas, 0, 0, w, h, left + x, top + y, w, h);
+      }
+    }
   }
 
   thumbnail(content: PaneContent, frame: Frame, size: number): HTMLCanvasElement {
     const objects = this.#objectsOf(content);
-    this.#paintPane({ content, objects });
+    this.#paintPane({ content, objects, ellipsoid: null });
     this.#scene.add(...objects);
     this.#hideAll();
     for (const object of objects) object.visible = true;
@@ -172,8 +318,14 @@ export class MeshViewer implements Viewer {
 
   dispose(): void {
     cancelAnimationFrame(this.#scheduled);
-    for (const pane of this.#panes) discard(pane.objects);
+    this.#letGo();
+    for (const { objects, ellipsoid } of this.#panes) {
+      discard(objects);
+      if (ellipsoid) discardEllipsoid(ellipsoid);
+    }
     this.#renderer.dispose();
+    // A page may have only so many contexts; the oldest would be lost instead of this one.
+    this.#renderer.forceContextLoss();
   }
 
   #request(): void {
@@ -182,26 +334,47 @@ export class MeshViewer implements Viewer {
   }
 
   #render(): void {
+    const begun = performance.now();
     cancelAnimationFrame(this.#scheduled);
     this.#scheduled = 0;
     this.#renderer.setScissorTest(false);
     this.#renderer.clear();
     this.#light();
-    for (const { content, objects } of this.#panes) {
-      const rect = this.#layout.get(content.region);
+    for (const pane of this.#panes) {
+      const rect = this.#layout.get(pane.content.region);
       if (!rect || rect.width < 2 || rect.height < 2) continue;
-      const side = content.overlaid ? 1 : objects.length;
+      const side = pane.content.overlaid ? 1 : pane.objects.length;
       cellsOf(rect, side, this.#frame).forEach((cell, i) => {
-        this.#hideAll();
-        const shown = content.overlaid ? objects : objects.slice(i, i + 1);
-        for (const object of shown) object.visible = true;
+        this.#show(pane, i);
         this.#draw(cell, this.#frame);
       });
     }
+    note("upload and draw calls", begun);
+    if (isTimed) this.#waitUntilDrawn();
+  }
+
+  /** Drawing goes on in a process of its own; what is read back must be there. */
+  #waitUntilDrawn(): void {
+    const begun = performance.now();
+    const context = this.#renderer.getContext();
+    context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, new Uint8Array(4));
+    note("until it is drawn", begun);
+  }
+
+  /** Only the shapes that are in one cell of a pane. */
+  #show({ content, objects, ellipsoid }: Pane, cell: number): void {
+    this.#hideAll();
+    objects.forEach((object, i) => {
+      object.visible = content.overlaid || i === cell;
+    });
+    if (ellipsoid) ellipsoid.visible = true;
   }
 
   #hideAll(): void {
-    for (const pane of this.#panes) for (const object of pane.objects) object.visible = false;
+    for (const pane of this.#panes) {
+      for (const object of pane.objects) object.visible = false;
+      if (pane.ellipsoid) pane.ellipsoid.visible = false;
+    }
   }
 
   #draw(cell: Rect, frame: Frame): void {
@@ -249,19 +422,26 @@ export class MeshViewer implements Viewer {
     const { triangles, segments } = content;
     return content.shapes.map((shape) => {
       const geometry = new BufferGeometry();
-      geometry.setAttribute("position", new BufferAttribute(shape, 3));
+      // What moves is written over: not what the state holds.
+      const own = content.moves ? shape.slice() : shape;
+      geometry.setAttribute("position", new BufferAttribute(own, 3));
       const colours = new Float32Array((shape.length / 3) * 4);
       geometry.setAttribute("color", new BufferAttribute(colours, 4));
+      let made: Object3D;
       if (triangles) {
         geometry.setIndex(this.#index(triangles));
-        geometry.computeVertexNormals();
-        return new Mesh(geometry, clay(content.fade !== null));
-      }
-      if (segments) {
+        const normals = new Float32Array(shape.length);
+        writeNormals(shape, triangles, normals);
+        geometry.setAttribute("normal", new BufferAttribute(normals, 3));
+        made = new Mesh(geometry, surface(content));
+      } else if (segments) {
         geometry.setIndex(this.#index(segments));
-        return new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true }));
+        made = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true }));
+      } else {
+        made = new Points(geometry, dots(content.shapes.length, shape.length / 3));
       }
-      return new Points(geometry, dot(dotSize(content.shapes.length, shape.length / 3)));
+      if (content.moves) readyToMove(made, geometry);
+      return made;
     });
   }
 
@@ -279,7 +459,6 @@ export class MeshViewer implements Viewer {
 
   #paintPane({ content, objects }: Pane): void {
     const colour = new Color();
-    const [low, high] = this.#range ?? [0, 1];
     for (const object of objects) {
       const attribute = (object as Mesh).geometry.getAttribute("color") as BufferAttribute;
       for (let i = 0; i < attribute.count; i += 1) {
@@ -287,7 +466,7 @@ export class MeshViewer implements Viewer {
         const plain = content.marks?.mask[i] === 1 ? content.marks.tint : content.tint;
         const [r, g, b] =
           this.#range && value !== undefined
-            ? viridis((value - low) / Math.max(high - low, 1e-30))
+            ? colourOf(content.palette ?? "viridis", shareIn(this.#range, value))
             : plain;
         colour.setRGB(r / 255, g / 255, b / 255, SRGBColorSpace);
         const opacity = content.fade?.[i] ?? 1;
@@ -298,56 +477,23 @@ export class MeshViewer implements Viewer {
   }
 }
 
-/**
- * Opacity goes straight into the canvas instead of being blended: the front surface always wins,
- * so a fading rim never shows the far side through it.
- */
-function clay(fades: boolean): MeshLambertMaterial {
-  const material = new MeshLambertMaterial({
-    vertexColors: true,
-    side: DoubleSide,
-    // One pass: with two, the far side's is lit from within and shows at the outline.
-    forceSinglePass: true,
-    ...(fades ? { transparent: true, blending: NoBlending, premultipliedAlpha: true } : {}),
-  });
-  // A back face that shows at the outline would be lit from its other side: dark specks.
-  material.onBeforeCompile = (shader) => {
-    shader.fragmentShader = shader.fragmentShader.replace(
-      "#include <normal_fragment_begin>",
-      "#include <normal_fragment_begin>\nnormal = normalize( vNormal );",
-    );
-  };
-  return material;
-}
-
-/** A surface of many points, one point, or a cloud of single points. */
-function dotSize(shapes: number, points: number): number {
-  if (points > 100) return 1.8;
-  return shapes > 1 ? 3.5 : 9;
-}
-
-/** A round point, `size` CSS pixels wide. */
-function dot(size: number): PointsMaterial {
-  const width = size * Math.min(devicePixelRatio, 2);
-  const material = new PointsMaterial({ vertexColors: true, size: width, sizeAttenuation: false });
-  material.onBeforeCompile = (shader) => {
-    shader.fragmentShader = shader.fragmentShader.replace(
-      "#include <clipping_planes_fragment>",
-      "#include <clipping_planes_fragment>\nif ( distance( gl_PointCoord, vec2( 0.5 ) ) > 0.5 ) discard;",
-    );
-  };
-  return material;
-}
-
 function sameShapes(one: PaneContent, other: PaneContent): boolean {
   return (
     one.region === other.region &&
     one.triangles === other.triangles &&
     one.segments === other.segments &&
     one.fade === other.fade &&
+    one.style === other.style &&
+    one.outline === other.outline &&
+    one.moves === other.moves &&
     one.shapes.length === other.shapes.length &&
+    !one.moves &&
     one.shapes.every((shape, i) => shape === other.shapes[i])
   );
+}
+
+function ellipsoidOf({ ellipsoid }: PaneContent): Object3D | null {
+  return ellipsoid ? ellipsoidObject(ellipsoid) : null;
 }
 
 function contains(rect: Rect, x: number, y: number): boolean {
@@ -363,4 +509,8 @@ function discard(objects: Object3D[]): void {
     geometry.dispose();
     (material as Material).dispose();
   }
+}
+
+function vector(point: readonly number[]): Vector3 {
+  return new Vector3(point[0], point[1], point[2]);
 }

@@ -1,20 +1,21 @@
 /** Keeps a viewer in step with the state: which one, what it shows, and how it is turned. */
 import { computed, effect, signal } from "@preact/signals";
 import type { Region } from "../../worker/protocol";
-import { commonRange } from "../colormap";
 import { REGIONS } from "../link";
+import { ellipsoids, mapRange, type ShownMap, shownMap } from "../maps";
 import { beginStroke, brushRadius, paintAt, undoStroke } from "../painting";
 import {
   alone,
   camera,
   compared,
   demo,
-  lockedRange,
   painting,
   region,
+  room,
   type Side,
   shapes,
   slots,
+  vertex,
   view,
 } from "../state";
 import { isDark } from "../theme";
@@ -45,7 +46,14 @@ export const scene = computed<Scene>(() => ({
   mode: view.value,
   dark: isDark(),
   fadeRim: demo.value?.id.startsWith("heads") ?? false,
+  map: mapOf(shownMap.value),
+  ellipsoids: room.value === "regions" ? ellipsoids.value : {},
 }));
+
+/** Standard deviations come with what is drawn, before and after there is a comparison. */
+function mapOf({ name, values, palette }: ShownMap): Scene["map"] {
+  return name === "sd" ? undefined : { values, palette };
+}
 
 export const dimension = computed(() => dimensionOf(scene.value));
 
@@ -63,17 +71,11 @@ const canvasOfPaint = computed<Scene>(() => ({
 }));
 const paintFrame = computed(() => sceneFrame(canvasOfPaint.value));
 
-/** One range for all regions, whether or not they are on show. */
-export const ownRange = computed<[number, number] | null>(() => {
-  const { geometry } = scene.value;
-  const maps = Object.values(scene.value.shapes).map((found) => found.vertexSd);
-  if (maps.length > 0) return commonRange(maps);
-  return commonRange([geometry.a, geometry.b].flatMap((g) => (g ? [g.vertexSd] : [])));
-});
+/** The range of colours; null where shapes are drawn in plain ones. */
+export const range = computed(() => (view.value === "sd" ? mapRange.value : null));
 
-export const range = computed(() =>
-  view.value === "sd" ? (lockedRange.value ?? ownRange.value) : null,
-);
+/** Whether a click chooses a vertex instead of a region. */
+export const picking = signal(false);
 
 let panes = new Map<Region, HTMLElement>();
 
@@ -135,7 +137,7 @@ const viewers = {
   space: () => import("./mesh-viewer"),
 };
 
-async function createViewer(canvas: HTMLCanvasElement, flat: boolean): Promise<Viewer> {
+export async function createViewer(canvas: HTMLCanvasElement, flat: boolean): Promise<Viewer> {
   const made = flat
     ? new (await viewers.flat()).FlatViewer(canvas)
     : new (await viewers.space()).MeshViewer(canvas);
@@ -171,13 +173,18 @@ function gestures(canvas: HTMLCanvasElement, made: Viewer) {
       if (paints()) return showBrush(canvas, x, y);
       const hit = made.pick(x, y);
       hover.value = hit && { ...hit, x, y };
-      canvas.style.cursor = "";
+      canvas.style.cursor = picking.peek() ? "crosshair" : "";
     },
     leave: () => {
       hover.value = null;
       brush.value = null;
     },
     tap: (x: number, y: number) => {
+      if (picking.peek()) {
+        const hit = made.pick(x, y);
+        if (hit) vertex.value = hit.vertex;
+        return;
+      }
       if (alone.peek() !== null) return;
       for (const [name, rect] of layoutOf(canvas)[2]) {
         const inside =
@@ -196,10 +203,13 @@ function showBrush(canvas: HTMLCanvasElement, x: number, y: number): void {
   brush.value = { x, y, radius: (brushRadius() * rect.height) / (2 * halfHeight) };
 }
 
-export function layoutOf(canvas: HTMLCanvasElement): [number, number, Map<Region, Rect>] {
+export function layoutOf(
+  canvas: HTMLCanvasElement,
+  elements = panes,
+): [number, number, Map<Region, Rect>] {
   const whole = canvas.getBoundingClientRect();
   const rects = new Map<Region, Rect>();
-  for (const [name, pane] of panes) {
+  for (const [name, pane] of elements) {
     const rect = pane.getBoundingClientRect();
     if (rect.width === 0) continue;
     rects.set(name, {

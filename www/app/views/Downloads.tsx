@@ -9,6 +9,7 @@ import { REGIONS } from "../link";
 import { saveRun } from "../runfile/run";
 import { engine, exaggeration, held, picture, result, run, shapes, shapesSeed } from "../state";
 import { REGION_NAMES } from "./names";
+import { Methods, Pictures } from "./Pictures";
 
 /** What is taken away, and as which kinds of file. */
 const KINDS: { of: string; files: [ending: string, kind: ExportKind["kind"], help: string][] }[] = [
@@ -67,6 +68,8 @@ export function Downloads() {
       </fieldset>
       <RunFileRow ready={ready} />
       <Shape ready={ready} />
+      <Pictures ready={ready} />
+      <Methods />
     </section>
   );
 }

@@ -1,6 +1,8 @@
 import { useEffect, useRef } from "preact/hooks";
 import type { Region } from "../../worker/protocol";
-import { number } from "../format";
+import { number, signed, withoutDust } from "../format";
+import { MAP_WORDS, mapUnit } from "../map-words";
+import { shownMap } from "../maps";
 import {
   alone,
   compared,
@@ -14,18 +16,11 @@ import {
   shapes,
   slots,
   unit,
+  vertexMap,
   view,
 } from "../state";
 import { contentOf } from "../viewer/contents";
-import {
-  brush,
-  dimension,
-  hover,
-  ownRange,
-  range,
-  scene,
-  takeCanvas,
-} from "../viewer/stage-controller";
+import { brush, dimension, hover, scene, takeCanvas } from "../viewer/stage-controller";
 import { ColorBar } from "./ColorBar";
 import { DifferenceBar } from "./DifferenceBar";
 import { BackIcon, ExpandIcon } from "./icons";
@@ -33,6 +28,7 @@ import { REGION_NAMES, regionLabel, shownIn } from "./names";
 import { PaintBar } from "./PaintBar";
 import { Toolbar } from "./Toolbar";
 import { VennMap } from "./VennMap";
+import { VertexBar } from "./VertexBar";
 
 /** Left is A, right is B, what they share is between them; the map lies under A∩B. */
 const ORDER: (Region | "map")[] = ["a", "intersection", "b", "aWithoutB", "map", "bWithoutA"];
@@ -45,7 +41,7 @@ export function Stage() {
     <section
       class="stage"
       aria-label="Shapes"
-      hidden={room.value !== "regions" && room.value !== "explore"}
+      hidden={room.value !== "regions"}
       data-region={alone.value ?? "all"}
       data-view={view.value}
       data-paint={painting.value?.tool}
@@ -60,7 +56,8 @@ export function Stage() {
       {!paints && (
         <>
           <DifferenceBar />
-          <ColorBar range={range.value} own={ownRange.value} />
+          {view.value === "sd" && <ColorBar />}
+          <VertexBar />
         </>
       )}
     </section>
@@ -108,9 +105,8 @@ function Panes({ live }: { live: boolean }) {
 
 function canvasLabel(): string {
   if (painting.value) return "Mean shape of A, to paint on";
-  const what = { mean: "Mean shapes", samples: "Random shapes", sd: "Standard deviations" }[
-    view.value
-  ];
+  const map = vertexMap.value === "sd" ? "Standard deviations" : MAP_WORDS[vertexMap.value].label;
+  const what = { mean: "Mean shapes", samples: "Random shapes", sd: map }[view.value];
   return alone.value === null
     ? `${what} of the five regions`
     : `${what} of ${regionLabel(alone.value)}`;
@@ -177,23 +173,33 @@ function isEmpty(name: Region): boolean {
 function Tooltip() {
   const hit = hover.value;
   if (!hit || painting.value?.tool === "add" || painting.value?.tool === "erase") return null;
-  const { geometry } = scene.value;
-  const own = hit.region === "b" || hit.region === "bWithoutA" ? geometry.b : geometry.a;
-  const deviation = shapes.value[hit.region]?.vertexSd[hit.vertex] ?? own?.vertexSd[hit.vertex];
+  const value = valueAt(hit.region, hit.vertex);
   return (
     <output class="tip" style={{ left: `${hit.x}px`, top: `${hit.y}px` }} aria-hidden="true">
       {REGION_NAMES[hit.region].sign} · {compared.value ? "compared point" : "vertex"} {hit.vertex}
       {view.value === "samples" && hit.shape >= 0 && !dimensionIsFlat()
         ? ` · shape ${hit.shape + 1}`
         : ""}
-      {deviation !== undefined && view.value !== "samples" ? (
-        <strong>
-          {" "}
-          SD {number(deviation)} {unit.value}
-        </strong>
-      ) : null}
+      {value !== null && <strong> {value}</strong>}
     </output>
   );
+}
+
+/** What the map says of a vertex, with its unit; beside mean shapes, how far it varies. */
+function valueAt(name: Region, vertex: number): string | null {
+  if (view.value === "samples") return null;
+  if (view.value === "sd") {
+    const map = shownMap.value;
+    const value = map.values[name]?.[vertex];
+    if (value === undefined) return null;
+    const size = map.name === "ratio" ? 0 : (slots.a.value?.report.size ?? 0);
+    const text = (map.signed ? signed : number)(withoutDust(value, size));
+    return `${map.name === "sd" ? "SD " : ""}${text} ${mapUnit(map.name, unit.value)}`;
+  }
+  const { geometry } = scene.value;
+  const own = name === "b" || name === "bWithoutA" ? geometry.b : geometry.a;
+  const deviation = shapes.value[name]?.vertexSd[vertex] ?? own?.vertexSd[vertex];
+  return deviation === undefined ? null : `SD ${number(deviation)} ${unit.value}`;
 }
 
 /** How far the brush reaches. */

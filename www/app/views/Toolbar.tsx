@@ -1,15 +1,16 @@
 import { resample } from "../comparison";
 import { VIEW_MODES, type ViewMode } from "../link";
 import { savePicture } from "../picture";
-import { camera, lockedRange, outOfDate, region, view } from "../state";
+import { camera, outOfDate, region, view } from "../state";
 import { HOME } from "../viewer/camera";
-import { range } from "../viewer/stage-controller";
 import { DownloadIcon } from "./icons";
+import { MapChooser } from "./MapChooser";
+import { taking } from "./Taking";
 
 const LABELS: Record<ViewMode, string> = {
   mean: "Mean",
   samples: "Samples",
-  sd: "Standard deviation",
+  sd: "Map",
 };
 
 export function Toolbar() {
@@ -37,18 +38,7 @@ export function Toolbar() {
           Resample
         </button>
       )}
-      {view.value === "sd" && (
-        <label class="check">
-          <input
-            type="checkbox"
-            checked={lockedRange.value !== null}
-            onChange={(event) => {
-              lockedRange.value = event.currentTarget.checked ? range.value : null;
-            }}
-          />
-          Lock scale
-        </label>
-      )}
+      {view.value === "sd" && <MapChooser />}
       <span class="grow">{outOfDate.value && <span class="stale-chip">Out of date</span>}</span>
       {region.value !== null && (
         <button
@@ -73,6 +63,15 @@ export function Toolbar() {
       <button type="button" class="quiet" onClick={() => void savePicture()}>
         <DownloadIcon />
         <span>PNG</span>
+      </button>
+      <button
+        type="button"
+        class="quiet"
+        onClick={() => {
+          taking.value = "figure";
+        }}
+      >
+        Figure…
       </button>
     </div>
   );

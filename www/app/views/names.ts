@@ -2,7 +2,7 @@
 import type { Region } from "../../worker/protocol";
 import { length } from "../format";
 import type { ViewMode } from "../link";
-import { exaggeration, picture, preview, run, unit, view } from "../state";
+import { exaggeration, picture, preview, run, unit, vertexMap, view } from "../state";
 
 export const REGION_NAMES: Record<Region, { sign: string; meaning: string }> = {
   a: { sign: "A", meaning: "all that A can make" },
@@ -36,9 +36,11 @@ const EXCLUSIVE: Record<ViewMode, string> = {
 };
 
 /** What is drawn of a difference beside its draws as they are; empty where that is all. */
-export function differencePicture(): string {
+export function differencePicture(shows: ViewMode = view.value): string {
+  // Maps other than of standard deviations are of the draws, whatever is shown of a difference.
+  const ofDraws = shows === "sd" && vertexMap.value !== "sd";
   return [
-    ...(picture.value === "exclusiveModes" ? [EXCLUSIVE[view.value]] : []),
+    ...(picture.value === "exclusiveModes" && !ofDraws ? [EXCLUSIVE[shows]] : []),
     ...(exaggeration.value > 0 ? [`γ\u202f${exaggeration.value.toFixed(1)}`] : []),
   ].join(", ");
 }

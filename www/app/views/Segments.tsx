@@ -1,0 +1,29 @@
+interface Props<T extends string> {
+  legend: string;
+  name: string;
+  value: T;
+  options: readonly (readonly [T, string])[];
+  onChoose: (value: T) => void;
+}
+
+/** A few choices side by side. */
+export function Segments<T extends string>(props: Props<T>) {
+  const { legend, name, value, options, onChoose } = props;
+  return (
+    <fieldset class="segments">
+      <legend class="unseen">{legend}</legend>
+      {options.map(([option, label]) => (
+        <label key={option} data-on={value === option}>
+          <input
+            type="radio"
+            name={name}
+            value={option}
+            checked={value === option}
+            onChange={() => onChoose(option)}
+          />
+          {label}
+        </label>
+      ))}
+    </fieldset>
+  );
+}
