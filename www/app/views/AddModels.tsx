@@ -1,12 +1,12 @@
-import { useRef } from "preact/hooks";
+import type { DroppedFile } from "../../worker/protocol";
 import { DEMO_GROUPS } from "../demos";
-import { filesOf } from "../folders";
 import { modelsIn } from "../models";
 import { addModels, cancelAdding, keepCompared } from "../shelf/actions";
 import { isUsed } from "../shelf/order";
 import { demoSource, first } from "../sources";
 import { shelf, shelving } from "../state";
 import { readingSentence } from "../words";
+import { FileButton } from "./FileButton";
 
 /** What puts models on the shelf beside the two that are compared. */
 export function AddModels() {
@@ -65,37 +65,20 @@ interface OpenerProps {
 }
 
 function Opener({ label, name, folder = false, primary = false }: OpenerProps) {
-  const input = useRef<HTMLInputElement>(null);
-  const add = async (list: FileList | null) => {
-    const models = await modelsIn(filesOf(list ?? []), null);
+  const add = async (files: DroppedFile[]) => {
+    const models = files.length > 0 ? await modelsIn(files, null) : null;
     if (models) await addModels(models.map(({ source }) => first(source)));
   };
   return (
-    <>
-      <button
-        type="button"
-        class={primary ? "primary" : ""}
-        disabled={shelving.value !== null}
-        onClick={() => input.current?.click()}
-      >
-        {label}
-      </button>
-      <input
-        ref={input}
-        class="unseen"
-        type="file"
-        multiple
-        {...(folder ? { webkitdirectory: true } : {})}
-        tabIndex={-1}
-        aria-label={name}
-        onChange={(event) => {
-          // The list is emptied with the input.
-          const list = event.currentTarget.files;
-          if (list && list.length > 0) void add(list);
-          event.currentTarget.value = "";
-        }}
-      />
-    </>
+    <FileButton
+      label={name}
+      className={primary ? "primary" : ""}
+      folder={folder}
+      disabled={shelving.value !== null}
+      onFiles={(files) => void add(files)}
+    >
+      {label}
+    </FileButton>
   );
 }
 
