@@ -34,7 +34,7 @@ export function Pictures({ ready }: { ready: boolean }) {
         <button
           type="button"
           disabled={!ready}
-          aria-label="Make a figure"
+          aria-label="Figure, other…"
           onClick={() => {
             taking.value = "figure";
           }}
