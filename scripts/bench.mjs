@@ -5,6 +5,8 @@
  * `npm run bench -- --sizes` instead compares pairs of the size of FLAME and BFM, natively (see
  * benches/sizes.rs) and once in Chromium with each build, with the peak of resident memory of the page's process.
  *
+ * `npm run bench -- --morph` times the frames of the explorer.
+ *
  * `npm run bench -- --opening` opens files of the size of BFM 2019 (.h5, 325 MB) and FLAME (.pkl, 77 MB) in
  * Chromium, and each part of the former.
  */
@@ -38,6 +40,7 @@ await main(async () => {
   console.log(`${cpus()[0]?.model.trim()}, ${cpus().length} processors\n\nNatively`);
   if (process.argv.includes("--sizes")) return compareSizes();
   if (process.argv.includes("--opening")) return openFiles();
+  if (process.argv.includes("--morph")) return morph();
   console.log((await must("cargo", bench, { hint })).trim());
   const folder = join(root, ".setup/bench");
   mkdirSync(folder, { recursive: true });
@@ -47,6 +50,42 @@ await main(async () => {
   for (const build of ["threads", "serial"]) await inChromium(build, files);
   await closeBrowser();
 });
+
+/** The explorer at work: one mode swings for ten seconds; milliseconds of each frame, part by part. */
+async function morph() {
+  const folder = join(root, ".setup/bench");
+  mkdirSync(folder, { recursive: true });
+  await must("cargo", [...bench, "--write", folder], { hint });
+  const files = ["face-a.npz", "face-b.npz"].map((name) => join(folder, name));
+  for (const build of ["threads", "serial"]) await morphInChromium(build, files);
+  await closeBrowser();
+}
+
+async function morphInChromium(build, files) {
+  await withPage({ viewport: { width: 1440, height: 900 } }, async ({ url, page }) => {
+    // Whoever finds this list on the page notes in it how long things take.
+    await page.addInitScript(() => {
+      globalThis.timings = {};
+    });
+    const query = build === "serial" ? "?serial" : "";
+    await page.goto(`${url}${query}#v=1&sigma=${SIGMA}&room=explore&explore=a,modes`);
+    await untilState(page, "done");
+    await dropFiles(page, "body", files);
+    await untilState(page, "running");
+    await untilState(page, "done", 120_000);
+    await page.getByRole("button", { name: "Play direction 1" }).click();
+    await page.waitForTimeout(1000);
+    await page.evaluate(() => {
+      for (const name of Object.keys(globalThis.timings)) globalThis.timings[name] = [];
+    });
+    await page.waitForTimeout(10_000);
+    const timings = await page.evaluate(() => globalThis.timings);
+    console.log(`\nThe explorer in Chromium, ${build}: 5,764 points, 50 modes, three panes`);
+    for (const [name, values] of Object.entries(timings)) show(name, "ms", values);
+    const frames = timings["normals and colours"]?.length ?? 0;
+    console.log(`${"frames a second, software renderer".padEnd(44)} ${(frames / 10).toFixed(1)}`);
+  });
+}
 
 async function compareSizes() {
   console.log((await must("cargo", [...sizes, ...LARGE], { hint })).trim());

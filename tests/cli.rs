@@ -131,7 +131,7 @@ fn a_matrix_relates_every_two_models_and_says_why_where_it_cannot() {
     let share = &report["overlap"]["varianceOfAInB"];
     assert_eq!(&relations[0]["varianceOfAInB"], share, "as a comparison says");
     let words = printed(&[&["matrix"], &files[..]].concat());
-    assert!(words.contains("| 1 stars-1-a |     · | 50.0 |   – |"), "a table: {words}");
+    assert!(words.contains("| 1 stars-1-a |    · | 50.0 |   – |"), "a table: {words}");
     assert!(words.contains("! 1 and 3: A has points in 2 dimensions"), "a sentence: {words}");
     let alone = shapevenn(&["matrix", "demo:stars-1-a"]);
     assert_eq!(alone.status.code(), Some(2), "one model has no matrix");

@@ -97,6 +97,35 @@ test("how far a file is read is told to whoever opens it", async () => {
   client.dispose();
 });
 
+test("a relation that nobody waits for any more is dropped, the next one is answered", async () => {
+  const { client, worker } = begin();
+  const controller = new AbortController();
+  const first = client.relate(controller.signal, 1, 2, {});
+  const { id } = worker().last();
+  controller.abort();
+  const relation = { points: 12 } as unknown as Extract<FromEngine, { t: "related" }>["relation"];
+  worker().say({ t: "related", id, relation });
+  await assert.rejects(first, { name: "AbortError" });
+  const second = client.relate(never(), 2, 1, {});
+  assert.deepEqual(worker().last(), { t: "relate", id: id + 1, a: 2, b: 1, settings: {} });
+  worker().say({ t: "related", id: id + 1, relation });
+  assert.equal((await second).points, 12);
+  client.dispose();
+});
+
+test("the text of a run file comes back as it was written", async () => {
+  const { client, worker } = begin();
+  const written = client.runFile(never(), { a: "demo:planes-a", b: null });
+  const { id } = worker().last();
+  worker().say({ t: "runFile", id, text: '{"shapevenn": 1}' });
+  assert.equal(await written, '{"shapevenn": 1}');
+  const read = client.readRun(never(), await written);
+  assert.deepEqual(worker().last(), { t: "readRun", id: id + 1, text: '{"shapevenn": 1}' });
+  worker().say({ t: "error", id: id + 1, code: "run-file", message: "No.", hint: "Choose." });
+  await assert.rejects(read, { code: "run-file" });
+  client.dispose();
+});
+
 test("after a panic every promise rejects and a new worker starts", async () => {
   const { client, worker, workers, events } = begin();
   const asked = client.region(never(), "b", 1, "1");

@@ -194,6 +194,41 @@ test("lists of points are read by the engine, and its refusal is passed on", () 
   assert.deepEqual(posted.at(-1), { t: "error", id: 2, ...refusal });
 });
 
+test("any two open models are related, while a run goes on too", () => {
+  const asked: unknown[][] = [];
+  const relation = { varianceOfAInB: 0.5 } as ReturnType<Engine["relate"]>;
+  const { coordinator, posted } = begin(5, {
+    relate: (...given) => {
+      asked.push(given);
+      return relation;
+    },
+  });
+  coordinator.receive(run);
+  const settings = { align: "rigid" } as const;
+  coordinator.receive({ t: "relate", id: 9, a: 4, b: 2, settings });
+  assert.deepEqual(asked, [[4, 2, settings]]);
+  assert.deepEqual(posted.at(-1), { t: "related", id: 9, relation });
+});
+
+test("a run file is written with where its models are from, and read as text", () => {
+  const sources = { a: "demo:planes-a", b: null };
+  const read = { models: {}, settings: {} } as unknown as ReturnType<Engine["readRun"]>;
+  const refusal = { code: "run-file", message: "The file is no JSON.", hint: "Choose another." };
+  const { coordinator, posted } = begin(1, {
+    runFile: (given) => JSON.stringify(given),
+    readRun: (text) => {
+      if (text === "{}") return read;
+      throw refusal;
+    },
+  });
+  coordinator.receive({ t: "runFile", id: 1, sources });
+  assert.deepEqual(posted.at(-1), { t: "runFile", id: 1, text: JSON.stringify(sources) });
+  coordinator.receive({ t: "readRun", id: 2, text: "{}" });
+  assert.deepEqual(posted.at(-1), { t: "run", id: 2, run: read });
+  coordinator.receive({ t: "readRun", id: 3, text: "{" });
+  assert.deepEqual(posted.at(-1), { t: "error", id: 3, ...refusal });
+});
+
 test("the meshes of a run are given away, both of them", () => {
   const given: Transferable[][] = [];
   const geometry = () => ({ mean: new Float32Array(3), vertexSd: new Float32Array(1) });

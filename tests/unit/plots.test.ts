@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { linear, logarithmic, sweepSigmas, ticks } from "../../www/app/plots";
+import { linear, logarithmic, sweepSigmas, ticks, tickText } from "../../www/app/plots";
 
 const near = (found: number, wanted: number) =>
   assert.ok(Math.abs(found - wanted) < 1e-9 * Math.max(1, Math.abs(wanted)), `${found}, ${wanted}`);
@@ -31,4 +31,12 @@ test("a sweep goes from a hundredth to a hundred times the recommended σ, throu
   near(sigmas[0] ?? 0, 0.006);
   near(sigmas.at(-1) ?? 0, 60);
   assert.ok(sigmas.includes(0.6));
+});
+
+test("a tick says no more digits than it has", () => {
+  assert.equal(tickText(0.5), "0.5");
+  assert.equal(tickText(-2), "−2");
+  assert.equal(tickText(0.1 + 0.2), "0.3");
+  assert.equal(tickText(1e-17), "0");
+  assert.equal(tickText(2e-5), "2.0 × 10⁻⁵");
 });

@@ -99,4 +99,8 @@ test("two reports are the same if every number is, however long they took", () =
   assert.equal(compared(same), null);
   assert.equal(compared(other), "intersection.values.1");
   assert.equal(compared({ ...same, warnings: [] }), "warnings");
+  assert.equal(
+    compared({ ...same, intersection: { modes: 3, values: [1] } }),
+    "intersection.values.1",
+  );
 });

@@ -49,6 +49,25 @@ test("every number in the tables is in the report", () => {
   }
 });
 
+test("differences that a run was ended before are not said to be none", () => {
+  const { aWithoutB, bWithoutA } = report.differences;
+  const undrawn = (side: typeof aWithoutB) => ({
+    ...side,
+    probability: 0,
+    diagnostics: { ...side.diagnostics, evaluations: 0, draws: 0 },
+  });
+  const said = (differences: typeof report.differences) =>
+    plain(words.differences({ ...report, differences }, nouns));
+  assert.equal(
+    said({ aWithoutB: undrawn(aWithoutB), bWithoutA: undrawn(bWithoutA) }),
+    "The run was ended before the differences were drawn.",
+  );
+  assert.match(
+    said({ aWithoutB, bWithoutA: undrawn(bWithoutA) }),
+    /of male heads are in A∖B; the run was ended before B∖A was drawn\.$/,
+  );
+});
+
 test("differences are told apart by how much differs", () => {
   const said = (a: number, b: number) => {
     const { aWithoutB, bWithoutA } = report.differences;

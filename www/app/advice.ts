@@ -133,7 +133,9 @@ export function distanceAdvice(figures: ChainFigures, unit: string, sampler: Sam
   // Halves of n independent draws have an R-hat of about 1 ± 0.3/n by chance.
   if (splitRHat(chains) < Math.max(R_HAT, 1 + 1 / half)) {
     const level = plusMinus(mean, Math.sqrt(variance));
-    return calm(`d keeps its level in every chain, ${level.mean} ± ${level.spread}\u202f${unit}`);
+    return calm(
+      `d keeps its level in every chain, ${level.mean}\u00a0±\u00a0${level.spread}\u202f${unit}`,
+    );
   }
   const halves = chains.map((chain) => halvesOf(chain).map((part) => spreadOf(part).mean));
   const early = average(halves.map(([first]) => first ?? 0));

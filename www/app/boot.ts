@@ -3,6 +3,8 @@ import { batch, effect } from "@preact/signals";
 import { storedResult, watchChoices, watchPictures } from "./comparison";
 import { FIRST_DEMO } from "./demos";
 import { engineClient } from "./engine";
+import { watchExplorer } from "./explore/asking";
+import { watchPlaying } from "./explore/playing";
 import { apply, keepLink, modelsOf, shelfOf } from "./history";
 import { type LinkState, misread, readLink, SETTING_KEYS } from "./link";
 import { watchMaps } from "./maps";
@@ -38,6 +40,8 @@ export async function boot(): Promise<void> {
   watchPair();
   watchChoices(stored);
   watchPictures();
+  watchExplorer();
+  watchPlaying();
   watchMaps();
   watchMatrix();
   watchRunFile();

@@ -138,6 +138,7 @@ export async function start(): Promise<void> {
   });
   spoken.value = "Comparison started.";
   held.value = null;
+  const putBack = keepPicture();
   const refine = refiner(running);
   const begun = performance.now();
   try {
@@ -153,12 +154,20 @@ export async function start(): Promise<void> {
       },
     );
     if (runController !== controller) return;
-    finish(running, done.report, done.cancelled, sources);
+    const report = JSON.parse(done.report) as Report;
+    const nothing = done.cancelled && report.intersection.diagnostics.draws === 0;
+    if (nothing && result.value !== null) {
+      failedKey.value = key;
+      putBack();
+      spoken.value = "Cancelled before there were any draws; what was there stays.";
+      return;
+    }
+    finish(running, report, done, sources);
     await showRegions(REGIONS);
   } catch (thrown) {
     if (runController !== controller) return;
     failedKey.value = key;
-    preview.value = null;
+    putBack();
     reportError("run", thrown);
   } finally {
     if (runController === controller) {
@@ -166,6 +175,20 @@ export async function start(): Promise<void> {
       run.value = null;
     }
   }
+}
+
+/** The picture that belongs to the results; a run that comes to nothing leaves both as they were. */
+function keepPicture(): () => void {
+  const [drawn, empty, points] = [shapes.value, emptyRegions.value, compared.value];
+  return () =>
+    batch(() => {
+      preview.value = null;
+      held.value = null;
+      shapes.value = drawn;
+      emptyRegions.value = empty;
+      compared.value = points;
+      comparedKey = null;
+    });
 }
 
 /** Ends the run and keeps what was drawn so far. */
@@ -189,16 +212,15 @@ function giveUp(): void {
 }
 
 function finish(
-  done: Held,
-  text: string,
-  cancelled: boolean,
+  ran: Held,
+  report: Report,
+  { report: text, cancelled }: { report: string; cancelled: boolean },
   sources: BothSides<string | null>,
 ): void {
-  const report = JSON.parse(text) as Report;
-  const { key } = done;
+  const { key } = ran;
   batch(() => {
     preview.value = null;
-    held.value = done;
+    held.value = ran;
     result.value = { report, text, key, sources, nouns: nouns.value, stored: false, cancelled };
     run.value = null;
   });

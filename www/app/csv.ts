@@ -1,5 +1,4 @@
 /** Tables as CSV (RFC 4180). Every number has all its digits, whatever the table rounds it to. */
-import { saveBlob } from "./download";
 
 /** Lines as the engine ends them in its own tables. */
 const END = "\r\n";
@@ -8,9 +7,11 @@ export function csvText(rows: readonly (readonly (string | number)[])[]): string
   return rows.map((row) => row.map(field).join(",") + END).join("");
 }
 
+/** A name that begins like a formula would be worked out by a spreadsheet. */
 function field(value: string | number): string {
   const text = String(value);
-  return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  const plain = /^[=+@\t\r]|^-(?!\d)/.test(text) ? `'${text}` : text;
+  return /[",\r\n]/.test(plain) ? `"${plain.replaceAll('"', '""')}"` : plain;
 }
 
 /** The few members of a table cell that are read here. */
@@ -38,8 +39,4 @@ export function rowsOf(table: TableRows): string[][] {
 function wordsOf(cell: TableCell): string {
   const text = (cell.textContent ?? "").replace(/\s+/g, " ").trim();
   return text === "–" ? "" : text;
-}
-
-export function saveTable(name: string, table: HTMLTableElement): void {
-  saveBlob(`${name}.csv`, new Blob([csvText(rowsOf(table))], { type: "text/csv" }));
 }

@@ -2,6 +2,7 @@
 import { batch, computed, effect, untracked } from "@preact/signals";
 import type { PointSelection } from "../worker/protocol";
 import { findDemo } from "./demos";
+import { applyExplorer, settledExplorer } from "./explore/state";
 import { fitsLink, type LinkState, readLink, writeLink } from "./link";
 import { demoModels, giveUpOpening, openPair } from "./models";
 import { arrange, giveUpAdding, restoreShelf } from "./shelf/actions";
@@ -84,8 +85,9 @@ function parts(): LinkState["parts"] {
   return { a: a ?? null, b: b ?? null };
 }
 
-export function currentLink(): string {
-  return writeLink({
+/** All that makes the picture, as far as an address can say it. */
+function present(): LinkState {
+  return {
     demo: demo.value?.id ?? "files",
     urls: urls(),
     parts: parts(),
@@ -95,6 +97,7 @@ export function currentLink(): string {
     map: vertexMap.value,
     mapMode: mapMode.value,
     vertex: vertex.value,
+    explorer: settledExplorer.value,
     scale: lockedRange.value,
     side: diagnosedSide.value,
     coefficient: diagnosedMode.value,
@@ -105,7 +108,11 @@ export function currentLink(): string {
     shelf: shelved(),
     measure: measure.value,
     camera: camera.value,
-  });
+  };
+}
+
+export function currentLink(): string {
+  return writeLink(present());
 }
 
 /** Puts the present state into the address, without a step of its own. */
@@ -113,27 +120,10 @@ export function writeAddress(): void {
   history.replaceState(history.state, "", `#${currentLink()}`);
 }
 
-/** Steps that Back undoes; the camera and the like only follow along. */
+/** What is a step to undo: all of a link but the camera, which only follows along, and what no link holds. */
 const step = computed(() => {
   const models = SIDES.map((side) => slots[side].value && slotKey(slots[side].value));
-  return JSON.stringify([
-    models,
-    settings.value,
-    room.value,
-    view.value,
-    vertexMap.value,
-    mapMode.value,
-    vertex.value,
-    lockedRange.value,
-    diagnosedSide.value,
-    diagnosedMode.value,
-    region.value,
-    picture.value,
-    settledExaggeration.value,
-    shapesSeed.value,
-    shelf.value.map(slotKey),
-    measure.value,
-  ]);
+  return JSON.stringify([models, shelf.value.map(slotKey), { ...present(), camera: null }]);
 });
 
 let applied = "";
@@ -282,6 +272,7 @@ export function apply(link: LinkState): void {
     vertexMap.value = link.map;
     mapMode.value = link.mapMode;
     vertex.value = link.vertex;
+    applyExplorer(link.explorer);
     lockedRange.value = link.scale;
     diagnosedSide.value = link.side;
     diagnosedMode.value = link.coefficient;

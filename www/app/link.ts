@@ -14,6 +14,7 @@ import type {
   SidePreparation,
 } from "../worker/protocol";
 import { DEMO_MODELS, FIRST_DEMO, findDemo } from "./demos";
+import { defaultExplorer, type ExplorerState, readExplorer, writeExplorer } from "./explore/codec";
 import { UNITS } from "./preparation";
 import { parseRanges } from "./ranges";
 import {
@@ -90,6 +91,7 @@ export interface LinkState {
   mapMode: number;
   /** The vertex that is looked at. */
   vertex: number | null;
+  explorer: ExplorerState;
   /** Range of the colours while it is locked. */
   scale: [number, number] | null;
   /** Whose draws are diagnosed, and which coefficient, from 0; null for the worst. */
@@ -120,6 +122,7 @@ export function defaultLink(): LinkState {
     map: "sd",
     mapMode: 0,
     vertex: null,
+    explorer: defaultExplorer(),
     scale: null,
     side: null,
     coefficient: null,
@@ -155,29 +158,35 @@ export function writeLink(state: LinkState): string {
     ...preparationPairs(settings.prepare),
     ["view", state.view],
   );
-  if (state.room !== "regions") pairs.push(["room", state.room]);
-  pairs.push(...mapPairs(state));
-  if (state.side) pairs.push(["side", state.side]);
-  if (state.coefficient !== null) pairs.push(["coefficient", state.coefficient + 1]);
-  if (state.region) pairs.push(["region", state.region]);
-  if (state.picture !== "draws") pairs.push(["picture", state.picture]);
-  if (state.exaggeration !== 0) pairs.push(["exaggerate", state.exaggeration]);
-  if (state.shapes !== "1") pairs.push(["shapes", state.shapes]);
-  if (state.shelf.length > 0) pairs.push(["shelf", state.shelf.join(",")]);
-  if (state.measure !== "variance") pairs.push(["measure", state.measure]);
+  pairs.push(...lookPairs(state));
   const turned = cameraText(camera);
   if (turned !== cameraText(HOME)) pairs.push(["camera", turned]);
   return pairs.map(([key, value]) => `${key}=${escapeValue(String(value))}`).join("&");
 }
 
-/** What is coloured onto the vertices, and which of them is looked at. */
-function mapPairs({ map, mapMode, vertex, scale }: LinkState): [string, string | number][] {
-  const pairs: [string, string | number][] = [];
-  if (map !== "sd") pairs.push(["map", map]);
-  if (mapMode !== 0) pairs.push(["mode", mapMode + 1]);
-  if (vertex !== null) pairs.push(["vertex", vertex]);
-  if (scale !== null) pairs.push(["scale", scale.map(shortNumber).join(",")]);
-  return pairs;
+/** How the comparison is looked at, as far as that is not as at first. */
+function lookPairs(state: LinkState): [string, string | number][] {
+  const first = defaultLink();
+  const plain = (
+    [
+      ["room", state.room, first.room],
+      ["map", state.map, first.map],
+      ["mode", state.mapMode + 1, first.mapMode + 1],
+      ["vertex", state.vertex, first.vertex],
+      ["scale", state.scale?.map(shortNumber).join(",") ?? null, null],
+      ["side", state.side, first.side],
+      ["coefficient", state.coefficient === null ? null : state.coefficient + 1, null],
+      ["region", state.region, first.region],
+      ["picture", state.picture, first.picture],
+      ["exaggerate", state.exaggeration, first.exaggeration],
+      ["shapes", state.shapes, first.shapes],
+      ["shelf", state.shelf.join(","), first.shelf.join(",")],
+      ["measure", state.measure, first.measure],
+    ] as const
+  ).flatMap(([key, value, standard]): [string, string | number][] =>
+    value === standard || value === null ? [] : [[key, value]],
+  );
+  return [...plain, ...writeExplorer(state.explorer)];
 }
 
 /** Settings that links leave out while they are the default, to stay short. */
@@ -237,6 +246,7 @@ export function readLink(fragment: string): LinkState {
     map: oneOf(given.get("map"), MAPS) ?? fallback.map,
     mapMode: valid(parseCount(given.get("mode") ?? "", ...RANGES.modes), 1) - 1,
     vertex: valid<number | null>(parseCount(given.get("vertex") ?? "", 0, MOST_VERTICES), null),
+    explorer: readExplorer(given),
     scale: readScale(given.get("scale")),
     side: oneOf(given.get("side"), ["a", "b"] as const) ?? null,
     coefficient: readCoefficient(given.get("coefficient")),

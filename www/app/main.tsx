@@ -6,6 +6,7 @@ import "../styles/page.css";
 import "../styles/stage.css";
 import "../styles/panels.css";
 import "../styles/pair.css";
+import "../styles/explore.css";
 import "../styles/maps.css";
 import "../styles/several.css";
 import "../styles/charts.css";

@@ -65,6 +65,14 @@ export function differences(report: Report, nouns: Nouns): Phrase {
   const b = report.differences.bWithoutA.probability;
   const ofA = figure("differences.aWithoutB.probability", a, percent(a));
   const ofB = figure("differences.bWithoutA.probability", b, percent(b));
+  const { aWithoutB, bWithoutA } = report.differences;
+  // A run that is ended early has made no difference, or one of them: 0 % is no finding then.
+  if (bWithoutA.diagnostics.evaluations === 0) {
+    if (aWithoutB.diagnostics.evaluations === 0) {
+      return ["The run was ended before the differences were drawn."];
+    }
+    return [ofA, ` of ${nouns.shapesOfA} are in A∖B; the run was ended before B∖A was drawn.`];
+  }
   const each: Phrase = [ofA, ` of ${nouns.shapesOfA} and `, ofB, ` of ${nouns.shapesOfB}`];
   const definition = report.settings.difference ?? "soft";
   if (definition !== "soft") {

@@ -8,6 +8,7 @@ use shapevenn::files::Error;
 use crate::{Failure, document, prepare, sources, to_json};
 
 #[derive(Debug, Args)]
+#[group(id = "matrix")]
 pub(crate) struct Arguments {
     /// Two or more models: files, folders of shapes, `FILE#part` or `demo:NAME`
     #[arg(required = true, num_args = 2..)]

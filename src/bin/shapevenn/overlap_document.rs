@@ -122,7 +122,7 @@ fn reading(found: &OverlapStudy) -> String {
          of its variance and has the largest BD of all, {}; {} shares {:.0} %, and its BD is {}. What does it are \
          the means: a difference of means that neither model can make counts with the square of its length over τ. About \
          one mean the first of these BDs is {}, the other {}. Then BD even orders the heads by share of variance the \
-         wrong way round (ρ = {}): σ, and with it the noise, is recommended the larger the less two heads share.",
+         wrong way round (ρ = {}): σ, and with it the noise, is recommended larger for heads that share little.",
         far.case,
         100.0 * far.shared_variance(),
         distance(far.bhattacharyya),

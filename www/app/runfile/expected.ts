@@ -133,7 +133,8 @@ export function firstDifference(one: Report, other: Report): string | null {
 }
 
 function differs(one: unknown, other: unknown, path: string): string | null {
-  if (Object.is(one, other)) return null;
+  // −0 is written as 0 by some programs that a report may have come through.
+  if (one === other) return null;
   if (!isObject(one) || !isObject(other)) return path;
   for (const key of new Set([...Object.keys(one), ...Object.keys(other)])) {
     const found = differs(one[key], other[key], path === "" ? key : `${path}.${key}`);

@@ -1,5 +1,6 @@
 /** The table of several models as text that any spreadsheet reads: numbers unrounded. Pure. */
 import type { Relation } from "../../worker/protocol";
+import { csvText } from "../csv";
 import { MEASURE_NAMES, MEASURES, type MeasureName } from "./measures";
 
 /** `relation(i, j)` of the models called `names`; null where it is not known. */
@@ -8,7 +9,7 @@ type Relations = (row: number, column: number) => Relation | null;
 /** One number for each pair, rows and columns named. */
 export function matrixCsv(names: string[], relation: Relations, measure: MeasureName): string {
   const { label, value } = MEASURES[measure];
-  return csv([
+  return csvText([
     [`${label}: A in rows, B in columns`, ...names],
     ...names.map((name, row) => [
       name,
@@ -32,7 +33,7 @@ export function pairsCsv(names: string[], units: string[], relation: Relations):
     const { label, unit } = MEASURES[name];
     return unit === "" || unit === "length" ? label : `${label} (${unit})`;
   });
-  return csv([["A", "B", "Unit of A", ...titles, "Noise", "Problem"], ...lines]);
+  return csvText([["A", "B", "Unit of A", ...titles, "Noise", "Problem"], ...lines]);
 }
 
 function numberText(
@@ -41,14 +42,4 @@ function numberText(
 ): string {
   const found = relation === null || relation.problem ? null : value(relation);
   return found === null || !Number.isFinite(found) ? "" : String(found);
-}
-
-function csv(rows: string[][]): string {
-  return rows.map((row) => `${row.map(cell).join(",")}\r\n`).join("");
-}
-
-/** A name that begins like a formula would be worked out by a spreadsheet. */
-function cell(text: string): string {
-  const plain = /^[=+@\t\r]|^-(?!\d)/.test(text) ? `'${text}` : text;
-  return /[",\r\n]/.test(plain) ? `"${plain.replaceAll('"', '""')}"` : plain;
 }

@@ -101,6 +101,24 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
   };
 }
 
+/** What a shape of so many numbers is drawn with in the pane of a region; null where no model has as many. */
+export function drawnWith(
+  scene: Scene,
+  region: Region,
+  length: number,
+): Pick<PaneContent, "region" | "triangles" | "segments" | "fade" | "overlaid"> | null {
+  const geometry = geometryFor(scene, region, length);
+  if (!geometry || geometry.dimension !== dimensionOf(scene)) return null;
+  const { triangles, segments } = geometry;
+  const cut = scene.fadeRim && triangles !== null && !isCompared(scene, geometry);
+  return { region, triangles, segments, fade: cut ? fadeOf(geometry) : null, overlaid: true };
+}
+
+/** The colour of a region: as clay, or as lines of its full hue. */
+export function tintOf(scene: Scene, region: Region, lines: boolean): Rgb {
+  return (lines ? INK : CLAY)[scene.dark ? "dark" : "light"][region];
+}
+
 /** Of other points than are drawn, a map says nothing. */
 function valuesOf(scene: Scene, region: Region, vertexSd: Float32Array): Float32Array | null {
   if (!scene.map) return vertexSd;

@@ -9,6 +9,7 @@ import {
   type Frame,
   type Hit,
   halfHeightIn,
+  type Moved,
   type PaneContent,
   type Rect,
   type Shot,
@@ -16,6 +17,7 @@ import {
 } from "./viewer";
 
 const MARK_PX = 6;
+const DASH_PX = [6, 4];
 /** Colours of a map run from dark to light: a rim keeps the light ones apart from the page. */
 const MAP_PX = 4;
 /** Along a line, what lies between its two ends is coloured in steps. */
@@ -48,6 +50,14 @@ export class FlatViewer implements Viewer {
     this.#request();
   }
 
+  morph(moved: readonly (Moved | null)[]): void {
+    this.#panes = this.#panes.map((pane, i) => {
+      const change = moved[i];
+      return change ? { ...pane, shapes: [change.shape], values: change.values } : pane;
+    });
+    this.#request();
+  }
+
   setColors(range: readonly [number, number] | null): void {
     this.#range = range;
     this.#request();
@@ -69,6 +79,27 @@ export class FlatViewer implements Viewer {
       return hit && { region: pane.region, vertex: hit.vertex, shape: 0 };
     }
     return null;
+  }
+
+  placeOf(region: Region, point: readonly number[]): { x: number; y: number } | null {
+    const rect = this.#layout.get(region);
+    if (!rect) return null;
+    const [sx, , , , , sy, , , , , , , tx, ty] = this.#matrix(rect, this.#frame, this.#camera);
+    const [x = 0, y = 0] = point;
+    return {
+      x: rect.x + ((sx * x + tx + 1) * rect.width) / 2,
+      y: rect.y + ((1 - sy * y - ty) * rect.height) / 2,
+    };
+  }
+
+  pointAt(region: Region, _through: readonly number[], x: number, y: number): number[] | null {
+    const rect = this.#layout.get(region);
+    if (!rect) return null;
+    const [sx, , , , , sy, , , , , , , tx, ty] = this.#matrix(rect, this.#frame, this.#camera);
+    return [
+      ((2 * (x - rect.x)) / rect.width - 1 - tx) / sx,
+      (1 - (2 * (y - rect.y)) / rect.height - ty) / sy,
+    ];
   }
 
   capture(scale: number, shot: Shot = this.#shot()): HTMLCanvasElement {
@@ -117,11 +148,15 @@ export class FlatViewer implements Viewer {
   }
 
   #render(canvas: HTMLCanvasElement, scale: number, shot: Shot): void {
-    canvas.width = Math.round(shot.width * scale);
-    canvas.height = Math.round(shot.height * scale);
+    const width = Math.round(shot.width * scale);
+    const height = Math.round(shot.height * scale);
+    // Giving it a size, even its own, makes the canvas anew.
+    if (canvas.width !== width) canvas.width = width;
+    if (canvas.height !== height) canvas.height = height;
     const pen = canvas.getContext("2d");
     if (!pen) return;
-    pen.scale(scale, scale);
+    pen.setTransform(scale, 0, 0, scale, 0, 0);
+    pen.clearRect(0, 0, shot.width, shot.height);
     for (const pane of shot.panes) {
       const rect = shot.layout.get(pane.region);
       if (!rect || rect.width < 2) continue;
@@ -150,9 +185,11 @@ export class FlatViewer implements Viewer {
     pen.clip();
     pen.lineJoin = pen.lineCap = "round";
     const many = pane.shapes.length > 1;
+    pen.setLineDash(pane.outline ? DASH_PX : []);
     for (const shape of pane.shapes) {
       const colour = `rgb(${pane.tint.join(" ")} / ${many ? 0.22 : 1})`;
-      this.#outline(pen, pane, shape, place, colour, many ? 1 : 2.25, range);
+      const width = many ? 1 : pane.outline ? 1.5 : 2.25;
+      this.#outline(pen, pane, shape, place, colour, width, range);
     }
     if (pane.ellipsoid) drawEllipse(pen, pane.ellipsoid, place);
     const { marks } = pane;

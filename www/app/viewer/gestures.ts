@@ -19,8 +19,9 @@ export interface GestureTarget {
   /** A click that was no drag. */
   tap(x: number, y: number): void;
   /** Whether a drag paints instead of turning; two fingers and the right button still turn. */
-  paints(): boolean;
+  paints(at?: { x: number; y: number }): boolean;
   beginStroke(): void;
+  endStroke?(): void;
   dropStroke(): void;
   paint(x: number, y: number): void;
 }
@@ -52,7 +53,8 @@ export function listen(canvas: HTMLCanvasElement, target: GestureTarget): () => 
     if (held.size === 1) moved = 0;
     // A second finger means that the first was not to paint.
     if (painting) target.dropStroke();
-    painting = held.size === 1 && event.button === 0 && target.paints();
+    const at = { x: event.offsetX, y: event.offsetY };
+    painting = held.size === 1 && event.button === 0 && target.paints(at);
     target.leave();
     if (!painting) return;
     target.beginStroke();
@@ -78,6 +80,7 @@ export function listen(canvas: HTMLCanvasElement, target: GestureTarget): () => 
   });
   const release = (event: PointerEvent) => {
     const tapped = held.delete(event.pointerId) && held.size === 0 && moved < 5 && !painting;
+    if (painting) target.endStroke?.();
     painting = false;
     if (tapped && event.type === "pointerup" && event.button === 0) {
       target.tap(event.offsetX, event.offsetY);

@@ -4,33 +4,34 @@ import {
   BufferGeometry,
   Color,
   DirectionalLight,
-  DoubleSide,
   HemisphereLight,
   LineBasicMaterial,
   LineSegments,
   type Material,
   Matrix4,
   Mesh,
-  MeshLambertMaterial,
-  NoBlending,
   type Object3D,
   PerspectiveCamera,
   Points,
-  PointsMaterial,
   Scene,
   SRGBColorSpace,
+  Vector3,
   WebGLRenderer,
 } from "three";
 import type { Region } from "../../worker/protocol";
 import { colourOf, shareIn } from "../colormap";
+import { isTimed, note } from "../explore/timing";
 import { type Camera, HOME } from "./camera";
 import { discardEllipsoid, ellipsoidObject } from "./ellipsoid";
+import { dots, isLit, readyToMove, surface, viridisTable } from "./materials";
+import { writeColours, writeNormals } from "./morph";
 import { pickVertex } from "./pick";
 import {
   cellsOf,
   type Frame,
   type Hit,
   halfHeightIn,
+  type Moved,
   type PaneContent,
   type Rect,
   type Shot,
@@ -106,7 +107,38 @@ export class MeshViewer implements Viewer {
     this.#request();
   }
 
+  morph(moved: readonly (Moved | null)[]): void {
+    const begun = performance.now();
+    moved.forEach((change, i) => {
+      const pane = this.#panes[i];
+      const object = pane?.objects[0];
+      if (!change || !pane || !object) return;
+      this.#move(pane, (object as Mesh).geometry, change);
+    });
+    this.#request();
+    note("normals and colours", begun);
+  }
+
+  #move(pane: Pane, geometry: BufferGeometry, { shape, values }: Moved): void {
+    const { content } = pane;
+    pane.content = { ...content, shapes: [shape], values };
+    const position = geometry.getAttribute("position") as BufferAttribute;
+    if (position.array.length !== shape.length) return;
+    position.array.set(shape);
+    position.needsUpdate = true;
+    const normal = geometry.getAttribute("normal") as BufferAttribute | undefined;
+    if (normal && content.triangles && isLit(content)) {
+      writeNormals(shape, content.triangles, normal.array as Float32Array);
+      normal.needsUpdate = true;
+    }
+    if (!values || !this.#range) return;
+    const colour = geometry.getAttribute("color") as BufferAttribute;
+    writeColours(values, this.#range, viridisTable(), colour.array as Float32Array);
+    colour.needsUpdate = true;
+  }
+
   setColors(range: readonly [number, number] | null): void {
+    if (range?.[0] === this.#range?.[0] && range?.[1] === this.#range?.[1]) return;
     this.#range = range;
     this.#paint();
     this.#request();
@@ -137,6 +169,24 @@ export class MeshViewer implements Viewer {
       return hit && { region: content.region, vertex: hit.vertex, shape: index };
     }
     return null;
+  }
+
+  placeOf(region: Region, point: readonly number[]): { x: number; y: number } | null {
+    const cell = this.#layout.get(region);
+    if (!cell) return null;
+    this.#aim(cell, this.#frame);
+    const { x, y } = vector(point).project(this.#eye);
+    return { x: cell.x + ((x + 1) * cell.width) / 2, y: cell.y + ((1 - y) * cell.height) / 2 };
+  }
+
+  pointAt(region: Region, through: readonly number[], x: number, y: number): number[] | null {
+    const cell = this.#layout.get(region);
+    if (!cell) return null;
+    this.#aim(cell, this.#frame);
+    const place = vector(through).project(this.#eye);
+    place.x = (2 * (x - cell.x)) / cell.width - 1;
+    place.y = 1 - (2 * (y - cell.y)) / cell.height;
+    return place.unproject(this.#eye).toArray();
   }
 
   capture(scale: number, shot: Shot = this.#shot()): HTMLCanvasElement {
@@ -274,6 +324,8 @@ export class MeshViewer implements Viewer {
       if (ellipsoid) discardEllipsoid(ellipsoid);
     }
     this.#renderer.dispose();
+    // A page may have only so many contexts; the oldest would be lost instead of this one.
+    this.#renderer.forceContextLoss();
   }
 
   #request(): void {
@@ -282,6 +334,7 @@ export class MeshViewer implements Viewer {
   }
 
   #render(): void {
+    const begun = performance.now();
     cancelAnimationFrame(this.#scheduled);
     this.#scheduled = 0;
     this.#renderer.setScissorTest(false);
@@ -296,6 +349,16 @@ export class MeshViewer implements Viewer {
         this.#draw(cell, this.#frame);
       });
     }
+    note("upload and draw calls", begun);
+    if (isTimed) this.#waitUntilDrawn();
+  }
+
+  /** Drawing goes on in a process of its own; what is read back must be there. */
+  #waitUntilDrawn(): void {
+    const begun = performance.now();
+    const context = this.#renderer.getContext();
+    context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, new Uint8Array(4));
+    note("until it is drawn", begun);
   }
 
   /** Only the shapes that are in one cell of a pane. */
@@ -359,19 +422,26 @@ export class MeshViewer implements Viewer {
     const { triangles, segments } = content;
     return content.shapes.map((shape) => {
       const geometry = new BufferGeometry();
-      geometry.setAttribute("position", new BufferAttribute(shape, 3));
+      // What moves is written over: not what the state holds.
+      const own = content.moves ? shape.slice() : shape;
+      geometry.setAttribute("position", new BufferAttribute(own, 3));
       const colours = new Float32Array((shape.length / 3) * 4);
       geometry.setAttribute("color", new BufferAttribute(colours, 4));
+      let made: Object3D;
       if (triangles) {
         geometry.setIndex(this.#index(triangles));
-        geometry.computeVertexNormals();
-        return new Mesh(geometry, clay(content.fade !== null));
-      }
-      if (segments) {
+        const normals = new Float32Array(shape.length);
+        writeNormals(shape, triangles, normals);
+        geometry.setAttribute("normal", new BufferAttribute(normals, 3));
+        made = new Mesh(geometry, surface(content));
+      } else if (segments) {
         geometry.setIndex(this.#index(segments));
-        return new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true }));
+        made = new LineSegments(geometry, new LineBasicMaterial({ vertexColors: true }));
+      } else {
+        made = new Points(geometry, dots(content.shapes.length, shape.length / 3));
       }
-      return new Points(geometry, dot(dotSize(content.shapes.length, shape.length / 3)));
+      if (content.moves) readyToMove(made, geometry);
+      return made;
     });
   }
 
@@ -407,54 +477,17 @@ export class MeshViewer implements Viewer {
   }
 }
 
-/**
- * Opacity goes straight into the canvas instead of being blended: the front surface always wins,
- * so a fading rim never shows the far side through it.
- */
-function clay(fades: boolean): MeshLambertMaterial {
-  const material = new MeshLambertMaterial({
-    vertexColors: true,
-    side: DoubleSide,
-    // One pass: with two, the far side's is lit from within and shows at the outline.
-    forceSinglePass: true,
-    ...(fades ? { transparent: true, blending: NoBlending, premultipliedAlpha: true } : {}),
-  });
-  // A back face that shows at the outline would be lit from its other side: dark specks.
-  material.onBeforeCompile = (shader) => {
-    shader.fragmentShader = shader.fragmentShader.replace(
-      "#include <normal_fragment_begin>",
-      "#include <normal_fragment_begin>\nnormal = normalize( vNormal );",
-    );
-  };
-  return material;
-}
-
-/** A surface of many points, one point, or a cloud of single points. */
-function dotSize(shapes: number, points: number): number {
-  if (points > 100) return 1.8;
-  return shapes > 1 ? 3.5 : 9;
-}
-
-/** A round point, `size` CSS pixels wide. */
-function dot(size: number): PointsMaterial {
-  const width = size * Math.min(devicePixelRatio, 2);
-  const material = new PointsMaterial({ vertexColors: true, size: width, sizeAttenuation: false });
-  material.onBeforeCompile = (shader) => {
-    shader.fragmentShader = shader.fragmentShader.replace(
-      "#include <clipping_planes_fragment>",
-      "#include <clipping_planes_fragment>\nif ( distance( gl_PointCoord, vec2( 0.5 ) ) > 0.5 ) discard;",
-    );
-  };
-  return material;
-}
-
 function sameShapes(one: PaneContent, other: PaneContent): boolean {
   return (
     one.region === other.region &&
     one.triangles === other.triangles &&
     one.segments === other.segments &&
     one.fade === other.fade &&
+    one.style === other.style &&
+    one.outline === other.outline &&
+    one.moves === other.moves &&
     one.shapes.length === other.shapes.length &&
+    !one.moves &&
     one.shapes.every((shape, i) => shape === other.shapes[i])
   );
 }
@@ -476,4 +509,8 @@ function discard(objects: Object3D[]): void {
     geometry.dispose();
     (material as Material).dispose();
   }
+}
+
+function vector(point: readonly number[]): Vector3 {
+  return new Vector3(point[0], point[1], point[2]);
 }

@@ -203,10 +203,13 @@ function showBrush(canvas: HTMLCanvasElement, x: number, y: number): void {
   brush.value = { x, y, radius: (brushRadius() * rect.height) / (2 * halfHeight) };
 }
 
-export function layoutOf(canvas: HTMLCanvasElement): [number, number, Map<Region, Rect>] {
+export function layoutOf(
+  canvas: HTMLCanvasElement,
+  elements = panes,
+): [number, number, Map<Region, Rect>] {
   const whole = canvas.getBoundingClientRect();
   const rects = new Map<Region, Rect>();
-  for (const [name, pane] of panes) {
+  for (const [name, pane] of elements) {
     const rect = pane.getBoundingClientRect();
     if (rect.width === 0) continue;
     rects.set(name, {

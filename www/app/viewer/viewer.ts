@@ -4,6 +4,7 @@
  */
 import type { Region } from "../../worker/protocol";
 import type { Palette, Rgb } from "../colormap";
+import type { SurfaceStyle } from "../explore/codec";
 import type { Camera } from "./camera";
 
 export interface Rect {
@@ -34,6 +35,18 @@ export interface PaneContent {
   marks: { mask: Uint8Array; tint: readonly [number, number, number] } | null;
   /** sRGB, 0 … 255. */
   tint: readonly [number, number, number];
+  /** How a surface is drawn: smooth where nothing is said. */
+  style?: SurfaceStyle;
+  /** Thin lines, to lie over another shape of the same pane: wires of a surface, a dashed drawing. */
+  outline?: boolean;
+  /** Whether `morph` will move it. */
+  moves?: boolean;
+}
+
+/** New points of one content, and new numbers per vertex where it is coloured by any. */
+export interface Moved {
+  shape: Float32Array;
+  values: Float32Array | null;
 }
 
 /** An ellipsoid as it is drawn: `axes` are its semi-axes, column by column, however many SD they stand for. */
@@ -72,10 +85,16 @@ export interface Viewer {
   /** Where the panes are on the canvas, in CSS pixels. */
   setLayout(width: number, height: number, panes: ReadonlyMap<Region, Rect>): void;
   setMesh(panes: PaneContent[], frame: Frame): void;
+  /** Moves what `setMesh` was given last, in its order; cells, tints and frame stay. */
+  morph(moved: readonly (Moved | null)[]): void;
   setColors(range: readonly [number, number] | null): void;
   setCamera(camera: Camera): void;
   /** The vertex at a place on the canvas. */
   pick(x: number, y: number): Hit | null;
+  /** Where a point of a pane is on the canvas. */
+  placeOf(region: Region, point: readonly number[]): { x: number; y: number } | null;
+  /** What is at a place on the canvas, as far from the eye as `through`. */
+  pointAt(region: Region, through: readonly number[], x: number, y: number): number[] | null;
   /** What is on the canvas, or another picture, `scale` pixels to a CSS pixel, drawn and copied in one task. */
   capture(scale: number, shot?: Shot): HTMLCanvasElement;
   /** One shape alone, for a card. */

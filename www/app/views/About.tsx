@@ -18,6 +18,10 @@ export function About() {
           counts as one the other model can make when it lies about σ or less from its nearest shape
           there, on average per point.
         </p>
+        <p>
+          What the overlap of two models says that the Bhattacharyya distance of their laws does not
+          is studied over the bundled pairs in docs/overlap-study.md of the source.
+        </p>
         <p>Everything is computed in this page. Your files stay on this computer.</p>
       </details>
     </footer>

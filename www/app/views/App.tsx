@@ -5,6 +5,7 @@ import { Diagnostics } from "./Diagnostics";
 import { Downloads } from "./Downloads";
 import { DropOverlay } from "./DropOverlay";
 import { Explorer } from "./Explorer";
+import { ExploreStage } from "./explore/ExploreStage";
 import { Header } from "./Header";
 import { Measures } from "./Measures";
 import { ModelCard } from "./ModelCard";
@@ -23,13 +24,14 @@ export function App() {
   return (
     <>
       <Header />
-      <main>
+      <main data-room={room.value}>
         <div class="centre">
           <Notices place="page" />
           <Notices place="link" />
           <Headline />
           <Rooms />
           <Stage />
+          {room.value === "explore" && <ExploreStage />}
           {room.value === "measures" && <Measures />}
           {room.value === "diagnostics" && <Diagnostics />}
           {room.value === "models" && <ModelTable />}

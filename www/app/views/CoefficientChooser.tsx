@@ -3,6 +3,7 @@ import type { Report } from "../../worker/protocol";
 import { type Coefficient, worstCoefficient } from "../diagnosing";
 import { count } from "../format";
 import { diagnosedMode, diagnosedSide, SIDES } from "../state";
+import { R_HAT } from "../words";
 
 interface Props {
   report: Report;
@@ -14,6 +15,8 @@ export function CoefficientChooser({ report, chosen }: Props) {
   const both = report.intersection.coefficients;
   const modes = both?.[chosen.side].essBulk.length ?? report.models[chosen.side].modes;
   const worst = worstCoefficient(report, chosen.side);
+  const apart = (both?.[chosen.side].rHat[worst.mode] ?? 1) >= R_HAT;
+  const why = apart ? "the largest R-hat" : "the lowest ESS";
   return (
     <div class="toolbar coefficient-chooser">
       <fieldset class="segments">
@@ -48,7 +51,7 @@ export function CoefficientChooser({ report, chosen }: Props) {
         >
           {Array.from({ length: modes }, (_, mode) => (
             <option key={mode} value={String(mode)}>
-              {`Mode ${mode + 1}${figuresOf(report, chosen.side, mode)}${mode === worst.mode ? ", the worst" : ""}`}
+              {`Mode ${mode + 1}${figuresOf(report, chosen.side, mode)}${mode === worst.mode ? `, ${why}` : ""}`}
             </option>
           ))}
         </select>

@@ -142,9 +142,9 @@ function EvaluationChart({ evaluation, unit, side }: ChartProps) {
           corner="Modes"
           columns={[
             { title: "Generalization" },
-            { title: "its SE", show: (value) => number(value, 2) },
+            { title: "SE of gen.", show: (value) => number(value, 2) },
             { title: "Specificity" },
-            { title: "its SE ", show: (value) => number(value, 2) },
+            { title: "SE of spec.", show: (value) => number(value, 2) },
           ]}
           rows={modes.map((mode, i) => ({
             head: mode,

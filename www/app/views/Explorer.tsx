@@ -1,4 +1,98 @@
-/** Sliders and what they say, beside the stage. */
+/** What is driven and how, and what the other model makes of it: beside the explorer's stage. */
+import type { AxesKind } from "../../worker/protocol";
+import { KINDS, SPACES } from "../explore/codec";
+import { play, playing, stopPlaying } from "../explore/playing";
+import {
+  chooseKind,
+  chooseSpace,
+  currentAxes,
+  explore,
+  explorer,
+  settle,
+  toMean,
+  toRandom,
+  trouble,
+} from "../explore/state";
+import { kindLabel, SIGNS } from "../explore/words";
+import { outOfDate } from "../state";
+import { Follow } from "./explore/Follow";
+import { Sliders } from "./explore/Sliders";
+import { VertexFields } from "./explore/VertexFields";
+
 export function Explorer() {
-  return <section class="explorer" aria-label="Explorer" />;
+  const { space, kind } = explorer.value;
+  const swings = playing.value;
+  return (
+    <section class="explorer" aria-label="Explorer" data-stale={outOfDate.value}>
+      <fieldset class="segments">
+        <legend class="unseen">Which model is driven</legend>
+        {SPACES.map((name) => (
+          <label key={name} data-on={space === name} data-space={name}>
+            <input
+              type="radio"
+              name="driven"
+              value={name}
+              checked={space === name}
+              onChange={() => chooseSpace(name)}
+            />
+            Drive {SIGNS[name]}
+          </label>
+        ))}
+      </fieldset>
+      <select
+        aria-label="Along which directions"
+        value={kind}
+        onChange={(event) => chooseKind(event.currentTarget.value as AxesKind)}
+      >
+        {(space === "intersection" ? (["modes"] as const) : KINDS).map((name) => (
+          <option key={name} value={name}>
+            {kindLabel(name, space)}
+          </option>
+        ))}
+      </select>
+      {trouble.value && <p class="warning">{trouble.value}</p>}
+      <Follow />
+      <div class="explorer-buttons">
+        <button type="button" onClick={toMean}>
+          Mean
+        </button>
+        <button type="button" onClick={toRandom}>
+          Random
+        </button>
+        <button
+          type="button"
+          aria-pressed={swings?.all ?? false}
+          disabled={(currentAxes.value?.values.length ?? 0) === 0}
+          onClick={() => (swings ? stopPlaying() : play(0, true))}
+        >
+          {swings ? "Stop" : "Play all"}
+        </button>
+      </div>
+      {kind === "angles" && <Morph />}
+      <Sliders />
+      <VertexFields />
+    </section>
+  );
+}
+
+/** Between the two shapes of an angle. */
+function Morph() {
+  const { morph } = explorer.value;
+  return (
+    <label class="slider">
+      <span>Middle: A</span>
+      <input
+        type="range"
+        min={0}
+        max={1}
+        step={0.01}
+        value={morph}
+        aria-label="From A’s shape to B’s"
+        aria-valuetext={`${Math.round(100 * morph)} % of the way from A to B`}
+        onInput={(event) => explore({ morph: Number(event.currentTarget.value) })}
+        onChange={settle}
+      />
+      <span>B</span>
+    </label>
+  );
 }

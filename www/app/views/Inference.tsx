@@ -118,7 +118,7 @@ const COLUMNS: { name: keyof ModeDiagnostics; title: string; show: (value: numbe
   { name: "essTail", title: "tail ESS", show: count },
   { name: "mcseMean", title: "MCSE mean", show: (value) => number(value, 2) },
   { name: "mcseSd", title: "MCSE SD", show: (value) => number(value, 2) },
-  { name: "autocorrelation", title: "lag 1", show: (value) => number(value, 2) },
+  { name: "autocorrelation", title: "lag 1", show: (value) => value.toFixed(2).replace("-", "−") },
 ];
 
 function ModeTable({ both }: { both: BothSides<ModeDiagnostics> }) {

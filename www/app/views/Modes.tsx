@@ -1,5 +1,5 @@
 import type { Report } from "../../worker/protocol";
-import { degrees, length, number, percent } from "../format";
+import { degrees, number, percent } from "../format";
 import { unsettled, unsettledModes } from "../words";
 import { Metric } from "./Phrase";
 import { SaveTable } from "./SaveTable";
@@ -93,7 +93,7 @@ function ModesTable({ report, doubtful }: { report: Report; doubtful: Set<number
                 <>
                   <th scope="col">± error</th>
                   <th scope="col">may turn</th>
-                  <th scope="col">determined</th>
+                  <th scope="col">settled</th>
                 </>
               )}
             </tr>
@@ -108,7 +108,7 @@ function ModesTable({ report, doubtful }: { report: Report; doubtful: Set<number
                     {cell(
                       `accuracy.standardDeviations.${i}`,
                       accuracy.standardDeviations[i],
-                      (value) => length(value, unit),
+                      (value) => number(value, 2),
                     )}
                     {cell(`accuracy.modeTurns.${i}`, accuracy.modeTurns[i], (value) =>
                       degrees((180 * value) / Math.PI),

@@ -1,7 +1,6 @@
 import type { PairFigures } from "../../worker/protocol";
 import type { Advice } from "../advice";
 import {
-  correlation,
   deviation,
   ellipseOf,
   type Gaussian,
@@ -9,10 +8,10 @@ import {
   pairsOf,
   shareWithin,
 } from "../diagnosing";
-import { count, number, percent } from "../format";
+import { count, percent } from "../format";
 import { linear, type Scale, ticks, tickText } from "../plots";
 import { Chart } from "./Chart";
-import { DataTable } from "./DataTable";
+import { PairTables } from "./PairTables";
 
 interface Props {
   figures: PairFigures;
@@ -40,7 +39,7 @@ export function PairPlots({ figures, advice, model, file }: Props) {
       legend={<PairLegend fit={fit !== null} />}
       advice={advice}
       table={() => (
-        <Tables figures={figures} pairs={pairs} shares={shares} model={model} file={file} />
+        <PairTables figures={figures} pairs={pairs} shares={shares} model={model} file={file} />
       )}
     />
   );
@@ -76,7 +75,7 @@ function Triangle({ figures, width }: { figures: PairFigures; width: number }) {
           )
           .join("");
         return (
-          <g key={`${i} ${j}`} class="pair">
+          <g key={`${i} ${j}`} class="pair-cell">
             <rect class="cell" x={left} y={top} width={size} height={size} />
             <path class="dots" d={dots} />
             {fit && <Ellipses law={fit} i={i} j={j} x={x} y={y} kind="fit" />}
@@ -207,7 +206,7 @@ function PairLegend({ fit }: { fit: boolean }) {
   return (
     <ul class="legend" aria-hidden="true">
       <li>
-        <svg viewBox="0 0 22 10" aria-hidden="true" class="pair">
+        <svg viewBox="0 0 22 10" aria-hidden="true" class="pair-cell">
           <path class="dots" d="M4 7h0M9 4h0M14 6h0M18 3h0" />
         </svg>
         draws
@@ -227,63 +226,5 @@ function PairLegend({ fit }: { fit: boolean }) {
         </li>
       )}
     </ul>
-  );
-}
-
-interface TablesProps {
-  figures: PairFigures;
-  pairs: [number, number][];
-  shares: number[];
-  model: string;
-  file: string;
-}
-
-function Tables({ figures, pairs, shares, model, file }: TablesProps) {
-  const { modes, fit } = figures;
-  const plain = (value: number) => number(value, 3);
-  return (
-    <>
-      <DataTable
-        file={`${file}-modes`}
-        caption={`Mean and SD in the first modes, in SD of ${model}`}
-        corner="Mode"
-        columns={[
-          { title: "Mean", show: plain },
-          { title: "SD", show: plain },
-          ...(fit
-            ? [
-                { title: "Mean of fit", show: plain },
-                { title: "SD of fit", show: plain },
-              ]
-            : []),
-        ]}
-        rows={modes.map((mode, i) => ({
-          head: mode + 1,
-          values: [
-            figures.mean[i],
-            deviation(figures, i),
-            ...(fit ? [fit.mean[i], deviation(fit, i)] : []),
-          ],
-        }))}
-      />
-      <DataTable
-        file={file}
-        caption="Correlation, and share of the draws within 2 SD"
-        corner="Modes"
-        columns={[
-          { title: "Correlation", show: plain },
-          ...(fit ? [{ title: "of the fit", show: plain }] : []),
-          { title: "within 2 SD", show: percent },
-        ]}
-        rows={pairs.map(([i, j], row) => ({
-          head: `${i + 1}, ${j + 1}`,
-          values: [
-            correlation(figures, i, j),
-            ...(fit ? [correlation(fit, i, j)] : []),
-            shares[row],
-          ],
-        }))}
-      />
-    </>
   );
 }

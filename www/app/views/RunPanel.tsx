@@ -1,6 +1,16 @@
 import { cancel, start } from "../comparison";
 import { duration, number, percent } from "../format";
-import { engine, inspection, outOfDate, pageState, result, run, unit } from "../state";
+import {
+  currentKey,
+  engine,
+  failedKey,
+  inspection,
+  outOfDate,
+  pageState,
+  result,
+  run,
+  unit,
+} from "../state";
 import { LOOKS_WELL, liveBelief, secondsLeft, settingsSentence, stageName } from "../words";
 import { Notices } from "./Notices";
 
@@ -42,6 +52,9 @@ function stateSentence(): string {
   if (pageState.value === "loading") return "Opening the models…";
   if (inspection.value?.problem) return "These two cannot be compared as they stand.";
   if (held === null) return "Nothing compared yet.";
+  if (outOfDate.value && failedKey.value === currentKey.value) {
+    return "Nothing came of the choices as they are: this is what was there before.";
+  }
   if (outOfDate.value) return "Out of date: the choices have changed.";
   if (held.stored) return "Computed beforehand by this engine.";
   const took = duration(held.report.seconds.total);

@@ -1,6 +1,7 @@
 import type { ComponentChildren } from "preact";
 import { useRef } from "preact/hooks";
-import { saveTable } from "../csv";
+import { csvText, rowsOf } from "../csv";
+import { saveBlob } from "../download";
 
 interface Props {
   /** Of the file, without its ending. */
@@ -22,7 +23,8 @@ export function SaveTable({ file, of, children }: Props) {
         title="Save this table as CSV"
         onClick={() => {
           const table = box.current?.querySelector("table");
-          if (table) saveTable(file, table);
+          if (!table) return;
+          saveBlob(`${file}.csv`, new Blob([csvText(rowsOf(table))], { type: "text/csv" }));
         }}
       >
         CSV<span class="unseen"> of {of}</span>

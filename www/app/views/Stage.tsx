@@ -41,7 +41,7 @@ export function Stage() {
     <section
       class="stage"
       aria-label="Shapes"
-      hidden={room.value !== "regions" && room.value !== "explore"}
+      hidden={room.value !== "regions"}
       data-region={alone.value ?? "all"}
       data-view={view.value}
       data-paint={painting.value?.tool}

@@ -82,7 +82,7 @@ export function Sweep() {
 
 /** The same in the room of the diagnostics, with what it says of the σ in use. */
 export function SweepChart() {
-  const { points, done } = useSweep(true);
+  const { points, done, current } = useSweep(true);
   const used = settings.value.sigma ?? recommended.value;
   if (points.length < 2) {
     return (
@@ -94,7 +94,7 @@ export function SweepChart() {
   }
   const [first, last] = [points[0], points.at(-1)];
   return (
-    <div data-done={done}>
+    <div data-done={done} data-stale={!current}>
       <Chart
         name="sweep"
         title="How A∩B depends on σ"

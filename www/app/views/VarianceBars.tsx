@@ -29,8 +29,15 @@ export function VarianceBars({ report, nouns }: { report: Report; nouns: Nouns }
             <text x={0} y={14} class="share-name">
               <tspan class="share-value">{percent(values[side])}</tspan> {label}
             </text>
-            <rect class="whole" x={0.5} y={22} width={width - 1} height={BAR - 4} rx={4} />
-            <rect x={0} y={21.5} width={width * values[side]} height={BAR - 3} rx={4} />
+            <rect data-part="whole" x={0.5} y={22} width={width - 1} height={BAR - 4} rx={4} />
+            <rect
+              data-part="made"
+              x={0}
+              y={21.5}
+              width={width * values[side]}
+              height={BAR - 3}
+              rx={4}
+            />
           </g>
         ))
       }
