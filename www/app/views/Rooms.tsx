@@ -1,3 +1,4 @@
+import { useEffect, useRef } from "preact/hooks";
 import { ROOMS, type Room } from "../link";
 import { painting, room } from "../state";
 
@@ -11,12 +12,22 @@ const NAMES: Record<Room, string> = {
 
 /** Parts of the page: each looks at the same comparison in its own way. */
 export function Rooms() {
+  const list = useRef<HTMLElement>(null);
+  const shown = room.value;
+  // On narrow screens the list scrolls sideways, and only that: the page stays where it is.
+  useEffect(() => {
+    const current = list.current?.querySelector<HTMLElement>(`[data-room="${shown}"]`);
+    if (list.current && current) {
+      list.current.scrollLeft = current.offsetLeft + current.offsetWidth - list.current.clientWidth;
+    }
+  }, [shown]);
   return (
-    <nav class="rooms" aria-label="Views">
+    <nav ref={list} class="rooms" aria-label="Views">
       {ROOMS.map((name) => (
         <button
           key={name}
           type="button"
+          data-room={name}
           aria-current={room.value === name ? "page" : undefined}
           disabled={painting.value !== null && room.value !== name}
           onClick={() => {
