@@ -1,12 +1,12 @@
-import { useRef } from "preact/hooks";
+import type { DroppedFile } from "../../worker/protocol";
 import { DEMO_GROUPS } from "../demos";
-import { filesOf } from "../folders";
 import { modelsIn } from "../models";
 import { addModels, cancelAdding, keepCompared } from "../shelf/actions";
 import { isUsed } from "../shelf/order";
 import { demoSource, first } from "../sources";
 import { shelf, shelving } from "../state";
 import { readingSentence } from "../words";
+import { FileButton } from "./FileButton";
 
 /** What puts models on the shelf beside the two that are compared. */
 export function AddModels() {
@@ -14,8 +14,22 @@ export function AddModels() {
   return (
     <div class="add-models">
       <div class="toolbar">
-        <Opener label="Add models…" name="Files of models to add" primary={!used} />
-        <Opener label="Add a folder…" name="Folder of models or shapes to add" folder />
+        <FileButton
+          className={used ? "" : "primary"}
+          label="Files of models to add"
+          disabled={shelving.value !== null}
+          onFiles={(files) => void add(files)}
+        >
+          Add models…
+        </FileButton>
+        <FileButton
+          label="Folder of models or shapes to add"
+          disabled={shelving.value !== null}
+          folder
+          onFiles={(files) => void add(files)}
+        >
+          Add a folder…
+        </FileButton>
         <Examples />
         <span class="grow" />
         {used && (
@@ -57,46 +71,9 @@ function Adding() {
   );
 }
 
-interface OpenerProps {
-  label: string;
-  name: string;
-  folder?: boolean;
-  primary?: boolean;
-}
-
-function Opener({ label, name, folder = false, primary = false }: OpenerProps) {
-  const input = useRef<HTMLInputElement>(null);
-  const add = async (list: FileList | null) => {
-    const models = await modelsIn(filesOf(list ?? []), null);
-    if (models) await addModels(models.map(({ source }) => first(source)));
-  };
-  return (
-    <>
-      <button
-        type="button"
-        class={primary ? "primary" : ""}
-        disabled={shelving.value !== null}
-        onClick={() => input.current?.click()}
-      >
-        {label}
-      </button>
-      <input
-        ref={input}
-        class="unseen"
-        type="file"
-        multiple
-        {...(folder ? { webkitdirectory: true } : {})}
-        tabIndex={-1}
-        aria-label={name}
-        onChange={(event) => {
-          // The list is emptied with the input.
-          const list = event.currentTarget.files;
-          if (list && list.length > 0) void add(list);
-          event.currentTarget.value = "";
-        }}
-      />
-    </>
-  );
+async function add(files: DroppedFile[]): Promise<void> {
+  const models = files.length > 0 ? await modelsIn(files, null) : null;
+  if (models) await addModels(models.map(({ source }) => first(source)));
 }
 
 /** The models of the examples, one by one or a group at once. */

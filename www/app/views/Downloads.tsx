@@ -1,13 +1,12 @@
 import { useSignal } from "@preact/signals";
-import { useRef } from "preact/hooks";
 import type { ExportKind, Region } from "../../worker/protocol";
 import { shapeCount } from "../comparison";
 import { download, saveText } from "../download";
-import { filesOf } from "../folders";
 import { openFiles } from "../intake";
 import { REGIONS } from "../link";
 import { saveRun } from "../runfile/run";
 import { engine, exaggeration, held, picture, result, run, shapes, shapesSeed } from "../state";
+import { FileButton } from "./FileButton";
 import { REGION_NAMES } from "./names";
 import { Methods, Pictures } from "./Pictures";
 
@@ -76,7 +75,6 @@ export function Downloads() {
 
 /** What makes this comparison again, to the last digit. */
 function RunFileRow({ ready }: { ready: boolean }) {
-  const input = useRef<HTMLInputElement>(null);
   // The engine writes down the comparison that it holds.
   const holds = ready && held.value !== null && held.value.key === result.value?.key;
   return (
@@ -91,21 +89,13 @@ function RunFileRow({ ready }: { ready: boolean }) {
       >
         .json
       </button>
-      <button type="button" class="as-link" onClick={() => input.current?.click()}>
+      <FileButton
+        className="as-link"
+        label="Run file or report, with its models or without"
+        onFiles={(files) => void openFiles(files, "a")}
+      >
         Open a run file…
-      </button>
-      <input
-        ref={input}
-        class="unseen"
-        type="file"
-        multiple
-        tabIndex={-1}
-        aria-label="Run file or report, with its models or without"
-        onChange={(event) => {
-          void openFiles(filesOf(event.currentTarget.files ?? []), "a");
-          event.currentTarget.value = "";
-        }}
-      />
+      </FileButton>
     </fieldset>
   );
 }

@@ -9,6 +9,11 @@ const NAMES: Record<Room, string> = {
   models: "Models",
 };
 
+/** On a phone not all of them are in sight at once. */
+function show(element: HTMLElement | null): void {
+  element?.scrollIntoView({ block: "nearest", inline: "nearest" });
+}
+
 /** Parts of the page: each looks at the same comparison in its own way. */
 export function Rooms() {
   return (
@@ -17,6 +22,7 @@ export function Rooms() {
         <button
           key={name}
           type="button"
+          ref={room.value === name ? show : null}
           aria-current={room.value === name ? "page" : undefined}
           disabled={painting.value !== null && room.value !== name}
           onClick={() => {
