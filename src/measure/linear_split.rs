@@ -46,7 +46,8 @@ pub fn linear_split(whole: &Moments, part: &Moments, weight: f64) -> Option<Line
     let covariance = (&whole.covariance - &part.covariance * weight) / rest
         - &apart * apart.transpose() * weight;
     let (vectors, values) = eigen(covariance.clone());
-    let negative: f64 = values.iter().filter(|value| **value < 0.0).map(|value| -value).sum();
+    // Not `sum`: of nothing that is −0.
+    let negative = values.iter().filter(|value| **value < 0.0).fold(0.0, |sum, value| sum - value);
     let total: f64 = values.iter().map(|value| value.abs()).sum();
     let kept = values.iter().take_while(|value| **value > 0.0).count();
     let mut factor = vectors.columns(0, kept).into_owned();

@@ -14,22 +14,8 @@ export function AddModels() {
   return (
     <div class="add-models">
       <div class="toolbar">
-        <FileButton
-          className={used ? "" : "primary"}
-          label="Files of models to add"
-          disabled={shelving.value !== null}
-          onFiles={(files) => void add(files)}
-        >
-          Add models…
-        </FileButton>
-        <FileButton
-          label="Folder of models or shapes to add"
-          disabled={shelving.value !== null}
-          folder
-          onFiles={(files) => void add(files)}
-        >
-          Add a folder…
-        </FileButton>
+        <Opener label="Add models…" name="Files of models to add" primary={!used} />
+        <Opener label="Add a folder…" name="Folder of models or shapes to add" folder />
         <Examples />
         <span class="grow" />
         {used && (
@@ -71,9 +57,29 @@ function Adding() {
   );
 }
 
-async function add(files: DroppedFile[]): Promise<void> {
-  const models = files.length > 0 ? await modelsIn(files, null) : null;
-  if (models) await addModels(models.map(({ source }) => first(source)));
+interface OpenerProps {
+  label: string;
+  name: string;
+  folder?: boolean;
+  primary?: boolean;
+}
+
+function Opener({ label, name, folder = false, primary = false }: OpenerProps) {
+  const add = async (files: DroppedFile[]) => {
+    const models = files.length > 0 ? await modelsIn(files, null) : null;
+    if (models) await addModels(models.map(({ source }) => first(source)));
+  };
+  return (
+    <FileButton
+      label={name}
+      className={primary ? "primary" : ""}
+      folder={folder}
+      disabled={shelving.value !== null}
+      onFiles={(files) => void add(files)}
+    >
+      {label}
+    </FileButton>
+  );
 }
 
 /** The models of the examples, one by one or a group at once. */

@@ -34,12 +34,11 @@ export function Pictures({ ready }: { ready: boolean }) {
         <button
           type="button"
           disabled={!ready}
-          aria-label="Make a figure"
           onClick={() => {
             taking.value = "figure";
           }}
         >
-          other…
+          other…<span class="unseen"> figure</span>
         </button>
       </fieldset>
       <fieldset class="download-row">
