@@ -271,6 +271,8 @@ test("the table by keyboard: one stop of Tab, arrows from cell to cell, Enter op
     await page.keyboard.press("Enter");
     await untilCompared(page, { a: "stars-2-a", b: "stars-1-a" });
     assert.equal(await room(page, "Regions").getAttribute("aria-current"), "page");
+    // The keyboard is not lost with the table.
+    await page.waitForFunction(() => document.activeElement?.textContent === "Regions");
   });
 });
 

@@ -88,7 +88,7 @@ test("Undo and Redo are named, say their keys, and are there only where there is
     // What is done instead leaves nothing to do again.
     await undo(page).click();
     await until(page, can, "false,true");
-    await radio(page, "Standard deviation").check({ force: true });
+    await radio(page, "Map").check({ force: true });
     await until(page, can, "true,false");
     // After a reload the page begins anew.
     await page.reload();
@@ -100,7 +100,7 @@ test("Undo and Redo are named, say their keys, and are there only where there is
 test("pressing Undo fast goes back as many steps as were taken", async () => {
   await withPage({}, async ({ url, page }) => {
     await open(page, url, STARS);
-    for (const name of ["Samples", "Standard deviation", "Mean", "Samples"]) {
+    for (const name of ["Samples", "Map", "Mean", "Samples"]) {
       await radio(page, name).check({ force: true });
     }
     await undo(page).evaluate((element) => {
@@ -167,6 +167,63 @@ test("view, region, room, samples, differences and exaggeration are steps of the
     );
     await undo(page).click();
     await until(page, () => undo(page).isDisabled(), true);
+  });
+});
+
+test("maps, a locked scale and a vertex go back and forth", async () => {
+  await withPage({}, async ({ url, page }) => {
+    await open(page, url, "v=1&demo=heads-sex&sigma=1&view=sd");
+    const map = page.getByRole("combobox", { name: "What is coloured" });
+    await undoes(
+      page,
+      "the map",
+      () => map.inputValue(),
+      () => map.selectOption("sd-normal"),
+    );
+    const locked = page.getByRole("figure", { name: /\(locked/ });
+    const lock = page.getByRole("checkbox", { name: "Lock scale" });
+    await undoes(
+      page,
+      "the lock",
+      () => locked.count(),
+      () => lock.check(),
+    );
+    const vertex = page
+      .getByRole("region", { name: "Vertex" })
+      .getByLabel("Vertex", { exact: true });
+    await undoes(
+      page,
+      "the vertex",
+      () => vertex.inputValue(),
+      async () => {
+        await vertex.fill("12");
+        await vertex.press("Enter");
+        await vertex.blur();
+      },
+    );
+    await page.waitForURL((address) => !/vertex=|scale=|map=/.test(address.hash));
+  });
+});
+
+test("the lock of the colours of what is missed goes back and forth, and is in the link", async () => {
+  await withPage({}, async ({ url, page }) => {
+    await open(page, url, "v=1&demo=stars-1&draws=400&room=explore");
+    const slider = page.getByRole("slider", { name: /^Direction 1,/ });
+    await slider.press("ArrowRight");
+    // A moment after the last key: then it is a step.
+    await until(page, () => undo(page).isEnabled(), true);
+    const lock = page.getByRole("checkbox", { name: "Lock scale" });
+    await undoes(
+      page,
+      "the lock",
+      async () => String(await lock.isChecked()),
+      () => lock.check(),
+    );
+    await lock.check();
+    await page.waitForURL(/heat-scale=\d/);
+    await page.reload();
+    await untilState(page, "done");
+    assert.equal(await lock.isChecked(), true, "the link has it");
   });
 });
 

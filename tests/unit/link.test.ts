@@ -57,6 +57,7 @@ test("what is written is read back, for every field", () => {
     mapMode: 3,
     vertex: 0,
     scale: [-2.5, 2.5] as [number, number],
+    heatScale: 0.125,
     region: "aWithoutB" as const,
     picture: "exclusiveModes" as const,
     exaggeration: 2.5,

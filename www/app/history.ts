@@ -2,7 +2,7 @@
 import { batch, computed, effect, untracked } from "@preact/signals";
 import type { PointSelection } from "../worker/protocol";
 import { findDemo } from "./demos";
-import { applyExplorer, settledExplorer } from "./explore/state";
+import { applyExplorer, lockedHeat, settledExplorer } from "./explore/state";
 import { fitsLink, type LinkState, readLink, writeLink } from "./link";
 import { demoModels, giveUpOpening, openPair } from "./models";
 import { arrange, giveUpAdding, restoreShelf } from "./shelf/actions";
@@ -99,6 +99,7 @@ function present(): LinkState {
     vertex: vertex.value,
     explorer: settledExplorer.value,
     scale: lockedRange.value,
+    heatScale: lockedHeat.value,
     side: diagnosedSide.value,
     coefficient: diagnosedMode.value,
     region: region.value,
@@ -274,6 +275,7 @@ export function apply(link: LinkState): void {
     vertex.value = link.vertex;
     applyExplorer(link.explorer);
     lockedRange.value = link.scale;
+    lockedHeat.value = link.heatScale;
     diagnosedSide.value = link.side;
     diagnosedMode.value = link.coefficient;
     region.value = link.region;

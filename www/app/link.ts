@@ -94,6 +94,8 @@ export interface LinkState {
   explorer: ExplorerState;
   /** Range of the colours while it is locked. */
   scale: [number, number] | null;
+  /** The same of what is missed, of which 0 is the other end. */
+  heatScale: number | null;
   /** Whose draws are diagnosed, and which coefficient, from 0; null for the worst. */
   side: "a" | "b" | null;
   coefficient: number | null;
@@ -124,6 +126,7 @@ export function defaultLink(): LinkState {
     vertex: null,
     explorer: defaultExplorer(),
     scale: null,
+    heatScale: null,
     side: null,
     coefficient: null,
     region: null,
@@ -174,6 +177,7 @@ function lookPairs(state: LinkState): [string, string | number][] {
       ["mode", state.mapMode + 1, first.mapMode + 1],
       ["vertex", state.vertex, first.vertex],
       ["scale", state.scale?.map(shortNumber).join(",") ?? null, null],
+      ["heat-scale", state.heatScale === null ? null : shortNumber(state.heatScale), null],
       ["side", state.side, first.side],
       ["coefficient", state.coefficient === null ? null : state.coefficient + 1, null],
       ["region", state.region, first.region],
@@ -248,6 +252,7 @@ export function readLink(fragment: string): LinkState {
     vertex: valid<number | null>(parseCount(given.get("vertex") ?? "", 0, MOST_VERTICES), null),
     explorer: readExplorer(given),
     scale: readScale(given.get("scale")),
+    heatScale: valid(parsePositive(given.get("heat-scale") ?? ""), null),
     side: oneOf(given.get("side"), ["a", "b"] as const) ?? null,
     coefficient: readCoefficient(given.get("coefficient")),
     view: oneOf(given.get("view"), VIEW_MODES) ?? fallback.view,

@@ -154,6 +154,14 @@ export const demo = computed(() => {
   return found?.b === b.name ? found : null;
 });
 
+/** Whether both are heads that come with the page, whatever pair they make. */
+export const packagedHeads = computed(() =>
+  SIDES.every((side) => {
+    const source = slots[side].value?.source;
+    return source?.kind === "demo" && source.name.startsWith("heads-");
+  }),
+);
+
 export const nouns = computed<Nouns>(() => {
   if (demo.value) return demo.value.nouns;
   const [a, b] = [slots.a.value, slots.b.value];

@@ -8,7 +8,7 @@ import {
   alone,
   camera,
   compared,
-  demo,
+  packagedHeads,
   painting,
   region,
   room,
@@ -45,7 +45,7 @@ export const scene = computed<Scene>(() => ({
   shapes: shapes.value,
   mode: view.value,
   dark: isDark(),
-  fadeRim: demo.value?.id.startsWith("heads") ?? false,
+  fadeRim: packagedHeads.value,
   map: mapOf(shownMap.value),
   ellipsoids: room.value === "regions" ? ellipsoids.value : {},
 }));

@@ -13,8 +13,8 @@ export function DropOverlay() {
         </div>
       ))}
       <p class="drop-note">
-        Two models at once fill both; a folder of meshes makes one. Your files stay on this
-        computer.
+        Two models at once fill both, more make a table; a folder of meshes makes one. Your files
+        stay on this computer.
       </p>
     </div>
   );

@@ -91,6 +91,15 @@ function Head({ slot, name, scope, side }: HeadProps) {
   );
 }
 
+/** The table is gone once the pair is open: the keyboard goes on where its regions are chosen. */
+async function compare(a: Slot, b: Slot): Promise<void> {
+  await comparePair(a, b);
+  await new Promise(requestAnimationFrame);
+  const { activeElement, body } = document;
+  if (activeElement && activeElement !== body) return;
+  document.querySelector<HTMLElement>(".rooms [aria-current]")?.focus({ preventScroll: true });
+}
+
 interface CellProps extends Props {
   a: Slot;
   b: Slot;
@@ -132,7 +141,7 @@ function Cell({ a, b, names, at, range, tell, inTabOrder, onFocus, onKey }: Cell
         aria-label={`A ${names[0]}, B ${names[1]}: ${problem ? problem.message : text}${stale ? ", out of date" : ""}`}
         tabIndex={inTabOrder ? 0 : -1}
         style={colours ?? undefined}
-        onClick={() => void comparePair(a, b)}
+        onClick={() => void compare(a, b)}
         onKeyDown={onKey}
         onFocus={() => {
           onFocus();

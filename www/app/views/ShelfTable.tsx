@@ -81,7 +81,13 @@ function ModelRow({ slot, name }: { slot: Slot; name: string }) {
             class="quiet icon-only"
             aria-label={`Close ${name}`}
             title={`Close ${name}`}
-            onClick={() => removeModel(slot)}
+            onClick={(event) => {
+              // The button goes with its row: the keyboard goes on at the next one.
+              const row = event.currentTarget.closest("tr");
+              const next = row?.nextElementSibling ?? row?.previousElementSibling;
+              removeModel(slot);
+              next?.querySelector<HTMLElement>("button.icon-only, input")?.focus();
+            }}
           >
             <CloseIcon />
           </button>
