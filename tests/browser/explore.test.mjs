@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { shapevenn, temporaryFolder } from "./command.mjs";
-import { accessibilityFaults, untilState, withPage } from "./harness.mjs";
+import { accessibilityFaults, untilDrawn, untilRedrawn, untilState, withPage } from "./harness.mjs";
 
 const HEADS = "v=1&demo=heads-sex&sigma=1&draws=800&room=explore";
 const STARS = "v=1&demo=stars-1&draws=800&room=explore";
@@ -24,7 +24,7 @@ async function open(page, url, link) {
 }
 
 async function figure(page, name) {
-  const found = page.locator(`.explorer [data-explore="${name}"]`).first();
+  const found = page.locator(`[data-explore="${name}"]`).first();
   return Number(await found.getAttribute("data-value"));
 }
 
@@ -32,7 +32,7 @@ async function figure(page, name) {
 async function changed(page, name, before) {
   await page.waitForFunction(
     ([which, former]) => {
-      const found = document.querySelector(`.explorer [data-explore="${which}"]`);
+      const found = document.querySelector(`[data-explore="${which}"]`);
       return found && Math.abs(Number(found.dataset.value) - former) > 1e-6;
     },
     [name, before],
@@ -187,8 +187,11 @@ test("a vertex is moved by keys, and by the pointer", async () => {
   await withPage({}, async ({ url, page }) => {
     await open(page, url, HEADS);
     await page.getByText("Move a vertex by keys").click();
-    await page.getByRole("textbox", { name: "Vertex to move" }).fill("1000");
-    await page.getByRole("textbox", { name: "Vertex to move" }).press("Enter");
+    await page.getByRole("spinbutton", { name: "Vertex", exact: true }).fill("1000");
+    await page.keyboard.press("Enter");
+    await page.waitForURL(/vertex=1000/);
+    // Where it is, in each of the three panes.
+    await page.waitForFunction(() => document.querySelectorAll(".vertex-place").length === 3);
     const at = page.locator('[data-axis-name="x"]');
     const before = Number(await at.getAttribute("data-value"));
     const step = Number((await button(page, "x more").innerText()).replace("+", ""));
@@ -199,7 +202,17 @@ test("a vertex is moved by keys, and by the pointer", async () => {
     assert.ok(Math.abs(moved / step - 1) < 0.02, `moved by ${moved}, asked for ${step}`);
 
     const norm = await figure(page, "norm");
+    await page.waitForURL(/explore=a,modes,/);
+    await page.goBack();
+    await page.waitForFunction(
+      () => Number(document.querySelector('[data-explore="norm"]')?.dataset.value) < 1e-9,
+    );
+    assert.equal(Number(await at.getAttribute("data-value")), before, "Back puts it back");
+    await page.goForward();
+    await changed(page, "norm", 0);
+
     await button(page, "Drag vertices").click();
+    assert.equal(await button(page, "Drag vertices").getAttribute("aria-pressed"), "true");
     const pane = await page.locator('.explore-stage [data-pane="a"]').boundingBox();
     const [x, y] = [pane.x + pane.width / 2, pane.y + pane.height / 2];
     await page.mouse.move(x, y);
@@ -207,6 +220,70 @@ test("a vertex is moved by keys, and by the pointer", async () => {
     await page.mouse.move(x + 8, y + 4, { steps: 4 });
     await page.mouse.up();
     await changed(page, "norm", norm);
+    // It is that vertex which is looked at now, and the sliders have followed.
+    await page.waitForURL(/vertex=(?!1000\b)\d+/);
+    await page.waitForURL(/explore=a,modes,/);
+  });
+});
+
+test("stars are drawings, and every layout and surface is another picture", async () => {
+  await withPage({}, async ({ url, page }) => {
+    const panes = ["a", "intersection", "b"];
+    await open(page, url, STARS);
+    let seen = await untilDrawn(page, panes);
+    await type(page, 1, 2);
+    seen = await untilRedrawn(page, seen, panes);
+    assert.equal(await page.getByRole("combobox", { name: "Surface" }).count(), 0, "has none");
+
+    await page.getByRole("combobox", { name: "Example" }).selectOption("heads-sex");
+    await page.getByRole("combobox", { name: "Surface" }).waitFor();
+    await untilState(page, "done");
+    seen = await untilDrawn(page, panes);
+    for (const style of ["Flat", "Wireframe", "Smooth"]) {
+      await page.getByRole("combobox", { name: "Surface" }).selectOption(style);
+      seen = await untilRedrawn(page, seen, panes);
+    }
+    await page.getByRole("checkbox", { name: "Colour what B misses" }).uncheck();
+    await untilRedrawn(page, seen, ["a"]);
+    await page.waitForURL(/heat=off/);
+    await page.getByRole("combobox", { name: "Layout" }).selectOption("Overlaid");
+    const alone = await untilDrawn(page, ["intersection"]);
+    assert.deepEqual(Object.keys(alone), ["intersection"]);
+    await page.goBack();
+    await untilDrawn(page, panes);
+  });
+});
+
+test("A and B are explored while the comparison goes on; Results stay at hand", async () => {
+  await withPage({}, async ({ url, page }) => {
+    await page.goto(`${url}#v=1&demo=heads-expression&draws=2000000&room=explore`);
+    await slider(page, 1).waitFor({ timeout: 60_000 });
+    await meter(page).waitFor();
+    await untilState(page, "running");
+    const before = await figure(page, "distance");
+    await type(page, 1, 2);
+    await changed(page, "distance", before);
+    assert.equal(await page.locator("html").getAttribute("data-state"), "running");
+    await button(page, "Cancel").click();
+    await untilState(page, "done");
+    assert.ok(Math.abs((await figure(page, "norm")) - 2) < 1e-6, "what was explored stays");
+    const results = page.getByRole("region", { name: "Results" });
+    assert.equal(await results.count(), 0);
+    await page.getByText("Results of the comparison").click();
+    await results.waitFor();
+  });
+});
+
+test("what a link says of more directions than there are is left out", async () => {
+  await withPage({}, async ({ url, page }) => {
+    await open(page, url, `${STARS}&explore=a,modes,1:1.5,30:2`);
+    await changed(page, "norm", 0);
+    assert.ok(Math.abs((await figure(page, "norm")) - 1.5) < 1e-6);
+    // Another model has other sliders, with what was set of them.
+    await page.getByRole("combobox", { name: "Example" }).selectOption("heads-sex");
+    await page.waitForFunction(
+      () => Math.abs(document.querySelector('[data-explore="norm"]')?.dataset.value - 2.5) < 1e-6,
+    );
   });
 });
 
@@ -230,6 +307,12 @@ test("on a phone the sliders follow the shapes, and everything has a name", asyn
       ),
     );
     assert.ok(stage.y < panel.y && panel.y < models.y, "in the order in which they are used");
+    // The shapes stay in sight above the last of the sliders.
+    await slider(page, 10).scrollIntoViewIfNeeded();
+    await page.evaluate(() => scrollBy(0, 300));
+    const view = await page.locator(".explore-stage .field-of-view").boundingBox();
+    const last = await slider(page, 10).boundingBox();
+    assert.ok(view.y === 0 && last.y > view.height && last.y < 844, `${view.y}, ${last.y}`);
     const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
     assert.ok(wide <= 0, `${wide} pixels beyond the edge`);
     assert.deepEqual(await accessibilityFaults(page), []);

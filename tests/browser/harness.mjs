@@ -197,6 +197,8 @@ async function look(page) {
     const panes = {};
     for (const pane of document.querySelectorAll("[data-pane][data-away=false]")) {
       const rect = pane.querySelector(".pane-view").getBoundingClientRect();
+      // Another room's.
+      if (rect.width === 0) continue;
       // Without the rim, where a label may lie.
       const [left, top] = [rect.x + scrollX + 4, rect.y + scrollY + 0.2 * rect.height];
       const size = [rect.width - 8, 0.75 * rect.height].map((side) => Math.round(side * scale));

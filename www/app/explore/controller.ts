@@ -1,7 +1,7 @@
 /** Keeps the explorer's own viewer in step with what is explored. */
-import { computed, effect, signal } from "@preact/signals";
+import { batch, computed, effect, signal } from "@preact/signals";
 import type { Region } from "../../worker/protocol";
-import { camera } from "../state";
+import { camera, vertex } from "../state";
 import { sceneFrame } from "../viewer/contents";
 import {
   type ExploreScene,
@@ -14,13 +14,19 @@ import {
 import { listen } from "../viewer/gestures";
 import { createViewer, layoutOf, scene } from "../viewer/stage-controller";
 import type { Frame, Hit, PaneContent, Viewer } from "../viewer/viewer";
-import { moveVertex, takeVertex } from "./asking";
+import { moveVertex, positionOf, takeVertex } from "./asking";
+import { stopPlaying } from "./playing";
 import { answer, basis, dragTool, explorer, grab, lockedHeat, settle } from "./state";
 
 /** What is under the pointer, with its place on the canvas. */
 export const exploreHover = signal<(Hit & { x: number; y: number; value: number | null }) | null>(
   null,
 );
+
+/** Where the vertex that is looked at is drawn, in each pane. */
+export const vertexPlaces = signal<{ region: Region; x: number; y: number }[]>([]);
+/** The vertex that the pointer holds. */
+const dragged = signal<number | null>(null);
 
 const looks = computed(() => {
   const { magnify, style, layout, heat, morph } = explorer.value;
@@ -43,6 +49,10 @@ const exploreScene = computed<ExploreScene | null>(() => {
     mean: from.mean,
   };
 });
+
+const contents = computed(() =>
+  exploreScene.value === null ? [] : exploreContents(exploreScene.value),
+);
 
 /** What the colours would go up to if they were not locked. */
 export const ownHeat = computed(() => {
@@ -82,7 +92,11 @@ export function takeExploreCanvas(
       effect(drawing(made, flat)),
       effect(() => made.setCamera(camera.value)),
     );
-    const lay = () => made.setLayout(...layoutOf(canvas, panes));
+    const laid = signal(0);
+    const lay = () => {
+      made.setLayout(...layoutOf(canvas, panes));
+      laid.value += 1;
+    };
     const observer = new ResizeObserver(lay);
     observer.observe(canvas);
     for (const pane of panes.values()) observer.observe(pane);
@@ -92,6 +106,15 @@ export function takeExploreCanvas(
         requestAnimationFrame(lay);
       }),
       () => observer.disconnect(),
+      effect(() => {
+        laid.value;
+        camera.value;
+        const [shown, chosen] = [contents.value, dragged.value ?? vertex.value];
+        // Once the viewer has all of them.
+        requestAnimationFrame(() => {
+          vertexPlaces.value = gone ? [] : placesIn(made, shown, chosen);
+        });
+      }),
       listen(canvas, gestures(canvas, panes, made)),
       () => made.dispose(),
     );
@@ -100,6 +123,7 @@ export function takeExploreCanvas(
     gone = true;
     for (const stop of stops) stop();
     exploreHover.value = null;
+    vertexPlaces.value = [];
   };
 }
 
@@ -111,14 +135,26 @@ function drawing(made: Viewer, flat: boolean): () => void {
     const found = exploreScene.value;
     const dimension = found?.scene.geometry.a?.dimension ?? found?.scene.geometry.b?.dimension;
     if (!found || (dimension === 2) !== flat) return;
-    const contents = exploreContents(found);
+    const next = contents.value;
     made.setColors(heatRange.value);
-    const moved = place === frame.value ? movedFrom(former, contents) : null;
+    const moved = place === frame.value ? movedFrom(former, next) : null;
     if (moved) made.morph(moved);
-    else made.setMesh(contents, frame.value);
-    former = contents;
+    else made.setMesh(next, frame.value);
+    former = next;
     place = frame.value;
   };
+}
+
+function placesIn(made: Viewer, shown: PaneContent[], chosen: number | null) {
+  if (chosen === null) return [];
+  const seen = new Set<Region>();
+  return shown.flatMap(({ region, moves, shapes: [shape] }) => {
+    const point = moves && shape && !seen.has(region) ? positionOf(shape, chosen) : null;
+    const place = point && made.placeOf(region, point);
+    if (!place) return [];
+    seen.add(region);
+    return [{ region, ...place }];
+  });
 }
 
 function gestures(canvas: HTMLCanvasElement, panes: Map<Region, HTMLElement>, made: Viewer) {
@@ -134,13 +170,22 @@ function gestures(canvas: HTMLCanvasElement, panes: Map<Region, HTMLElement>, ma
       const drawn = held && made.placeOf(hit.region, asDrawn(held.vertex, held.to));
       if (!drawn) return false;
       away = { x: drawn.x - at.x, y: drawn.y - at.y };
+      dragged.value = hit.vertex;
       return true;
     },
-    beginStroke: () => {},
-    endStroke: settle,
+    beginStroke: stopPlaying,
+    endStroke: () => {
+      // One step: the vertex and where it was put.
+      batch(() => {
+        vertex.value = dragged.value;
+        dragged.value = null;
+        settle();
+      });
+    },
     dropStroke: () => {
       const held = grab.peek();
       if (held) moveVertex(held.from);
+      dragged.value = null;
     },
     paint: (x: number, y: number) => {
       const held = grab.peek();

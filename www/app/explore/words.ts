@@ -8,6 +8,16 @@ export function otherOf(space: Space): "a" | "b" {
   return space === "a" ? "b" : "a";
 }
 
+/** Who is asked whether it can make a shape of this model too. */
+export function followers(space: Space): ("a" | "b")[] {
+  return space === "intersection" ? ["a", "b"] : [otherOf(space)];
+}
+
+export function followQuestion(space: Space): string {
+  if (space === "intersection") return "Can A and B follow A∩B?";
+  return `Can ${SIGNS[otherOf(space)]} follow ${SIGNS[space]}?`;
+}
+
 /** What directions are called, of one side. */
 export function kindLabel(kind: AxesKind, space: Space): string {
   const [own, other] = [SIGNS[space], SIGNS[otherOf(space)]];
@@ -63,17 +73,29 @@ export function valueWords({ kind, space }: Axes, value: number, unit: string): 
   }
 }
 
+/** Beside what orders the directions: what the other model cannot make of one SD along this one. */
+export function missedText(
+  { kind, space, residual }: Axes,
+  axis: number,
+  unit: string,
+): string | null {
+  const missed = residual[axis];
+  if (kind === "exclusive" || space === "intersection" || missed === undefined) return null;
+  return `${SIGNS[otherOf(space)]} misses ${number(missed, 2)}\u202f${unit}`;
+}
+
 /** How unusual a shape is among those of its model, of which `share` are less plausible. */
 export function unusual(share: number, model: string): string {
-  const own = `${model}’s own shapes`;
-  if (!Number.isFinite(share)) return "–";
-  if (share > 0.99) return `more ordinary than nearly all of ${own}`;
-  if (share >= 0.5) return `more ordinary than ${Math.floor(10 * share)} in 10 of ${own}`;
-  if (share < 1e-6) return `rarer than 1 in a million of ${own}`;
+  return Number.isFinite(share) ? `${rarity(share)} of ${model}’s own shapes` : "–";
+}
+
+export function rarity(share: number): string {
+  if (share > 0.99) return "more ordinary than nearly all";
+  if (share >= 0.5) return `more ordinary than ${Math.floor(10 * share)} in 10`;
+  if (share < 1e-6) return "rarer than 1 in a million";
   const odds = Number((1 / share).toPrecision(2));
-  return odds < 10
-    ? `as unusual as 1 in ${Number(odds.toPrecision(1))} of ${own}`
-    : `as unusual as 1 in ${number(odds, 2)} of ${own}`;
+  const digits = odds < 10 ? 1 : 2;
+  return `as unusual as 1 in ${number(odds, digits)}`;
 }
 
 /** L_D at a distance of σ, and of twice that. */

@@ -1,4 +1,5 @@
 import { demo, room, spoken } from "../state";
+import { wide } from "../wide";
 import { About } from "./About";
 import { Chooser } from "./Chooser";
 import { Diagnostics } from "./Diagnostics";
@@ -21,6 +22,7 @@ import { Stage } from "./Stage";
 import { Taking } from "./Taking";
 
 export function App() {
+  const explores = room.value === "explore";
   return (
     <>
       <Header />
@@ -31,7 +33,8 @@ export function App() {
           <Headline />
           <Rooms />
           <Stage />
-          {room.value === "explore" && <ExploreStage />}
+          {explores && <ExploreStage />}
+          {explores && !wide.value && <Explorer />}
           {room.value === "measures" && <Measures />}
           {room.value === "diagnostics" && <Diagnostics />}
           {room.value === "models" && <ModelTable />}
@@ -49,8 +52,8 @@ export function App() {
           <SettingsPanel />
         </div>
         <div class="rail reading">
-          {room.value === "explore" && <Explorer />}
-          <Results />
+          {explores && wide.value && <Explorer />}
+          {explores ? <FoldedResults /> : <Results />}
           <Downloads />
           <About />
         </div>
@@ -62,5 +65,15 @@ export function App() {
         {spoken.value}
       </p>
     </>
+  );
+}
+
+/** Out of the way of the sliders. */
+function FoldedResults() {
+  return (
+    <details class="more">
+      <summary>Results of the comparison</summary>
+      <Results />
+    </details>
   );
 }

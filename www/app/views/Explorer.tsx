@@ -1,8 +1,9 @@
 /** What is driven and how, and what the other model makes of it: beside the explorer's stage. */
 import type { AxesKind } from "../../worker/protocol";
-import { KINDS, SPACES } from "../explore/codec";
+import { KINDS, MOST_MAGNIFY, SPACES } from "../explore/codec";
 import { play, playing, stopPlaying } from "../explore/playing";
 import {
+  choose,
   chooseKind,
   chooseSpace,
   currentAxes,
@@ -14,8 +15,8 @@ import {
   trouble,
 } from "../explore/state";
 import { kindLabel, SIGNS } from "../explore/words";
+import { number } from "../format";
 import { outOfDate } from "../state";
-import { Follow } from "./explore/Follow";
 import { Sliders } from "./explore/Sliders";
 import { VertexFields } from "./explore/VertexFields";
 
@@ -51,12 +52,11 @@ export function Explorer() {
         ))}
       </select>
       {trouble.value && <p class="warning">{trouble.value}</p>}
-      <Follow />
       <div class="explorer-buttons">
-        <button type="button" onClick={toMean}>
+        <button type="button" onClick={calmly(toMean)}>
           Mean
         </button>
-        <button type="button" onClick={toRandom}>
+        <button type="button" onClick={calmly(toRandom)}>
           Random
         </button>
         <button
@@ -69,9 +69,40 @@ export function Explorer() {
         </button>
       </div>
       {kind === "angles" && <Morph />}
+      <Magnify />
       <Sliders />
       <VertexFields />
     </section>
+  );
+}
+
+/** What is chosen by hand ends what swings. */
+function calmly(action: () => void): () => void {
+  return () => {
+    stopPlaying();
+    action();
+  };
+}
+
+/** So that small deviations are seen. */
+function Magnify() {
+  const { magnify } = explorer.value;
+  return (
+    <label class="slider">
+      <span>Magnify</span>
+      <input
+        type="range"
+        min={1}
+        max={MOST_MAGNIFY}
+        step={0.5}
+        value={magnify}
+        aria-valuetext={`deviations from the mean ${number(magnify, 2)} times as large`}
+        onInput={(event) => explore({ magnify: Number(event.currentTarget.value) })}
+        onChange={settle}
+        onDblClick={() => choose({ magnify: 1 })}
+      />
+      <span class="num">{magnify}×</span>
+    </label>
   );
 }
 
@@ -80,7 +111,7 @@ function Morph() {
   const { morph } = explorer.value;
   return (
     <label class="slider">
-      <span>Middle: A</span>
+      <span>Morph</span>
       <input
         type="range"
         min={0}
@@ -92,7 +123,7 @@ function Morph() {
         onInput={(event) => explore({ morph: Number(event.currentTarget.value) })}
         onChange={settle}
       />
-      <span>B</span>
+      <span class="num">{Math.round(100 * morph)} % B</span>
     </label>
   );
 }

@@ -62,3 +62,15 @@ export const RedoIcon = () => (
     <path d="m13 4 3.500 3.500L13 11M16 7.500H8.500a4.250 4.250 0 0 0 0 8.500H12" />
   </Icon>
 );
+
+export const PlayIcon = () => (
+  <Icon>
+    <path d="M7 4.500v11l8.500-5.500Z" />
+  </Icon>
+);
+
+export const StopIcon = () => (
+  <Icon>
+    <path d="M5.500 5.500h9v9h-9Z" />
+  </Icon>
+);

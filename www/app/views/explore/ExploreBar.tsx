@@ -1,14 +1,7 @@
 /** How the explored shapes are drawn. */
-import {
-  type ExploreLayout,
-  LAYOUTS,
-  MOST_MAGNIFY,
-  STYLES,
-  type SurfaceStyle,
-} from "../../explore/codec";
-import { ownHeat } from "../../explore/controller";
-import { choose, dragTool, explore, explorer, lockedHeat, settle } from "../../explore/state";
-import { camera } from "../../state";
+import { type ExploreLayout, LAYOUTS, STYLES, type SurfaceStyle } from "../../explore/codec";
+import { choose, dragTool, explorer } from "../../explore/state";
+import { camera, SIDES, slots } from "../../state";
 import { HOME } from "../../viewer/camera";
 
 const LAYOUT_NAMES: Record<ExploreLayout, string> = {
@@ -24,7 +17,8 @@ const STYLE_NAMES: Record<SurfaceStyle, string> = {
 };
 
 export function ExploreBar() {
-  const { layout, style, heat, magnify } = explorer.value;
+  const { layout, style } = explorer.value;
+  const surfaces = SIDES.some((side) => slots[side].value?.geometry?.triangles);
   return (
     <div class="toolbar">
       <select
@@ -38,54 +32,22 @@ export function ExploreBar() {
           </option>
         ))}
       </select>
-      <select
-        aria-label="Surface"
-        value={style}
-        onChange={(event) => choose({ style: event.currentTarget.value as SurfaceStyle })}
-      >
-        {STYLES.map((name) => (
-          <option key={name} value={name}>
-            {STYLE_NAMES[name]}
-          </option>
-        ))}
-      </select>
-      <label class="slider magnify">
-        <span>Magnify</span>
-        <input
-          type="range"
-          min={1}
-          max={MOST_MAGNIFY}
-          step={0.5}
-          value={magnify}
-          aria-valuetext={`deviations from the mean ${magnify} times as large`}
-          onInput={(event) => explore({ magnify: Number(event.currentTarget.value) })}
-          onChange={settle}
-        />
-        <span class="num">{magnify}×</span>
-      </label>
-      <label class="check">
-        <input
-          type="checkbox"
-          checked={heat}
-          onChange={(event) => choose({ heat: event.currentTarget.checked })}
-        />
-        Colour misses
-      </label>
-      {heat && (
-        <label class="check">
-          <input
-            type="checkbox"
-            checked={lockedHeat.value !== null}
-            onChange={(event) => {
-              lockedHeat.value = event.currentTarget.checked ? ownHeat.value : null;
-            }}
-          />
-          Lock scale
-        </label>
+      {surfaces && (
+        <select
+          aria-label="Surface"
+          value={style}
+          onChange={(event) => choose({ style: event.currentTarget.value as SurfaceStyle })}
+        >
+          {STYLES.map((name) => (
+            <option key={name} value={name}>
+              {STYLE_NAMES[name]}
+            </option>
+          ))}
+        </select>
       )}
       <button
         type="button"
-        class="quiet"
+        class="toggle"
         aria-pressed={dragTool.value}
         title="Drag a vertex of the driven shape; the rest follows"
         onClick={() => {

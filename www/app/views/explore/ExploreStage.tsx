@@ -1,26 +1,36 @@
 /** The explorer's own stage: A, what lies over one another, and B, under one camera. */
 import { useEffect, useRef } from "preact/hooks";
 import type { Region } from "../../../worker/protocol";
-import { viridisGradient } from "../../colormap";
-import { exploreHover, heatRange, ownHeat, takeExploreCanvas } from "../../explore/controller";
-import { answer, explorer, lockedHeat, trouble } from "../../explore/state";
-import { kindLabel, otherOf, SIGNS } from "../../explore/words";
-import { length, number } from "../../format";
+import { exploreHover, takeExploreCanvas, vertexPlaces } from "../../explore/controller";
+import { answer, dragTool, explorer, trouble } from "../../explore/state";
+import { otherOf, SIGNS } from "../../explore/words";
+import { length } from "../../format";
 import { run, unit } from "../../state";
 import { EXPLORE_PANES, type ExplorePane, panesOf } from "../../viewer/explore-contents";
 import { dimension } from "../../viewer/stage-controller";
 import { ExploreBar } from "./ExploreBar";
+import { Follow } from "./Follow";
+import { HeatBar } from "./HeatBar";
 
 export function ExploreStage() {
   const kind = dimension.value;
   return (
     <section class="stage explore-stage" aria-label="Explored shapes" data-region="all">
       <ExploreBar />
-      <div class="field-of-view">
+      <div class="field-of-view" data-drag={dragTool.value}>
         {kind !== null && <Panes key={kind} flat={kind === 2} />}
         <Tooltip />
+        {vertexPlaces.value.map(({ region, x, y }) => (
+          <span
+            key={region}
+            class="vertex-place"
+            aria-hidden="true"
+            style={{ left: `${x}px`, top: `${y}px` }}
+          />
+        ))}
       </div>
       <HeatBar />
+      <Follow />
     </section>
   );
 }
@@ -102,7 +112,7 @@ function meaning(pane: ExplorePane): string {
     return pane === "intersection" ? "between the two" : "the direction beside it";
   }
   if (pane !== "intersection") return "its nearest shape";
-  return space === "intersection" ? "" : "one over the other";
+  return space === "intersection" ? "" : "overlaid";
 }
 
 function Tooltip() {
@@ -114,26 +124,5 @@ function Tooltip() {
       {hit.vertex}
       {hit.value !== null && <strong> {length(hit.value, unit.value)} missed</strong>}
     </output>
-  );
-}
-
-/** What the colours mean. */
-function HeatBar() {
-  const range = heatRange.value;
-  if (!range) return null;
-  const { space, kind } = explorer.value;
-  const who = space === "intersection" ? "A, or B, misses" : `${SIGNS[otherOf(space)]} misses`;
-  const beyond = (ownHeat.value ?? 0) > range[1];
-  return (
-    <figure class="color-bar" aria-label={`Colours: what ${who}, per vertex`}>
-      <figcaption>
-        What {who} per vertex, {unit.value}
-        {lockedHeat.value === null ? "" : beyond ? " (locked; some lie beyond)" : " (locked)"}
-      </figcaption>
-      <span class="num">0</span>
-      <span class="ramp" style={{ background: viridisGradient() }} />
-      <span class="num">{number(range[1])}</span>
-      <span class="unseen">{kindLabel(kind, space)}</span>
-    </figure>
   );
 }

@@ -1,23 +1,42 @@
-/** Whether the other model can follow, in words, in numbers, and on a meter. */
-import type { Nearest } from "../../../worker/protocol";
-import { answer, explorer, sigmaInUse } from "../../explore/state";
-import { followWords, meterValue, meterWords, otherOf, SIGNS, unusual } from "../../explore/words";
+/** Whether the other model can follow: in words, in numbers, and on a meter. */
+import type { BothSides, Nearest } from "../../../worker/protocol";
+import { answer, sigmaInUse } from "../../explore/state";
+import {
+  followers,
+  followQuestion,
+  followWords,
+  meterValue,
+  meterWords,
+  placeOf,
+  rarity,
+  SIGNS,
+  unusual,
+} from "../../explore/words";
 import { length, number, percent } from "../../format";
-import { unit } from "../../state";
+import { outOfDate, unit } from "../../state";
 
+/** Of one height whatever it says: the shapes above it keep their place while sliders move. */
 export function Follow() {
   const found = answer.value;
   const placed = found?.explored.placed;
   if (!found || !placed) return null;
-  const { space } = explorer.value;
-  if (found.space !== space) return null;
+  const { space } = found;
   const { norm, plausibility } = found.explored;
   return (
-    <section class="follow" aria-label="Can the other model follow?">
+    <section class="follow" aria-label="Can the other model follow?" data-stale={outOfDate.value}>
+      <div class="follow-words">
+        <h3>{followQuestion(space)}</h3>
+        {followers(space).map((side) => (
+          <p key={side} data-follows={side}>
+            {followWords(SIGNS[side], placed[side].distance, sigmaInUse.value)}
+          </p>
+        ))}
+      </div>
       <Meter ofA={placed.a.likelihood} ofB={placed.b.likelihood} />
-      <p>
-        <span class="dim">{SIGNS[space]}:</span>{" "}
-        <Figure name="norm" value={norm} text={number(norm, 3)} /> SD from the mean,{" "}
+      <NearestTable sides={followers(space)} placed={placed} />
+      <p class="small">
+        The shape itself is <Figure name="norm" value={norm} text={number(norm)} /> SD from the mean
+        of {SIGNS[space]},{" "}
         <Figure
           name="plausibility"
           value={plausibility}
@@ -25,14 +44,6 @@ export function Follow() {
         />
         .
       </p>
-      {space === "intersection" ? (
-        <>
-          <Reach side="a" nearest={placed.a} />
-          <Reach side="b" nearest={placed.b} />
-        </>
-      ) : (
-        <Reach side={otherOf(space)} nearest={placed[otherOf(space)]} />
-      )}
     </section>
   );
 }
@@ -45,18 +56,49 @@ function Figure({ name, value, text }: { name: string; value: number; text: stri
   );
 }
 
-function Reach({ side, nearest }: { side: "a" | "b"; nearest: Nearest }) {
+interface NearestProps {
+  sides: ("a" | "b")[];
+  placed: BothSides<Nearest>;
+}
+
+/** The shape by which each model follows. */
+function NearestTable({ sides, placed }: NearestProps) {
   const sigma = sigmaInUse.value;
-  const { distance, likelihood, plausibility } = nearest;
   return (
-    <p data-follows={side}>
-      <strong>{followWords(SIGNS[side], distance, sigma)}</strong> Its nearest shape is{" "}
-      <Figure name="distance" value={distance} text={length(distance, unit.value)} /> away on
-      average
-      {sigma !== null && <> (σ is {length(sigma, unit.value)})</>}, so the likelihood L<sub>D</sub>{" "}
-      is <Figure name="likelihood" value={likelihood} text={percent(likelihood)} />; that shape is{" "}
-      <Figure name="followed" value={plausibility} text={unusual(plausibility, SIGNS[side])} />.
-    </p>
+    <table class="numbers">
+      <thead>
+        <tr>
+          <th scope="col">Nearest shape</th>
+          <th scope="col">mean distance d</th>
+          <th scope="col">
+            likelihood L<sub>D</sub>
+          </th>
+          <th scope="col">among its model’s own</th>
+        </tr>
+      </thead>
+      <tbody>
+        {sides.map((side) => {
+          const { distance, likelihood, plausibility } = placed[side];
+          return (
+            <tr key={side}>
+              <th scope="row">of {SIGNS[side]}</th>
+              <td>
+                <Figure name="distance" value={distance} text={length(distance, unit.value)} />
+                {sigma !== null && (
+                  <span class="dim follow-sigma"> (σ {length(sigma, unit.value)})</span>
+                )}
+              </td>
+              <td>
+                <Figure name="likelihood" value={likelihood} text={percent(likelihood)} />
+              </td>
+              <td>
+                <Figure name="followed" value={plausibility} text={rarity(plausibility)} />
+              </td>
+            </tr>
+          );
+        })}
+      </tbody>
+    </table>
   );
 }
 
@@ -64,9 +106,11 @@ function Reach({ side, nearest }: { side: "a" | "b"; nearest: Nearest }) {
 function Meter({ ofA, ofB }: { ofA: number; ofB: number }) {
   const value = meterValue(ofA, ofB);
   const words = meterWords(ofA, ofB);
-  const neither = Math.max(ofA, ofB) < Math.exp(-2);
   return (
     <div class="place">
+      <p class="meter-words" aria-live="polite">
+        {words}
+      </p>
       {/* biome-ignore lint/a11y/useSemanticElements: it goes both ways from its middle, and has words */}
       <div
         class="meter"
@@ -76,15 +120,14 @@ function Meter({ ofA, ofB }: { ofA: number; ofB: number }) {
         aria-valuemax={1}
         aria-valuenow={Number(value.toFixed(3))}
         aria-valuetext={words}
-        data-neither={neither}
+        data-neither={placeOf(ofA, ofB) === "neither"}
       >
+        <i style={{ left: `${50 + 50 * value}%` }} />
+      </div>
+      <p class="meter-ends" aria-hidden="true">
         <span>A only</span>
         <span>both</span>
         <span>B only</span>
-        <i style={{ left: `${50 + 50 * value}%` }} />
-      </div>
-      <p class="meter-words" aria-live="polite">
-        {words}
       </p>
     </div>
   );

@@ -1,10 +1,20 @@
 /** One slider for every direction of the model that is driven. */
-import { useSignal } from "@preact/signals";
-import { MOST_SD, REACH_SD, rounded } from "../../explore/codec";
+import { useComputed, useSignal } from "@preact/signals";
+import type { Axes } from "../../../worker/protocol";
+import { MOST_SD, REACH_SD } from "../../explore/codec";
 import { play, playing, stopPlaying } from "../../explore/playing";
-import { coefficients, currentAxes, setCoefficient, settle, settleSoon } from "../../explore/state";
-import { orderSentence, valueText, valueWords } from "../../explore/words";
+import {
+  askable,
+  coefficients,
+  currentAxes,
+  setCoefficient,
+  settle,
+  settleSoon,
+  trouble,
+} from "../../explore/state";
+import { missedText, orderSentence, valueText, valueWords } from "../../explore/words";
 import { unit } from "../../state";
+import { PlayIcon, StopIcon } from "../icons";
 
 /** How many are shown at first. */
 const FIRST = 10;
@@ -12,7 +22,12 @@ const FIRST = 10;
 export function Sliders() {
   const all = useSignal(false);
   const axes = currentAxes.value;
-  if (!axes) return <p class="small">The directions are shown once the comparison is prepared.</p>;
+  if (!axes) {
+    if (trouble.value !== null) return null;
+    return (
+      <p class="small">{askable.value === null ? "Shown once the comparison is prepared." : ""}</p>
+    );
+  }
   const total = axes.values.length;
   const shown = all.value ? total : Math.min(total, FIRST);
   return (
@@ -20,13 +35,8 @@ export function Sliders() {
       <p class="small">{orderSentence(axes, unit.value)}</p>
       {total === 0 && <p class="small">There is no such direction.</p>}
       <ol>
-        {axes.values.slice(0, shown).map((value, axis) => (
-          <Axis
-            key={axis}
-            axis={axis}
-            ordered={valueText(axes.kind, value, unit.value)}
-            words={valueWords(axes, value, unit.value)}
-          />
+        {axes.values.slice(0, shown).map((_, axis) => (
+          <Axis key={`${axes.space} ${axes.kind} ${axis}`} axes={axes} axis={axis} />
         ))}
       </ol>
       {total > FIRST && (
@@ -44,18 +54,29 @@ export function Sliders() {
   );
 }
 
-function Axis({ axis, ordered, words }: { axis: number; ordered: string; words: string }) {
-  const value = coefficients.value[axis] ?? 0;
-  const swings = playing.value?.axis === axis;
+function Axis({ axes, axis }: { axes: Axes; axis: number }) {
+  // Of hundreds of sliders, only the one that moves is drawn anew.
+  const value = useComputed(() => coefficients.value[axis] ?? 0).value;
   const name = `Direction ${axis + 1}`;
+  const orders = axes.values[axis] ?? 0;
+  const words = valueWords(axes, orders, unit.value);
+  const missed = missedText(axes, axis, unit.value);
+  const set = (next: number) => {
+    stopPlaying();
+    setCoefficient(axis, next);
+  };
   const reset = () => {
-    setCoefficient(axis, 0);
+    set(0);
     settle();
   };
   return (
     <li class="axis" data-axis={axis + 1} data-moved={value !== 0}>
       <span class="axis-name" title={words}>
-        <strong>{axis + 1}</strong> <span class="dim">{ordered}</span>
+        <strong>{axis + 1}</strong>
+        <span>
+          {valueText(axes.kind, orders, unit.value)}
+          {missed !== null && <small>{missed}</small>}
+        </span>
       </span>
       <input
         type="range"
@@ -65,38 +86,52 @@ function Axis({ axis, ordered, words }: { axis: number; ordered: string; words: 
         value={value}
         aria-label={`${name}, ${words}`}
         aria-valuetext={`${value.toFixed(2)} standard deviations`}
-        onInput={(event) => {
-          stopPlaying();
-          setCoefficient(axis, Number(event.currentTarget.value));
-        }}
+        onInput={(event) => set(Number(event.currentTarget.value))}
         onChange={settleSoon}
         onDblClick={reset}
       />
       <input
         type="text"
-        inputMode="decimal"
+        inputMode="text"
         aria-label={`${name} in standard deviations`}
+        data-value={value}
         value={value.toFixed(2)}
         onChange={(event) => {
-          const typed = Number(event.currentTarget.value.replace("−", "-").replace(",", "."));
-          if (!Number.isFinite(typed)) {
+          const typed = numberIn(event.currentTarget.value);
+          if (typed === null) {
             event.currentTarget.value = value.toFixed(2);
             return;
           }
-          setCoefficient(axis, rounded(Math.min(MOST_SD, Math.max(-MOST_SD, typed))));
+          set(typed);
           settle();
         }}
         onDblClick={reset}
+        autocomplete="off"
       />
-      <button
-        type="button"
-        class="quiet icon-only"
-        aria-label={swings ? `Stop direction ${axis + 1}` : `Play direction ${axis + 1}`}
-        aria-pressed={swings}
-        onClick={() => (swings ? stopPlaying() : play(axis, false))}
-      >
-        {swings ? "■" : "▶"}
-      </button>
+      <PlayButton axis={axis} />
     </li>
   );
+}
+
+function PlayButton({ axis }: { axis: number }) {
+  const swings = useComputed(() => playing.value?.axis === axis).value;
+  const label = `${swings ? "Stop" : "Play"} direction ${axis + 1}`;
+  return (
+    <button
+      type="button"
+      class="quiet icon-only"
+      aria-label={label}
+      title={label}
+      onClick={() => (swings ? stopPlaying() : play(axis, false))}
+    >
+      {swings ? <StopIcon /> : <PlayIcon />}
+    </button>
+  );
+}
+
+/** As people type it; null for what is no number. */
+function numberIn(text: string): number | null {
+  const typed = Number(text.trim().replace("−", "-").replace(",", "."));
+  if (text.trim() === "" || !Number.isFinite(typed)) return null;
+  return Math.min(MOST_SD, Math.max(-MOST_SD, typed));
 }

@@ -1,64 +1,72 @@
 /** Moving a vertex without a pointer. */
-import { useSignal } from "@preact/signals";
 import { moveVertex, positionOf, takeVertex } from "../../explore/asking";
-import { answer, grab, settleSoon } from "../../explore/state";
+import { stopPlaying } from "../../explore/playing";
+import { answer, settleSoon } from "../../explore/state";
 import { number } from "../../format";
-import { slots, unit } from "../../state";
+import { compared, slots, unit, vertex } from "../../state";
+import { NumberField } from "../NumberField";
 
 const AXES = ["x", "y", "z"];
 /** A step of the arrows, as a share of the model's size. */
 const STEP = 0.01;
 
 export function VertexFields() {
-  const typed = useSignal("");
-  const found = answer.value;
-  const size = slots.a.value?.report.size ?? 1;
-  const dimension = slots.a.value?.report.dimension ?? 3;
-  const step = Number((STEP * size).toPrecision(1));
-  const held = grab.value;
-  const shown = held ? String(held.vertex) : typed.value;
-  const at = found && held ? positionOf(found.explored.shape, held.vertex) : null;
-  const move = (axis: number, by: number) => {
-    const taken = takeVertex(held?.vertex ?? Number.NaN);
-    if (!taken) return;
-    moveVertex(taken.to.map((value, i) => (i === axis ? value + by : value)));
-    settleSoon();
-  };
+  const shape = answer.value?.explored.shape;
+  const report = slots.a.value?.report;
+  if (!shape || !report) return null;
+  const chosen = vertex.value;
+  const at = chosen === null ? null : positionOf(shape, chosen);
+  const step = Number((STEP * report.size).toPrecision(1));
+  const word = compared.value ? "compared point" : "vertex";
   return (
     <details class="more vertex-fields">
-      <summary>Move a vertex by keys</summary>
-      <label class="vertex-number">
-        <span>Vertex</span>
-        <input
-          type="text"
-          inputMode="numeric"
-          aria-label="Vertex to move"
-          value={shown}
-          onChange={(event) => {
-            typed.value = event.currentTarget.value;
-            const number = Number(typed.value);
-            if (Number.isInteger(number) && number >= 0) takeVertex(number);
-          }}
-        />
-        <span class="small">or drag it on the shape: “Drag vertices”</span>
-      </label>
-      {held && at && (
+      <summary>Move a {word} by keys</summary>
+      <p class="small">
+        The shape changes as little as it can, in standard deviations, for the {word} to come where
+        it is put. By pointer: “Drag vertices” above the shapes.
+      </p>
+      <NumberField
+        label={compared.value ? "Compared point" : "Vertex"}
+        value={chosen}
+        least={0}
+        most={shape.length / report.dimension - 1}
+        placeholder="number"
+        onChange={(next) => {
+          vertex.value = next;
+        }}
+      />
+      {chosen !== null && at && (
         <ul class="vertex-axes">
-          {AXES.slice(0, dimension).map((name, axis) => (
-            <li key={name} data-axis-name={name} data-value={at[axis]}>
-              <span>
-                {name} {number(at[axis] ?? 0)} {unit.value}
+          {at.map((value, axis) => (
+            <li key={AXES[axis]} data-axis-name={AXES[axis]} data-value={value}>
+              <span class="num">
+                {AXES[axis]} {number(value)} {unit.value}
               </span>
-              <button type="button" onClick={() => move(axis, -step)} aria-label={`${name} less`}>
-                −{number(step)}
-              </button>
-              <button type="button" onClick={() => move(axis, step)} aria-label={`${name} more`}>
-                +{number(step)}
-              </button>
+              <StepButton axis={axis} vertex={chosen} by={-step} />
+              <StepButton axis={axis} vertex={chosen} by={step} />
             </li>
           ))}
         </ul>
       )}
     </details>
+  );
+}
+
+function StepButton({ axis, vertex, by }: { axis: number; vertex: number; by: number }) {
+  return (
+    <button
+      type="button"
+      aria-label={`${AXES[axis]} ${by > 0 ? "more" : "less"}`}
+      onClick={() => {
+        stopPlaying();
+        const taken = takeVertex(vertex);
+        if (!taken) return;
+        moveVertex(taken.to.map((value, i) => (i === axis ? value + by : value)));
+        settleSoon();
+      }}
+    >
+      {by > 0 ? "+" : "−"}
+      {number(Math.abs(by))}
+    </button>
   );
 }
