@@ -8,10 +8,18 @@ import {
   writeExplorer,
 } from "../../www/app/explore/codec";
 import { swing } from "../../www/app/explore/playing";
-import { followWords, meterValue, meterWords, placeOf, unusual } from "../../www/app/explore/words";
+import {
+  followWords,
+  meterValue,
+  meterWords,
+  missedText,
+  placeOf,
+  unusual,
+} from "../../www/app/explore/words";
 import { heatEnd, movedFrom, roundUp } from "../../www/app/viewer/explore-contents";
 import { blended, magnified, writeColours, writeNormals } from "../../www/app/viewer/morph";
 import type { PaneContent } from "../../www/app/viewer/viewer";
+import type { Axes } from "../../www/worker/protocol";
 
 const link = (state: ReturnType<typeof defaultExplorer>) =>
   new URLSearchParams(writeExplorer(state).map(([key, value]) => [key, String(value)]));
@@ -66,9 +74,30 @@ test("the meter goes from A only to B only, and its words with it", () => {
   assert.equal(meterWords(0.01, 1), "Only B can make it");
   assert.equal(meterWords(1, 0.3), "A can make it, B only nearly");
   assert.equal(meterWords(0.01, 0.02), "Neither can make it");
-  assert.match(followWords("B", 0.5, 1), /^Yes/);
-  assert.match(followWords("B", 1.5, 1), /^Nearly/);
-  assert.match(followWords("B", 3, 1), /^No: B stays 3/);
+  const follows = (distance: number, plausibility = 0.5) =>
+    followWords("B", { distance, plausibility }, 1);
+  assert.equal(follows(0.5), "Yes: B makes the same shape within σ.");
+  assert.match(follows(0.5, 1e-5), /^Yes: .*, though one that is rare in B\.$/);
+  assert.match(follows(1.5), /^Nearly: B stays 1\.5 σ away/);
+  assert.match(follows(3, 1e-5), /^No: B stays 3\.0 σ away\.$/);
+});
+
+test("what the other model misses of a direction is said, but not of what is ordered by it", () => {
+  const axes = (more: Partial<Axes>): Axes => ({
+    space: "a",
+    kind: "modes",
+    values: [2],
+    reach: [2],
+    residual: [0.456],
+    noise: null,
+    ...more,
+  });
+  assert.equal(missedText(axes({}), 0, "mm"), "B misses 0.46\u202fmm");
+  assert.equal(missedText(axes({ space: "b" }), 0, "mm"), "A misses 0.46\u202fmm");
+  assert.equal(missedText(axes({ residual: [3e-16] }), 0, "mm"), "B misses nothing");
+  assert.equal(missedText(axes({ kind: "exclusive" }), 0, "mm"), null);
+  assert.equal(missedText(axes({ space: "intersection" }), 0, "mm"), null);
+  assert.equal(missedText(axes({}), 1, "mm"), null);
 });
 
 test("how unusual a shape is goes from ordinary to rare", () => {

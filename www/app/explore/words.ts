@@ -75,13 +75,15 @@ export function valueWords({ kind, space }: Axes, value: number, unit: string): 
 
 /** Beside what orders the directions: what the other model cannot make of one SD along this one. */
 export function missedText(
-  { kind, space, residual }: Axes,
+  { kind, space, residual, reach }: Axes,
   axis: number,
   unit: string,
 ): string | null {
   const missed = residual[axis];
   if (kind === "exclusive" || space === "intersection" || missed === undefined) return null;
-  return `${SIGNS[otherOf(space)]} misses ${number(missed, 2)}\u202f${unit}`;
+  // What is only rounding error is none.
+  const text = missed < 1e-9 * (reach[axis] ?? 0) ? "nothing" : `${number(missed, 2)}\u202f${unit}`;
+  return `${SIGNS[otherOf(space)]} misses ${text}`;
 }
 
 /** How unusual a shape is among those of its model, of which `share` are less plausible. */
@@ -133,11 +135,19 @@ export function meterWords(ofA: number, ofB: number): string {
   }
 }
 
-/** Whether a model can follow, from how far its nearest shape lies in units of σ. */
-export function followWords(model: string, distance: number, sigma: number | null): string {
+/** From here on a model can make a shape only in theory. */
+const RARE = 1e-3;
+
+/** Whether a model can follow: from how far its nearest shape lies, in σ, and how plausible that is. */
+export function followWords(
+  model: string,
+  { distance, plausibility }: { distance: number; plausibility: number },
+  sigma: number | null,
+): string {
   if (sigma === null) return `${model} follows as well as it can.`;
   const times = distance / sigma;
-  if (times <= 1) return `Yes: within the tolerance σ, ${model} makes the same shape.`;
-  if (times <= 2) return `Nearly: ${model} stays between one and two σ away.`;
-  return `No: ${model} stays ${number(times, 2)} σ away.`;
+  if (times > 2) return `No: ${model} stays ${number(times, 2)} σ away.`;
+  if (times > 1) return `Nearly: ${model} stays ${number(times, 2)} σ away.`;
+  const rare = plausibility < RARE ? `, though one that is rare in ${model}` : "";
+  return `Yes: ${model} makes the same shape within σ${rare}.`;
 }

@@ -24,11 +24,11 @@ export function Follow() {
   const { norm, plausibility } = found.explored;
   return (
     <section class="follow" aria-label="Can the other model follow?" data-stale={outOfDate.value}>
-      <div class="follow-words">
+      <div class="follow-words" data-followers={followers(space).length}>
         <h3>{followQuestion(space)}</h3>
         {followers(space).map((side) => (
           <p key={side} data-follows={side}>
-            {followWords(SIGNS[side], placed[side].distance, sigmaInUse.value)}
+            {followWords(SIGNS[side], placed[side], sigmaInUse.value)}
           </p>
         ))}
       </div>
