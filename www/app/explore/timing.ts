@@ -1,11 +1,17 @@
 /** How long parts of a frame take, for `npm run bench -- --morph`; nobody else asks. */
 
-type Timings = Record<string, number[]>;
+interface Timed {
+  timings?: Record<string, number[]>;
+  /** Whether each frame waits until it is drawn: then nothing else is timed rightly. */
+  timesDrawing?: boolean;
+}
 
-const timings = (globalThis as { timings?: Timings }).timings ?? null;
+const page: Timed = globalThis as Timed;
+const timings = page.timings ?? null;
 
-/** Whether somebody asks: some parts take time only because they are timed. */
-export const isTimed = timings !== null;
+export function timesDrawing(): boolean {
+  return page.timesDrawing === true;
+}
 
 export function note(name: string, begun: number): void {
   if (timings === null) return;

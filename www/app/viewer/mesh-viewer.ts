@@ -20,7 +20,7 @@ import {
 } from "three";
 import type { Region } from "../../worker/protocol";
 import { colourOf, shareIn } from "../colormap";
-import { isTimed, note } from "../explore/timing";
+import { note, timesDrawing } from "../explore/timing";
 import { type Camera, HOME } from "./camera";
 import { discardEllipsoid, ellipsoidObject } from "./ellipsoid";
 import { dots, isLit, readyToMove, surface, viridisTable } from "./materials";
@@ -350,7 +350,7 @@ export class MeshViewer implements Viewer {
       });
     }
     note("upload and draw calls", begun);
-    if (isTimed) this.#waitUntilDrawn();
+    if (timesDrawing()) this.#waitUntilDrawn();
   }
 
   /** Drawing goes on in a process of its own; what is read back must be there. */
