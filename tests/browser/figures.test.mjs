@@ -79,7 +79,7 @@ test("a figure has any size and background, and what is left out makes it lower"
   await withPage({}, async ({ url, page }) => {
     await open(page, url, "demo=stars-1&view=sd&map=ratio");
     const dialog = await openDialog(page);
-    await dialog.getByRole("radio", { name: /^Variance ratio/ }).check({ force: true });
+    await dialog.getByRole("radio", { name: /^Variance ratio/ }).dispatchEvent("click");
     await dialog.getByLabel("Unit of the width").selectOption("px");
     const width = dialog.getByRole("spinbutton", { name: "Width" });
     await width.fill("1000");
@@ -117,7 +117,7 @@ test("a figure of 8,192 pixels is drawn in parts that fit together", async () =>
   await withPage({}, async ({ url, page }) => {
     await open(page, url, "demo=heads-sex");
     const dialog = await openDialog(page);
-    await dialog.getByRole("radio", { name: "Variance" }).check({ force: true });
+    await dialog.getByRole("radio", { name: "Variance" }).dispatchEvent("click");
     const save = async (pixels) => {
       await dialog.getByLabel("Unit of the width").selectOption("px");
       const width = dialog.getByRole("spinbutton", { name: "Width" });
@@ -186,7 +186,7 @@ test("a mode as GIF has its frames, its size and its speed, also with reduced mo
   await withPage({ reducedMotion: "reduce" }, async ({ url, page }) => {
     await open(page, url, "demo=stars-1");
     const dialog = await openFilm(page);
-    await dialog.getByRole("radio", { name: "Mode of A", exact: true }).check({ force: true });
+    await dialog.getByRole("radio", { name: "Mode of A", exact: true }).dispatchEvent("click");
     await dialog.getByLabel("Format").selectOption("gif");
     await fill(dialog, "Mode", 2);
     await fill(dialog, "Width, pixels", 200);
@@ -212,7 +212,7 @@ test("the way from A to B as WebM, and a film that is given up saves nothing", a
   await withPage({}, async ({ url, page }) => {
     await open(page, url, "demo=heads-sex");
     const dialog = await openFilm(page);
-    await dialog.getByRole("radio", { name: "From A to B" }).check({ force: true });
+    await dialog.getByRole("radio", { name: "From A to B" }).dispatchEvent("click");
     await dialog.getByLabel("Format").selectOption("webm");
     await fill(dialog, "Width, pixels", 240);
     await fill(dialog, "Seconds", 1);

@@ -65,8 +65,13 @@ test("a run says how far it is and whether its draws can be believed yet", async
     const words = await panel(page).innerText();
     assert.match(words, /σ\s+[\d.]+ units/);
     assert.match(words, /acceptance\s+[\d.]+/);
-    assert.match(words, /R-hat\s+\d/);
-    assert.match(words, /not converged yet/);
+    // What it says of them follows from the two figures beside it, whenever that is.
+    const [rHat, ess] = [/R-hat\s+([\d.]+)/, /ESS\s+([\d\u202f]+)/].map((pattern) =>
+      Number(pattern.exec(words)?.[1]?.replaceAll("\u202f", "")),
+    );
+    assert.ok(rHat >= 1 && ess > 0, words);
+    const well = rHat < 1.01 && ess >= 400;
+    assert.match(words, well ? /looks well so far/ : /not converged yet/);
     // The picture does not wait for the end.
     await untilDrawn(page, ["a", "intersection", "b"]);
   });
