@@ -72,7 +72,7 @@ function Axis({ axes, axis }: { axes: Axes; axis: number }) {
   return (
     <li class="axis" data-axis={axis + 1} data-moved={value !== 0}>
       <span class="axis-name" title={words}>
-        <strong>{axis + 1}</strong>
+        <strong class="axis-number">{axis + 1}</strong>
         <span>
           {valueText(axes.kind, orders, unit.value)}
           {missed !== null && <small>{missed}</small>}
