@@ -76,7 +76,7 @@ async function morphInChromium(build, files) {
     await dropFiles(page, "body", files);
     await untilState(page, "running");
     await untilState(page, "done", 120_000);
-    await page.getByRole("button", { name: "Play direction 1" }).click();
+    await page.getByRole("button", { name: "Play direction 1", exact: true }).click();
     await page.waitForTimeout(1000);
     console.log(`\nThe explorer in Chromium, ${build}: 5,764 points, 50 modes, three panes`);
     const timings = await timedFrames(page, false);
