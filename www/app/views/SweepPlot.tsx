@@ -2,6 +2,7 @@ import type { SweepPoint } from "../../worker/protocol";
 import { length, number } from "../format";
 import { linear, logarithmic, ticks } from "../plots";
 import { recommended, settings, unit } from "../state";
+import { CurveLegend } from "./Curves";
 import { Mark } from "./Mark";
 import { SaveTable } from "./SaveTable";
 
@@ -89,19 +90,7 @@ export function SweepLines({ points, width, height }: Props) {
 }
 
 export function SweepLegend() {
-  return (
-    <ul class="legend" aria-hidden="true">
-      {SERIES.map(({ key, label, mark }) => (
-        <li key={key} class="series" data-series={key}>
-          <svg viewBox="0 0 22 10" aria-hidden="true">
-            <polyline points="0,5 22,5" />
-            <Mark kind={mark} x={11} y={5} />
-          </svg>
-          {label}
-        </li>
-      ))}
-    </ul>
-  );
+  return <CurveLegend curves={SERIES} />;
 }
 
 /** The two labels lean away from one another. */
