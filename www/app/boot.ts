@@ -5,7 +5,9 @@ import { FIRST_DEMO } from "./demos";
 import { engineClient } from "./engine";
 import { watchExplorer } from "./explore/asking";
 import { watchPlaying } from "./explore/playing";
-import { apply, keepLink, modelsOf, shelfOf } from "./history";
+import { apply, joinUntil, keepLink, modelsOf, shelfOf } from "./history";
+import { titleOf } from "./learn/scenes";
+import { lessonState, scene } from "./learn/state";
 import { type LinkState, misread, readLink, SETTING_KEYS } from "./link";
 import { watchMaps } from "./maps";
 import { demoModels, openPair } from "./models";
@@ -15,17 +17,38 @@ import { settingsKey } from "./settings";
 import { restoreShelf } from "./shelf/actions";
 import { watchMatrix } from "./shelf/matrix";
 import { watchEngine } from "./shelf/reopen";
-import { notify, nouns, pageState, result, run } from "./state";
+import { begun, notify, nouns, page, pageState, result, run, settings } from "./state";
 import { fetchStored } from "./stored";
 import { watchTheme } from "./theme";
 
-export async function boot(): Promise<void> {
+export function boot(): void {
   const link = readLink(location.hash);
   apply(link);
-  tellMisread();
   watchTheme();
   watchDocument();
   watchEngine();
+  if (link.page === "compare") {
+    void bootComparison(link).then(() => {
+      keepLink();
+      return restoreShelf(shelfOf(link));
+    });
+    return;
+  }
+  keepLink();
+  // Other pages need none of it, until somebody turns to the comparison.
+  const stop = effect(() => {
+    if (page.value !== "compare") return;
+    queueMicrotask(() => {
+      stop();
+      const link = readLink(location.hash);
+      void joinUntil(bootComparison(link)).then(() => restoreShelf(shelfOf(link)));
+    });
+  });
+}
+
+async function bootComparison(link: LinkState): Promise<void> {
+  begun.value = true;
+  tellMisread();
   engineClient();
   const models = openModels(link);
   const stored = await fetchStored();
@@ -33,7 +56,7 @@ export async function boot(): Promise<void> {
     // Whoever restores sees whether this failed; until then it is not unhandled.
     stored.draws().catch(() => undefined);
     batch(() => {
-      apply({ ...link, settings: stored.settings });
+      settings.value = stored.settings;
       result.value = storedResult(stored);
     });
   }
@@ -46,8 +69,6 @@ export async function boot(): Promise<void> {
   watchMatrix();
   watchRunFile();
   await models;
-  keepLink();
-  await restoreShelf(shelfOf(link));
 }
 
 /** Whether the address asks for the stored comparison, as an address that says nothing does. */
@@ -78,9 +99,24 @@ async function openModels(link: LinkState): Promise<void> {
 /** What the document itself shows of the state. */
 function watchDocument(): void {
   effect(() => {
-    document.documentElement.dataset.state = pageState.value;
+    document.documentElement.dataset.state =
+      page.value === "learn"
+        ? lessonState.value
+        : page.value === "gallery"
+          ? "done"
+          : pageState.value;
   });
   effect(() => {
+    document.documentElement.dataset.page = page.value;
+  });
+  effect(() => {
+    if (page.value !== "compare") {
+      document.title =
+        page.value === "learn"
+          ? `${titleOf(scene.value).title} – Shapevenn`
+          : "Gallery – Shapevenn";
+      return;
+    }
     const fraction = run.value?.progress?.fraction;
     const name = `${nouns.value.a} and ${nouns.value.b}`;
     document.title = run.value

@@ -3,6 +3,7 @@ import { batch, computed, effect, untracked } from "@preact/signals";
 import type { PointSelection } from "../worker/protocol";
 import { findDemo } from "./demos";
 import { applyExplorer, lockedHeat, settledExplorer } from "./explore/state";
+import { applyLesson, settledLesson } from "./learn/state";
 import { fitsLink, type LinkState, readLink, writeLink } from "./link";
 import { demoModels, giveUpOpening, openPair } from "./models";
 import { arrange, giveUpAdding, restoreShelf } from "./shelf/actions";
@@ -11,6 +12,7 @@ import { measure } from "./shelf/matrix";
 import { isUsed } from "./shelf/order";
 import { demoSource, first, isOpen, wantedOf } from "./sources";
 import {
+  begun,
   camera,
   demo,
   diagnosedMode,
@@ -18,6 +20,7 @@ import {
   exaggeration,
   lockedRange,
   mapMode,
+  page,
   painting,
   picture,
   region,
@@ -88,6 +91,8 @@ function parts(): LinkState["parts"] {
 /** All that makes the picture, as far as an address can say it. */
 function present(): LinkState {
   return {
+    page: page.value,
+    lesson: settledLesson.value,
     demo: demo.value?.id ?? "files",
     urls: urls(),
     parts: parts(),
@@ -123,6 +128,9 @@ export function writeAddress(): void {
 
 /** What is a step to undo: all of a link but the camera, which only follows along, and what no link holds. */
 const step = computed(() => {
+  // What goes on in a comparison behind them is no step of other pages.
+  if (page.value === "gallery") return page.value;
+  if (page.value === "learn") return JSON.stringify([page.value, settledLesson.value]);
   const models = SIDES.map((side) => slots[side].value && slotKey(slots[side].value));
   return JSON.stringify([models, shelf.value.map(slotKey), { ...present(), camera: null }]);
 });
@@ -156,6 +164,16 @@ export function joinStep(change: () => void, of: number): void {
   joins = steps.at === of;
   try {
     batch(change);
+  } finally {
+    joins = false;
+  }
+}
+
+/** What changes until this is over belongs to the present step. */
+export async function joinUntil(over: Promise<void>): Promise<void> {
+  joins = true;
+  try {
+    await over;
   } finally {
     joins = false;
   }
@@ -214,6 +232,10 @@ async function follow(state: unknown): Promise<void> {
   const mine = journeys;
   const place = steps.arrive(state);
   const link = readLink(location.hash);
+  if (link.page !== "compare" || !begun.peek()) {
+    apply(link);
+    return;
+  }
   const wanted = place?.shelf ?? shelfOf(link);
   giveUpOpening();
   giveUpAdding();
@@ -267,6 +289,10 @@ export function shelfOf(link: LinkState): Wanted[] {
 
 export function apply(link: LinkState): void {
   batch(() => {
+    page.value = link.page;
+    // What is compared stays as it is while something else is looked at.
+    if (link.page === "learn") applyLesson(link.lesson);
+    if (link.page !== "compare") return;
     settings.value = link.settings;
     room.value = link.room;
     view.value = link.view;

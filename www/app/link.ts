@@ -15,6 +15,7 @@ import type {
 } from "../worker/protocol";
 import { DEMO_MODELS, FIRST_DEMO, findDemo } from "./demos";
 import { defaultExplorer, type ExplorerState, readExplorer, writeExplorer } from "./explore/codec";
+import { defaultLesson, type LessonState, readLesson, writeLesson } from "./learn/link";
 import { UNITS } from "./preparation";
 import { parseRanges } from "./ranges";
 import {
@@ -44,6 +45,9 @@ export const LINK_VERSION = 1;
 
 export type ViewMode = "mean" | "samples" | "sd";
 export const VIEW_MODES: ViewMode[] = ["mean", "samples", "sd"];
+/** What the page is for: to compare, to learn how that is done, to choose from what there is to see. */
+export type PageName = "compare" | "learn" | "gallery";
+export const PAGES: PageName[] = ["compare", "learn", "gallery"];
 /** Parts of the page, each with its own look at the same comparison. */
 export type Room = "regions" | "explore" | "measures" | "diagnostics" | "models";
 export const ROOMS: Room[] = ["regions", "explore", "measures", "diagnostics", "models"];
@@ -77,6 +81,9 @@ const PICTURES: Picture[] = ["draws", "exclusiveModes"];
 
 /** Everything that makes the picture. */
 export interface LinkState {
+  page: PageName;
+  /** What is taught, on the page that teaches. */
+  lesson: LessonState;
   /** A pair that comes with the page, unless both models have addresses. */
   demo: string;
   /** `https:…`, or `demo:NAME` of one model that comes with the page. */
@@ -115,6 +122,8 @@ export interface LinkState {
 
 export function defaultLink(): LinkState {
   return {
+    page: "compare",
+    lesson: defaultLesson(),
     demo: FIRST_DEMO.id,
     urls: null,
     parts: { a: null, b: null },
@@ -140,8 +149,19 @@ export function defaultLink(): LinkState {
 }
 
 export function writeLink(state: LinkState): string {
+  const pairs: [string, string | number][] = [["v", LINK_VERSION], ...pagePairs(state)];
+  return pairs.map(([key, value]) => `${key}=${escapeValue(String(value))}`).join("&");
+}
+
+function pagePairs(state: LinkState): [string, string | number][] {
+  const { page, lesson } = state;
+  if (page === "compare") return comparisonPairs(state);
+  return [["page", page], ...(page === "learn" ? writeLesson(lesson) : [])];
+}
+
+function comparisonPairs(state: LinkState): [string, string | number][] {
   const { settings, camera } = state;
-  const pairs: [string, string | number][] = [["v", LINK_VERSION]];
+  const pairs: [string, string | number][] = [];
   if (state.urls) {
     pairs.push(["a", state.urls.a], ["b", state.urls.b]);
     if (state.parts.a !== null) pairs.push(["part-a", state.parts.a]);
@@ -164,7 +184,7 @@ export function writeLink(state: LinkState): string {
   pairs.push(...lookPairs(state));
   const turned = cameraText(camera);
   if (turned !== cameraText(HOME)) pairs.push(["camera", turned]);
-  return pairs.map(([key, value]) => `${key}=${escapeValue(String(value))}`).join("&");
+  return pairs;
 }
 
 /** How the comparison is looked at, as far as that is not as at first. */
@@ -242,6 +262,8 @@ export function readLink(fragment: string): LinkState {
   const a = given.get("a");
   const b = given.get("b");
   return {
+    page: oneOf(given.get("page"), PAGES) ?? fallback.page,
+    lesson: readLesson(given),
     demo: findDemo(given.get("demo") ?? "")?.id ?? fallback.demo,
     urls: a && b && isAddress(a) && isAddress(b) ? { a, b } : null,
     parts: { a: given.get("part-a"), b: given.get("part-b") },

@@ -17,7 +17,7 @@ import type {
   SettingsPatch,
 } from "../worker/protocol";
 import { DEMO_GROUPS, FIRST_DEMO, findDemo, type Nouns, nounsOf } from "./demos";
-import { defaultLink, type LinkState, type Room, type ViewMode } from "./link";
+import { defaultLink, type LinkState, type PageName, type Room, type ViewMode } from "./link";
 import { patched } from "./preparation";
 import { DEFAULTS, settingsKey } from "./settings";
 import { type Camera, HOME } from "./viewer/camera";
@@ -106,6 +106,9 @@ export const engine = signal<EngineInfo | null>(null);
 /** What a screen reader is told. */
 export const spoken = signal("");
 
+export const page = signal<PageName>(first.page);
+/** Whether anything was compared yet: other pages do without. */
+export const begun = signal(false);
 /** The part of the page that is looked at. */
 export const room = signal<Room>(first.room);
 export const view = signal<ViewMode>(first.view);

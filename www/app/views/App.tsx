@@ -1,4 +1,4 @@
-import { demo, room, spoken } from "../state";
+import { demo, page, room, spoken } from "../state";
 import { wide } from "../wide";
 import { About } from "./About";
 import { Chooser } from "./Chooser";
@@ -8,6 +8,7 @@ import { DropOverlay } from "./DropOverlay";
 import { Explorer } from "./Explorer";
 import { ExploreStage } from "./explore/ExploreStage";
 import { Header } from "./Header";
+import { Later } from "./Later";
 import { Measures } from "./Measures";
 import { ModelCard } from "./ModelCard";
 import { ModelTable } from "./ModelTable";
@@ -22,42 +23,12 @@ import { Stage } from "./Stage";
 import { Taking } from "./Taking";
 
 export function App() {
-  const explores = room.value === "explore";
   return (
     <>
       <Header />
-      <main data-room={room.value}>
-        <div class="centre">
-          <Notices place="page" />
-          <Notices place="link" />
-          <Headline />
-          <Rooms />
-          <Stage />
-          {explores && <ExploreStage />}
-          {explores && !wide.value && <Explorer />}
-          {room.value === "measures" && <Measures />}
-          {room.value === "diagnostics" && <Diagnostics />}
-          {room.value === "models" && <ModelTable />}
-        </div>
-        <div class="rail models">
-          <ModelCard side="a" />
-          <ModelCard side="b" />
-          <RunFileCard />
-          <p class="privacy">
-            {demo.value && `${demo.value.note} `}
-            Drop files or folders anywhere. Your files stay on this computer.
-          </p>
-          <PairCard />
-          <RunPanel />
-          <SettingsPanel />
-        </div>
-        <div class="rail reading">
-          {explores && wide.value && <Explorer />}
-          {explores ? <FoldedResults /> : <Results />}
-          <Downloads />
-          <About />
-        </div>
-      </main>
+      {page.value === "compare" && <Comparison />}
+      {page.value === "learn" && <Later load={learn} />}
+      {page.value === "gallery" && <Later load={gallery} />}
       <DropOverlay />
       <Chooser />
       <Taking />
@@ -65,6 +36,47 @@ export function App() {
         {spoken.value}
       </p>
     </>
+  );
+}
+
+const learn = () => import("../learn/Learn").then(({ Learn }) => Learn);
+const gallery = () => import("./Gallery").then(({ Gallery }) => Gallery);
+
+function Comparison() {
+  const explores = room.value === "explore";
+  return (
+    <main class="comparison" data-room={room.value}>
+      <div class="centre">
+        <Notices place="page" />
+        <Notices place="link" />
+        <Headline />
+        <Rooms />
+        <Stage />
+        {explores && <ExploreStage />}
+        {explores && !wide.value && <Explorer />}
+        {room.value === "measures" && <Measures />}
+        {room.value === "diagnostics" && <Diagnostics />}
+        {room.value === "models" && <ModelTable />}
+      </div>
+      <div class="rail models">
+        <ModelCard side="a" />
+        <ModelCard side="b" />
+        <RunFileCard />
+        <p class="privacy">
+          {demo.value && `${demo.value.note} `}
+          Drop files or folders anywhere. Your files stay on this computer.
+        </p>
+        <PairCard />
+        <RunPanel />
+        <SettingsPanel />
+      </div>
+      <div class="rail reading">
+        {explores && wide.value && <Explorer />}
+        {explores ? <FoldedResults /> : <Results />}
+        <Downloads />
+        <About />
+      </div>
+    </main>
   );
 }
 

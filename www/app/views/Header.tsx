@@ -2,9 +2,10 @@ import { useSignal } from "@preact/signals";
 import { DEMO_GROUPS, findDemo } from "../demos";
 import { linkable, redo, redoable, undo, undoable, writeAddress } from "../history";
 import { chooseDemo } from "../models";
-import { demo, painting, spoken } from "../state";
+import { demo, page, painting, spoken } from "../state";
 import { isDark, toggleTheme } from "../theme";
 import { LinkIcon, MoonIcon, RedoIcon, SunIcon, UndoIcon } from "./icons";
+import { Pages } from "./Pages";
 
 export function Header() {
   return (
@@ -17,9 +18,10 @@ export function Header() {
         <h1>Shapevenn</h1>
         <p class="tagline">Which shapes can both models make?</p>
       </div>
+      <Pages />
       <div class="tools">
         <UndoButtons />
-        <DemoChooser />
+        {page.value === "compare" && <DemoChooser />}
         <CopyLink />
         <button
           type="button"

@@ -1,0 +1,44 @@
+import { useEffect, useRef } from "preact/hooks";
+import { Notices } from "../views/Notices";
+import { useKeys } from "./keys";
+import { SceneList, StepAlong } from "./parts/SceneList";
+import { SCENES, TEACHER, titleOf } from "./scenes";
+import { SCENE_VIEWS } from "./scenes/index";
+import { large, resets, scene } from "./state";
+import "../../styles/learn.css";
+
+/** The lessons: one scene at a time, each a link. */
+export function Learn() {
+  const top = useRef<HTMLElement>(null);
+  const name = scene.value;
+  useKeys();
+  // A new scene is read from its top.
+  useEffect(() => {
+    top.current?.scrollTo(0, 0);
+  }, [name]);
+  useEffect(() => {
+    document.documentElement.dataset.letters = large.value ? "large" : "usual";
+    return () => delete document.documentElement.dataset.letters;
+  }, [large.value]);
+  const View = SCENE_VIEWS[name];
+  const { title } = titleOf(name);
+  const place = SCENES.findIndex((one) => one.name === name);
+  return (
+    <main class="learn" ref={top} data-scene={name}>
+      <SceneList scenes={SCENES} teacher={TEACHER} />
+      <article class="scene" aria-labelledby="scene-title">
+        <Notices place="page" />
+        <header class="scene-head">
+          {place >= 0 && (
+            <p class="scene-place">
+              {place + 1} of {SCENES.length}
+            </p>
+          )}
+          <h2 id="scene-title">{title}</h2>
+        </header>
+        <View key={`${name} ${resets.value}`} />
+        <StepAlong />
+      </article>
+    </main>
+  );
+}

@@ -1,0 +1,107 @@
+import type { ComponentChildren } from "preact";
+import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
+import { isDark } from "../../theme";
+import { type Palette, paletteOf } from "./palette";
+
+export interface Size {
+  width: number;
+  height: number;
+}
+export interface Pointer {
+  x: number;
+  y: number;
+  size: Size;
+}
+export type Draw = (pen: CanvasRenderingContext2D, size: Size, palette: Palette) => void;
+
+interface Props {
+  /** What is drawn, for those who do not see it. */
+  label: string;
+  /** Height over width. */
+  aspect: number;
+  /** Draws everything anew, in pixels of the page; called whenever the board is rendered. */
+  draw: Draw;
+  /** Where something is dragged; false from `onGrab` lets the page scroll instead. */
+  onGrab?: (at: Pointer) => boolean;
+  onDrag?: (at: Pointer) => void;
+  onDrop?: () => void;
+  /** Returns whether the key was meant. */
+  onKey?: (key: string, event: KeyboardEvent) => boolean;
+  children?: ComponentChildren;
+}
+
+/** A picture of a lesson, on Canvas2D, sharp on every screen and in the colours of the page. */
+export function Board(props: Props) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const latest = useRef(props);
+  latest.current = props;
+  const held = useRef(false);
+  const { label, aspect, onGrab, onKey } = props;
+  const dark = isDark();
+  useLayoutEffect(() => paint(canvas.current, latest.current.draw));
+  useEffect(() => {
+    const element = canvas.current;
+    if (!element) return;
+    const observer = new ResizeObserver(() => paint(element, latest.current.draw));
+    observer.observe(element);
+    return () => observer.disconnect();
+  }, []);
+  const at = (event: PointerEvent): Pointer => {
+    const box = (event.currentTarget as HTMLElement).getBoundingClientRect();
+    const [x, y] = [event.clientX - box.left, event.clientY - box.top];
+    return { x, y, size: { width: box.width, height: box.height } };
+  };
+  const down = (event: PointerEvent) => {
+    if (event.button !== 0 || !latest.current.onGrab?.(at(event))) return;
+    held.current = true;
+    (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
+    event.preventDefault();
+    (event.currentTarget as HTMLElement).focus({ preventScroll: true });
+  };
+  const move = (event: PointerEvent) => {
+    if (held.current) latest.current.onDrag?.(at(event));
+  };
+  const up = () => {
+    if (!held.current) return;
+    held.current = false;
+    latest.current.onDrop?.();
+  };
+  return (
+    <div class="board" style={{ aspectRatio: String(1 / aspect) }} data-dark={dark}>
+      <canvas
+        ref={canvas}
+        // Arrow keys are ours where something can be moved.
+        role={onKey ? "application" : "img"}
+        tabIndex={onKey ? 0 : -1}
+        aria-label={label}
+        data-drags={onGrab !== undefined}
+        onPointerDown={down}
+        onPointerMove={move}
+        onPointerUp={up}
+        onPointerCancel={up}
+        onKeyDown={(event) => {
+          if (onKey?.(event.key, event)) {
+            event.preventDefault();
+            event.stopPropagation();
+          }
+        }}
+      />
+      {props.children}
+    </div>
+  );
+}
+
+function paint(canvas: HTMLCanvasElement | null, draw: Draw): void {
+  const pen = canvas?.getContext("2d");
+  if (!canvas || !pen) return;
+  const size = { width: canvas.clientWidth, height: canvas.clientHeight };
+  if (size.width === 0) return;
+  const scale = Math.min(devicePixelRatio, 2);
+  const [width, height] = [Math.round(size.width * scale), Math.round(size.height * scale)];
+  if (canvas.width !== width) canvas.width = width;
+  if (canvas.height !== height) canvas.height = height;
+  pen.setTransform(scale, 0, 0, scale, 0, 0);
+  pen.clearRect(0, 0, size.width, size.height);
+  pen.lineJoin = pen.lineCap = "round";
+  draw(pen, size, paletteOf(canvas));
+}

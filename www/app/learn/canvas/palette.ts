@@ -1,0 +1,61 @@
+/** The colours of the page, for canvases. */
+export interface Palette {
+  paper: string;
+  stage: string;
+  raised: string;
+  ink: string;
+  dim: string;
+  line: string;
+  a: string;
+  b: string;
+  ab: string;
+  good: string;
+  bad: string;
+  warn: string;
+  /** Family and pixels of small letters. */
+  font: string;
+  text: number;
+}
+
+const NAMES = [
+  "paper",
+  "stage",
+  "raised",
+  "ink",
+  "dim",
+  "line",
+  "a",
+  "b",
+  "ab",
+  "good",
+  "bad",
+  "warn",
+] as const;
+
+let probe: HTMLElement | null = null;
+
+/** As the element has them: a theme, or larger letters, may be on above it. */
+export function paletteOf(element: HTMLElement): Palette {
+  // Custom properties are not resolved to colours: a colour of an element is.
+  if (!probe) {
+    probe = document.createElement("i");
+    probe.hidden = true;
+    document.body.append(probe);
+  }
+  const found: Record<string, string> = {};
+  for (const name of NAMES) {
+    probe.style.color = `var(--${name})`;
+    found[name] = getComputedStyle(probe).color;
+  }
+  const { fontFamily, fontSize } = getComputedStyle(element);
+  return {
+    ...(found as unknown as Omit<Palette, "font" | "text">),
+    font: fontFamily,
+    text: Number.parseFloat(fontSize),
+  };
+}
+
+/** A colour of the palette, let through. */
+export function faded(colour: string, opacity: number): string {
+  return `color-mix(in srgb, ${colour} ${Math.round(100 * opacity)}%, transparent)`;
+}

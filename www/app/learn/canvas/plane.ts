@@ -1,0 +1,129 @@
+/** A plane of two numbers on a canvas: where things are, ellipses, clouds, fields, shapes. */
+import type { LessonField, LessonGaussian } from "../../../worker/lessons";
+import { viridis } from "../../colormap";
+import type { Size } from "./Board";
+
+/** From numbers to pixels and back; up is up. */
+export interface Plane {
+  x: (value: number) => number;
+  y: (value: number) => number;
+  /** Pixels of one unit. */
+  scale: number;
+  back: (x: number, y: number) => [number, number];
+}
+
+/** As much as fits of −extent … extent in both directions, around a centre. */
+export function planeOf(
+  size: Size,
+  extent: number,
+  centre: readonly [number, number] = [0, 0],
+): Plane {
+  const scale = Math.min(size.width, size.height) / (2 * extent);
+  const [left, top] = [size.width / 2 - scale * centre[0], size.height / 2 + scale * centre[1]];
+  return {
+    x: (value) => left + scale * value,
+    y: (value) => top - scale * value,
+    scale,
+    back: (x, y) => [(x - left) / scale, (top - y) / scale],
+  };
+}
+
+/** The closed line, or the lines, of a flat shape: xyxy… */
+export function traceShape(
+  pen: CanvasRenderingContext2D,
+  plane: Plane,
+  shape: ArrayLike<number>,
+  segments: readonly (readonly [number, number])[],
+): void {
+  pen.beginPath();
+  for (const [from, to] of segments) {
+    pen.moveTo(plane.x(shape[2 * from] ?? 0), plane.y(shape[2 * from + 1] ?? 0));
+    pen.lineTo(plane.x(shape[2 * to] ?? 0), plane.y(shape[2 * to + 1] ?? 0));
+  }
+}
+
+/** The curve of `radius` standard deviations of a Gaussian, in two of its coefficients. */
+export function traceGaussian(
+  pen: CanvasRenderingContext2D,
+  plane: Plane,
+  { mean, covariance }: LessonGaussian,
+  radius: number,
+  modes: readonly [number, number] = [0, 1],
+): void {
+  const q = mean.length;
+  const [i, j] = modes;
+  const at = (row: number, column: number) => covariance[row * q + column] ?? 0;
+  // Cholesky of the two by two block.
+  const first = Math.sqrt(Math.max(0, at(i, i)));
+  const cross = first > 0 ? at(i, j) / first : 0;
+  const second = Math.sqrt(Math.max(0, at(j, j) - cross * cross));
+  pen.beginPath();
+  for (let k = 0; k <= 96; k += 1) {
+    const angle = (k / 96) * 2 * Math.PI;
+    const [c, s] = [radius * Math.cos(angle), radius * Math.sin(angle)];
+    pen.lineTo(
+      plane.x((mean[i] ?? 0) + first * c),
+      plane.y((mean[j] ?? 0) + cross * c + second * s),
+    );
+  }
+  pen.closePath();
+}
+
+/** Points of a cloud, two of their coefficients, as dots. */
+export function dots(
+  pen: CanvasRenderingContext2D,
+  plane: Plane,
+  values: ArrayLike<number>,
+  dimension: number,
+  radius: number,
+  modes: readonly [number, number] = [0, 1],
+): void {
+  pen.beginPath();
+  for (let at = 0; at < values.length; at += dimension) {
+    const x = plane.x(values[at + modes[0]] ?? 0);
+    const y = plane.y(values[at + modes[1]] ?? 0);
+    pen.moveTo(x + radius, y);
+    pen.arc(x, y, radius, 0, 2 * Math.PI);
+  }
+  pen.fill();
+}
+
+/** How far below its maximum a density is still coloured, in units of log. */
+const DEPTH = 8;
+
+/**
+ * A picture of log densities, size × size, to be drawn over the square −extent … extent: viridis, and
+ * clear where the density is next to nothing.
+ */
+export function fieldImage({ values, highest }: LessonField): HTMLCanvasElement {
+  const size = Math.round(Math.sqrt(values.length));
+  const canvas = document.createElement("canvas");
+  canvas.width = canvas.height = size;
+  const pen = canvas.getContext("2d");
+  if (!pen) return canvas;
+  const image = pen.createImageData(size, size);
+  values.forEach((value, i) => {
+    const share = Math.exp(value - highest);
+    const [red, green, blue] = viridis(share);
+    const shown = Math.max(0, 1 + (value - highest) / DEPTH);
+    image.data.set([red, green, blue, Math.round(255 * Math.min(1, shown))], 4 * i);
+  });
+  pen.putImageData(image, 0, 0);
+  return canvas;
+}
+
+export function drawField(
+  pen: CanvasRenderingContext2D,
+  plane: Plane,
+  image: HTMLCanvasElement,
+  extent: number,
+): void {
+  pen.imageSmoothingEnabled = true;
+  pen.drawImage(
+    image,
+    plane.x(-extent),
+    plane.y(extent),
+    2 * extent * plane.scale,
+    2 * extent * plane.scale,
+  );
+}

@@ -1,0 +1,31 @@
+/** What moves by itself: frame by frame, never out of sight, and still for those who ask for calm. */
+import { type Signal, signal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+
+const calm = matchMedia("(prefers-reduced-motion: reduce)");
+/** Whether nothing moves unless it is asked to. */
+export const still = signal(calm.matches);
+calm.addEventListener("change", () => {
+  still.value = calm.matches;
+});
+
+/** A jump after the page was hidden is no movement. */
+const LONGEST_FRAME_MS = 100;
+
+/** Calls `frame` with the milliseconds since the last one, while `playing` is on. */
+export function useFrames(playing: Signal<boolean>, frame: (elapsed: number) => void): void {
+  const latest = useRef(frame);
+  latest.current = frame;
+  const on = playing.value;
+  useEffect(() => {
+    if (!on) return;
+    let before = performance.now();
+    let handle = requestAnimationFrame(function next(now) {
+      const elapsed = Math.min(LONGEST_FRAME_MS, Math.max(0, now - before));
+      before = now;
+      latest.current(elapsed);
+      handle = requestAnimationFrame(next);
+    });
+    return () => cancelAnimationFrame(handle);
+  }, [on]);
+}

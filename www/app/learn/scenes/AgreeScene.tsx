@@ -1,0 +1,3 @@
+export function AgreeScene() {
+  return <p>To come.</p>;
+}

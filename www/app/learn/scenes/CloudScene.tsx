@@ -1,0 +1,3 @@
+export function CloudScene() {
+  return <p>To come.</p>;
+}

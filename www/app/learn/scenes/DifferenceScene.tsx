@@ -1,0 +1,3 @@
+export function DifferenceScene() {
+  return <p>To come.</p>;
+}

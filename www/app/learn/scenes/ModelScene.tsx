@@ -1,0 +1,3 @@
+export function ModelScene() {
+  return <p>To come.</p>;
+}

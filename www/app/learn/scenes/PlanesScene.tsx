@@ -1,0 +1,3 @@
+export function PlanesScene() {
+  return <p>To come.</p>;
+}

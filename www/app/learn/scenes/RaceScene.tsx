@@ -1,0 +1,3 @@
+export function RaceScene() {
+  return <p>To come.</p>;
+}

@@ -1,0 +1,3 @@
+export function StepScene() {
+  return <p>To come.</p>;
+}

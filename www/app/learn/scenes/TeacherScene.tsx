@@ -1,0 +1,3 @@
+export function TeacherScene() {
+  return <p>To come.</p>;
+}

@@ -1,0 +1,3 @@
+export function YoursScene() {
+  return <p>To come.</p>;
+}
