@@ -259,11 +259,14 @@ export function fitsLink(points: PointSelection | null): boolean {
 export function readLink(fragment: string): LinkState {
   const given = new URLSearchParams(fragment.replace(/^#/, ""));
   const fallback = defaultLink();
+  const page = oneOf(given.get("page"), PAGES) ?? fallback.page;
+  // Keys of a lesson and of a comparison may have the same names.
+  if (page !== "compare") return { ...fallback, page, lesson: readLesson(given) };
   const a = given.get("a");
   const b = given.get("b");
   return {
-    page: oneOf(given.get("page"), PAGES) ?? fallback.page,
-    lesson: readLesson(given),
+    page,
+    lesson: fallback.lesson,
     demo: findDemo(given.get("demo") ?? "")?.id ?? fallback.demo,
     urls: a && b && isAddress(a) && isAddress(b) ? { a, b } : null,
     parts: { a: given.get("part-a"), b: given.get("part-b") },
