@@ -765,3 +765,69 @@ fn shapes_of_a_set_are_brought_to_one_size_when_it_is_asked_for() {
     let (with_size, without) = (compared(&[]), compared(&["--scale"]));
     assert!(without < 0.999 * with_size, "size varies no longer: {without}, {with_size} before");
 }
+
+/// A report without what depends on the clock.
+fn timeless(report: &str) -> Value {
+    let mut report: Value = serde_json::from_str(report).unwrap();
+    report.as_object_mut().unwrap().remove("seconds");
+    report
+}
+
+#[test]
+fn a_link_means_the_comparison_that_its_settings_mean() {
+    let link = "http://localhost:8080/#v=1&demo=stars-2&seed=7&draws=800&chains=4&sampler=independence\
+                &fit=laplace&sides=a&plaus=idempotent&diff=relative&leaves=60&diffdraws=300&modes=3\
+                &subsample=9&align=rigid&noise=0.02&weighted=2048&view=samples&camera=0.1,0.2,1";
+    let arguments = "compare demo:stars-2-a demo:stars-2-b --seed 7 --draws 800 --chains 4 --sampler independence \
+                     --fit laplace --pooling a --plausibility idempotent --difference relative \
+                     --difference-quantile 0.6 --difference-draws 300 --modes 3 --subsample 9 --align rigid \
+                     --noise 0.02 --weighted 2048 --json";
+    let arguments: Vec<&str> = arguments.split_whitespace().collect();
+    let by_link = printed(&["compare", "--link", link, "--json"]);
+    assert_eq!(timeless(&by_link), timeless(&printed(&arguments)), "by link and by arguments");
+    // What is “all” or “auto” in a link is left out of a command, and the first of two values counts.
+    let auto = "v=1&demo=planes&sigma=auto&modes=all&draws=400&draws=800";
+    let plain = ["compare", "demo:planes-a", "demo:planes-b", "--draws", "400", "--json"];
+    let by_link = printed(&["compare", "--link", auto, "--json"]);
+    assert_eq!(timeless(&by_link), timeless(&printed(&plain)), "auto");
+}
+
+#[test]
+fn a_link_may_be_about_other_files_and_parts() {
+    let catalog = fixture("bfm-catalog.h5");
+    let link = "#v=1&a=https://example.org/x.h5&b=demo:planes-b&part-a=expression&part-b=&draws=64";
+    let refused = shapevenn(&["compare", "--link", link]);
+    assert_eq!(refused.status.code(), Some(2), "addresses are not downloaded");
+    assert!(text(&refused.stderr).contains("https://example.org/x.h5 as A"), "{refused:?}");
+    let link = "#v=1&a=https://example.org/x.h5&b=https://example.org/y.h5&part-a=expression&part-b=shape&modes=3&draws=64";
+    let report = printed(&["compare", &catalog, &catalog, "--link", link, "--json"]);
+    let report: Value = serde_json::from_str(&report).unwrap();
+    assert_eq!(report["models"]["a"]["name"], "bfm-catalog.h5#expression", "the part of the link");
+    assert_eq!(report["models"]["b"]["name"], "bfm-catalog.h5#shape", "the part of the link");
+}
+
+#[test]
+fn a_link_that_cannot_be_read_is_refused_in_words() {
+    let cases = [
+        ("v=1&demo=moon", "the pair “moon”"),
+        (
+            "v=1&demo=planes&chains=many",
+            "“chains=many” of the link cannot be read; a count was expected",
+        ),
+        (
+            "v=1&demo=planes&sigma=dark",
+            "“sigma=dark” of the link cannot be read; a number was expected",
+        ),
+        ("v=1&demo=planes&sampler=magic", "unknown variant `magic`"),
+        ("v=1&page=learn&scene=step", "The link is to the page “learn”"),
+    ];
+    for (link, expected) in cases {
+        let refused = shapevenn(&["compare", "--link", link]);
+        let complaint = text(&refused.stderr);
+        assert_eq!(refused.status.code(), Some(2), "{link}: {complaint}");
+        assert!(complaint.contains(expected), "{link}: {complaint}");
+        assert!(complaint.lines().count() >= 2, "{link}: says what to do: {complaint}");
+    }
+    let both = shapevenn(&["compare", "--link", "v=1", "--sigma", "1"]);
+    assert_eq!(both.status.code(), Some(2), "a link decides all settings");
+}

@@ -5,6 +5,7 @@
 
 mod document;
 mod evaluate;
+mod link;
 mod matrix;
 mod overlap_document;
 mod prepare;
@@ -19,6 +20,7 @@ use std::time::Instant;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
+use link::Link;
 use shapevenn::compare::DifferenceDefinition;
 use shapevenn::comparison::{
     self, Comparison, ComparisonError, FitChoice, Plausibility, Pooling, Sampler, Settings,
@@ -92,7 +94,7 @@ enum Command {
     Reproduce(reproduce::Arguments),
 }
 
-/// What a run file decides.
+/// What a run file, or a link, decides.
 const DECIDED: [&str; 27] = [
     "align",
     "modes",
@@ -126,14 +128,17 @@ const DECIDED: [&str; 27] = [
 #[derive(Debug, Args)]
 struct Compare {
     /// First model: a file, a folder of shapes, `FILE#part` or `demo:NAME`
-    #[arg(required_unless_present = "run")]
+    #[arg(required_unless_present_any = ["run", "link"])]
     a: Option<String>,
     /// Second model
-    #[arg(required_unless_present = "run")]
+    #[arg(required_unless_present_any = ["run", "link"])]
     b: Option<String>,
     /// Make a comparison again: its run.json or report.json, and the models where they are no demos
     #[arg(long, value_name = "RUN.json", conflicts_with_all = DECIDED)]
     run: Option<PathBuf>,
+    /// Make the comparison of a link of the page: an address, or what is behind its “#”
+    #[arg(long, value_name = "LINK", conflicts_with = "run", conflicts_with_all = DECIDED)]
+    link: Option<String>,
     #[command(flatten)]
     prepare: prepare::Arguments,
     /// Tolerance σ in the unit of A; recommended from the models when left out
@@ -337,9 +342,12 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
         Some(path) => Some((rerun::read(path)?, path)),
         None => None,
     };
-    let (named, settings) = match &again {
-        Some((run, path)) => (rerun::models(run, path, given)?, run.settings.clone()),
-        None => (given.map(|source| source.unwrap_or_default().to_owned()), settings(arguments)?),
+    let (named, settings) = match (&again, &arguments.link) {
+        (Some((run, path)), _) => (rerun::models(run, path, given)?, run.settings.clone()),
+        (None, Some(link)) => linked(link, given)?,
+        (None, None) => {
+            (given.map(|source| source.unwrap_or_default().to_owned()), settings(arguments)?)
+        }
     };
     let open = |source: &str| sources::open(source, arguments.prepare.scale);
     let (a, b) = (open(&named[0])?, open(&named[1])?);
@@ -377,6 +385,21 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
         print_in_words(&report);
     }
     Ok(())
+}
+
+/// What a link compares, and how.
+fn linked(text: &str, given: [Option<&str>; 2]) -> Result<([String; 2], Settings), Failure> {
+    let link = Link::parse(text);
+    if link.page() != "compare" {
+        return Err(Failure::Input {
+            message: format!(
+                "The link is to the page “{}”; a comparison was expected.",
+                link.page()
+            ),
+            hint: "Links to lessons are for `shapevenn lesson LINK`.".to_owned(),
+        });
+    }
+    Ok((link.models(given)?, link.settings()?))
 }
 
 fn sweep(

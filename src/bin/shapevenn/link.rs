@@ -1,0 +1,204 @@
+//! `compare --link`: the comparison that a link of the page is about.
+//!
+//! The grammar is that of docs/links.md. Where the page falls back to the default, because a value cannot be
+//! read, the command line refuses: whoever types a command sees what was wrong with it.
+
+use serde_json::{Map, Value, json};
+use shapevenn::comparison::Settings;
+
+use crate::Failure;
+
+/// Settings by their key in a link, their name in a report, and how they are written.
+const SETTINGS: [(&str, &str, Kind); 18] = [
+    ("align", "align", Kind::Word),
+    ("modes", "modes", Kind::Count),
+    ("sigma", "sigma", Kind::Number),
+    ("sampler", "sampler", Kind::Word),
+    ("seed", "seed", Kind::Word),
+    ("chains", "chains", Kind::Count),
+    ("draws", "draws", Kind::Count),
+    ("burnin", "burnIn", Kind::Count),
+    ("thin", "thin", Kind::Count),
+    ("fit", "fit", Kind::Word),
+    ("sides", "pooling", Kind::Word),
+    ("plaus", "plausibility", Kind::Word),
+    ("noise", "noise", Kind::Number),
+    ("weighted", "weighted", Kind::Count),
+    ("diff", "difference", Kind::Word),
+    ("leaves", "differenceQuantile", Kind::Percent),
+    ("beyond", "differenceThreshold", Kind::Number),
+    ("diffdraws", "differenceDraws", Kind::Count),
+];
+
+/// The same of one model; each key ends in `-a` or `-b`.
+const OF_ONE: [(&str, Kind); 3] =
+    [("unit", Kind::Word), ("modes", Kind::Count), ("variance", Kind::Percent)];
+
+/// Keys of what is done to both models.
+const OF_BOTH: [&str; 4] = ["rebase", "convert", "points", "subsample"];
+
+/// The pair that a link means which names none, and the σ of its stored comparison.
+const FIRST: (&str, f64) = ("heads-sex", 1.0);
+
+#[derive(Debug, Clone, Copy)]
+enum Kind {
+    Word,
+    Count,
+    Number,
+    Percent,
+}
+
+/// Keys and values of a link.
+#[derive(Debug, Clone)]
+pub(crate) struct Link(Vec<(String, String)>);
+
+impl Link {
+    /// From a whole address or its fragment, with or without “#”.
+    pub(crate) fn parse(text: &str) -> Self {
+        let fragment = text.split_once('#').map_or(text, |(_, fragment)| fragment);
+        Self(form_urlencoded::parse(fragment.as_bytes()).into_owned().collect())
+    }
+
+    /// The first value of a key, as the page reads it.
+    pub(crate) fn get(&self, key: &str) -> Option<&str> {
+        self.0.iter().find(|(name, _)| name == key).map(|(_, value)| value.as_str())
+    }
+
+    /// What the page is for: a comparison when it is not said.
+    pub(crate) fn page(&self) -> &str {
+        self.get("page").unwrap_or("compare")
+    }
+
+    /// Settings of the comparison.
+    pub(crate) fn settings(&self) -> Result<Settings, Failure> {
+        let mut found = Map::new();
+        for (key, name, kind) in SETTINGS {
+            // “all” and “auto” are what is left out.
+            let given = self.get(key).filter(|text| !matches!(*text, "all" | "auto" | ""));
+            if let Some(text) = given {
+                found.insert(name.to_owned(), value(key, text, kind)?);
+            }
+        }
+        if self.is_silent() && self.demo() == FIRST.0 {
+            found.insert("sigma".to_owned(), json!(FIRST.1));
+        }
+        found.insert("prepare".to_owned(), self.preparation()?);
+        Settings::parse(Value::Object(found)).map_err(|error| Failure::Input {
+            message: format!("The link cannot be read: {error}."),
+            hint: "docs/links.md lists the keys of a link and what each may be.".to_owned(),
+        })
+    }
+
+    fn preparation(&self) -> Result<Value, Failure> {
+        let rebased = self.get("rebase").unwrap_or_default();
+        let side = |side: char| -> Result<Value, Failure> {
+            let mut found = Map::new();
+            for (name, kind) in OF_ONE {
+                let key = format!("{name}-{side}");
+                if let Some(text) = self.get(&key) {
+                    found.insert(name.to_owned(), value(&key, text, kind)?);
+                }
+            }
+            found.insert("rebase".to_owned(), json!(rebased.contains(side)));
+            Ok(Value::Object(found))
+        };
+        let points = self.get("points").map(|points| match points {
+            "map" => json!({ "by": "map" }),
+            ranges => json!({ "by": "region", "ranges": ranges }),
+        });
+        let subsample =
+            self.get("subsample").map(|text| value("subsample", text, Kind::Count)).transpose()?;
+        Ok(json!({
+            "a": side('a')?,
+            "b": side('b')?,
+            "convert": self.get("convert") == Some("yes"),
+            "points": points,
+            "subsample": subsample,
+        }))
+    }
+
+    /// Whether it says nothing of settings, which is how the stored comparison is asked for.
+    fn is_silent(&self) -> bool {
+        let of_one =
+            OF_ONE.iter().flat_map(|(name, _)| ["-a", "-b"].map(|end| format!("{name}{end}")));
+        let of_both = OF_BOTH.iter().map(|key| (*key).to_owned());
+        let mut keys =
+            SETTINGS.iter().map(|(key, ..)| (*key).to_owned()).chain(of_one).chain(of_both);
+        keys.all(|key| self.get(&key).is_none())
+    }
+
+    fn demo(&self) -> &str {
+        self.get("demo").unwrap_or(FIRST.0)
+    }
+
+    /// What to open as A and B: what is `given`, else what the link names.
+    pub(crate) fn models(&self, given: [Option<&str>; 2]) -> Result<[String; 2], Failure> {
+        let sides = ["a", "b"];
+        let named = match (self.get("a"), self.get("b")) {
+            (Some(a), Some(b)) => [a.to_owned(), b.to_owned()],
+            _ => demo_models(self.demo())?,
+        };
+        let mut found = named.clone();
+        for ((found, given), side) in found.iter_mut().zip(given).zip(sides) {
+            if let Some(source) = given {
+                source.clone_into(found);
+            } else if !found.starts_with("demo:") {
+                return Err(Failure::Input {
+                    message: format!(
+                        "The link has {found} as {}, which is not downloaded here.",
+                        side.to_uppercase()
+                    ),
+                    hint:
+                        "Download the models and name the files: shapevenn compare A B --link LINK."
+                            .to_owned(),
+                });
+            }
+            if let Some(part) = self.get(&format!("part-{side}")) {
+                found.push('#');
+                found.push_str(part);
+            }
+        }
+        Ok(found)
+    }
+}
+
+/// One value, as a report has it.
+fn value(key: &str, text: &str, kind: Kind) -> Result<Value, Failure> {
+    let refused = |expected: &str| Failure::Input {
+        message: format!("“{key}={text}” of the link cannot be read; {expected} was expected."),
+        hint: "docs/links.md lists the keys of a link and what each may be.".to_owned(),
+    };
+    let number = || text.parse::<f64>().ok().filter(|value| value.is_finite());
+    match kind {
+        Kind::Word => Ok(json!(text)),
+        Kind::Count => {
+            text.parse::<u64>().map(|count| json!(count)).map_err(|_| refused("a count"))
+        }
+        Kind::Number => number().map(|value| json!(value)).ok_or_else(|| refused("a number")),
+        Kind::Percent => {
+            let share = number().ok_or_else(|| refused("a number of per cent"))? / 100.0;
+            // With the digits that the page keeps.
+            let short: f64 = format!("{share:.11e}").parse().unwrap_or(share);
+            Ok(json!(short))
+        }
+    }
+}
+
+/// The two models of a pair that comes with the page.
+fn demo_models(pair: &str) -> Result<[String; 2], Failure> {
+    let [a, b] = match pair {
+        "heads-sex" => ["heads-male", "heads-female"].map(str::to_owned),
+        "heads-expression" => ["heads-identity", "heads-expression"].map(str::to_owned),
+        _ => ["a", "b"].map(|side| format!("{pair}-{side}")),
+    };
+    let known = shapevenn::demos::names();
+    if !(known.contains(&a) && known.contains(&b)) {
+        return Err(Failure::Input {
+            message: format!("The link asks for the pair “{pair}”, which does not come with this version."),
+            hint: "Pairs are heads-sex, heads-expression, stars-1 to stars-6 and planes; or name the files: \
+                   shapevenn compare A B --link LINK."
+                .to_owned(),
+        });
+    }
+    Ok([a, b].map(|name| format!("demo:{name}")))
+}
