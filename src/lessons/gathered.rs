@@ -1,11 +1,14 @@
 //! What is made of draws: A∩B by principal components, and what those would make of a difference.
 //!
-//! d_G falls with the number N of draws as √(Σ_{i≤k<j} λᵢλⱼ/(λᵢ − λⱼ)²/N_eff), the λ those of the closed
-//! form. Two lanes of N₁ and N₂ effective draws count as N_eff = 4/(1/N₁ + 1/N₂), since both sides are
-//! pooled equally.
+//! d_G falls with the number of draws as √(Σ_{i≤k<j} λᵢλⱼ/(λᵢ − λⱼ)²/N_ij), the λ those of the closed form.
+//! What turns mode i towards j is the mean of zᵢzⱼ, the draws' coordinates in its modes: N_ij is the
+//! effective sample size of that product, which the faster of the two decides. Two lanes of N₁ and N₂
+//! effective draws count as 4/(1/N₁ + 1/N₂), since both sides are pooled equally.
 //!
 //! A difference is not convex: the shapes between its draws need not be in it. The share of a Gaussian's
 //! shapes with L_D > ½, where its draws are those of the difference, says how far such a Gaussian misleads.
+
+use nalgebra::DVector;
 
 use super::LessonError;
 use super::answer::{Fall, LessonIntersection, LessonModel, LessonPrincipal};
@@ -17,14 +20,15 @@ use crate::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, grassmann_sampling_error, paper_distance,
 };
 use crate::model::LinearModel;
-use crate::sampling::{Stream, fill_normal, stream};
-use nalgebra::DVector;
+use crate::sampling::{Stream, fill_normal, stream, summarise};
 
 /// Shapes of the Gaussian that are looked at, always of the same random numbers.
 const SHAPES: usize = 2000;
 const SEED: u64 = 1;
 /// Draws below which there are no principal components.
 const LEAST_DRAWS: usize = 3;
+/// Fewer draws of a chain say nothing about how it mixes.
+const LEAST_DRAWS_OF_A_CHAIN: usize = 4;
 
 /// A lane by its number.
 pub(super) type Numbered<'a> = (u32, &'a Lane);
@@ -58,10 +62,7 @@ pub(super) fn intersection(
     });
     let most = lanes.map(|lane| lane.length() * lane.chains());
     let counts = counts.iter().map(|count| (*count).clamp(LEAST_DRAWS, most[0].min(most[1])));
-    let shares = lanes.map(|lane| {
-        let count = (lane.length() * lane.chains()) as f64;
-        lane.quality().map_or(1.0, |(ess, _)| (ess / count).min(1.0))
-    });
+    let expected = Expected::new(opened, lanes);
     let fall = |draws: usize| {
         let grassmann = distance(&pooled(opened, lanes, draws));
         Fall { draws, grassmann }
@@ -72,7 +73,7 @@ pub(super) fn intersection(
         grassmann_affine,
         closed_form: opened.closed_form_distance(),
         falls: counts.clone().map(fall).collect(),
-        predicted: counts.map(|draws| predicted(opened, shares, draws)).collect(),
+        predicted: counts.map(|draws| Some(expected.as_ref()?.after(draws))).collect(),
     })
 }
 
@@ -86,14 +87,44 @@ fn pooled(opened: &Opened, lanes: [&Lane; 2], count: usize) -> Moments {
     Moments::pooled(&a, &b)
 }
 
-/// The error of sampling that is expected after `draws` draws of each lane, of which `shares` count.
-fn predicted(opened: &Opened, shares: [f64; 2], draws: usize) -> Option<f64> {
-    let kept = opened.truth.as_ref().map(LinearModel::mode_count)?;
-    let variances = opened.closed_form.principal_components().1;
-    let (first, others) = variances.as_slice().split_at_checked(kept)?;
-    let effective = shares.map(|share| share * draws as f64);
-    let both = 4.0 / (1.0 / effective[0] + 1.0 / effective[1]);
-    Some(grassmann_sampling_error(first, others, both))
+/// Pairs of a mode that counts and one that does not: their variances, and which share of the draws of each
+/// lane is effective for their product.
+struct Expected(Vec<([f64; 2], [f64; 2])>);
+
+impl Expected {
+    fn new(opened: &Opened, lanes: [&Lane; 2]) -> Option<Self> {
+        let kept = opened.truth.as_ref().map(LinearModel::mode_count)?;
+        let (modes, variances) = opened.closed_form.principal_components();
+        let coordinates = [0, 1].map(|side| lanes[side].in_modes(opened, &modes));
+        let pair = |i: usize, j: usize| {
+            let shares = [0, 1].map(|side| effective_share(&coordinates[side], i, j));
+            ([variances[i], variances[j]], shares)
+        };
+        let count = variances.len();
+        let of_mode = |i: usize| (kept..count).map(move |j| (i, j));
+        Some(Self((0..kept.min(count)).flat_map(of_mode).map(|(i, j)| pair(i, j)).collect()))
+    }
+
+    /// The error of sampling after `draws` draws of each lane.
+    fn after(&self, draws: usize) -> f64 {
+        let square = |([first, other], shares): &([f64; 2], [f64; 2])| {
+            let both = 4.0 * draws as f64 / (1.0 / shares[0] + 1.0 / shares[1]);
+            let error = grassmann_sampling_error(&[*first], &[*other], both);
+            error * error
+        };
+        self.0.iter().map(square).sum::<f64>().sqrt()
+    }
+}
+
+/// Effective draws of zᵢzⱼ for each draw, from coordinates draw by draw, chain by chain.
+fn effective_share(chains: &[Vec<DVector<f64>>], i: usize, j: usize) -> f64 {
+    let products: Vec<Vec<f64>> =
+        chains.iter().map(|chain| chain.iter().map(|z| z[i] * z[j]).collect()).collect();
+    let length = products.first().map_or(0, Vec::len);
+    if length < LEAST_DRAWS_OF_A_CHAIN {
+        return 1.0;
+    }
+    (summarise(&products).ess_bulk / (length * products.len()) as f64).min(1.0)
 }
 
 /// What principal components would make of a lane's draws.

@@ -4,6 +4,8 @@
 //! for. Rejection makes its proposals in blocks, but hands its draws out one a step: how often it is asked
 //! does not change them.
 
+use nalgebra::{DMatrix, DVector};
+
 use super::LessonError;
 use super::answer::{LaneDraws, LaneFigures, LaneProgress, LaneShapes, LaneStart, Law, LessonStep};
 use super::ask::{
@@ -19,7 +21,6 @@ use crate::sampling::{
     Chains, Draws, Envelope, Gaussian, IndependenceChains, RandomWalkChains, Rejection, Scaling,
     Schedule, WhitenedChains,
 };
-use nalgebra::DVector;
 
 /// Numbers that a lane keeps at the most: 40 MB.
 const MOST_NUMBERS: usize = 5_000_000;
@@ -225,6 +226,20 @@ impl Lane {
     pub(super) fn moments(&self) -> Moments {
         let all = self.first(usize::MAX);
         Moments::of(all.iter().copied(), self.dimension)
+    }
+
+    /// The draws' coordinates in modes of the joint basis (p × k), about the closed form's mean, chain by chain.
+    pub(super) fn in_modes(&self, opened: &Opened, modes: &DMatrix<f64>) -> Vec<Vec<DVector<f64>>> {
+        let centred = |draw: &[f64]| {
+            let coefficients = DVector::from_column_slice(draw);
+            let placed = opened.joint.coordinates_of_coefficients(self.side.index(), &coefficients);
+            modes.tr_mul(&(placed - &opened.closed_form.mean))
+        };
+        let chains = self.draws().values.iter();
+        let draws = |chain: &Vec<f64>| {
+            chain.chunks_exact(self.dimension).take(self.length()).map(centred).collect()
+        };
+        chains.map(draws).collect()
     }
 
     /// The smallest bulk effective sample size of all coefficients with the largest R-hat; of independent

@@ -60,6 +60,8 @@ pub struct Tip {
     pub b: f64,
     /// In A∩B.
     pub intersection: f64,
+    /// In the known intersection.
+    pub truth: Option<f64>,
 }
 
 /// One sampler of a race.
@@ -304,6 +306,7 @@ fn tips(models: &LessonModels) -> Vec<Tip> {
             a: at(&models.a.vertex_sd)?,
             b: at(&models.b.vertex_sd)?,
             intersection: at(&models.intersection.vertex_sd)?,
+            truth: models.truth.as_ref().and_then(|truth| at(&truth.vertex_sd)),
         })
     };
     TIPS.into_iter().filter_map(tip).collect()

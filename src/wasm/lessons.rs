@@ -35,10 +35,9 @@ impl Engine {
                 ("chains", plain(&draws.chains)),
                 ("every", plain(&draws.every)),
             ]),
-            LessonAnswer::Shapes(shapes) => object(&[
-                ("values", floats(&shapes.values)),
-                ("count", plain(&shapes.count)),
-            ]),
+            LessonAnswer::Shapes(shapes) => {
+                object(&[("values", floats(&shapes.values)), ("count", plain(&shapes.count))])
+            }
             other => plain(other),
         })
     }
