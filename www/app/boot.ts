@@ -1,5 +1,6 @@
 /** Opens the page: numbers first, then the engine, the models and their shapes. */
 import { batch, effect } from "@preact/signals";
+import { watchContent } from "./address/checked";
 import { storedResult, watchChoices, watchPictures } from "./comparison";
 import { FIRST_DEMO } from "./demos";
 import { engineClient } from "./engine";
@@ -10,17 +11,18 @@ import { type LinkState, misread, readLink, SETTING_KEYS } from "./link";
 import { watchMaps } from "./maps";
 import { demoModels, openPair } from "./models";
 import { watchPair } from "./pair";
-import { watchRunFile } from "./runfile/run";
+import { awaitLink, watchRunFile } from "./runfile/run";
 import { settingsKey } from "./settings";
 import { restoreShelf } from "./shelf/actions";
 import { watchMatrix } from "./shelf/matrix";
 import { watchEngine } from "./shelf/reopen";
-import { notify, nouns, pageState, result, run } from "./state";
+import { embedded, linked, notify, nouns, pageState, result, run } from "./state";
 import { fetchStored } from "./stored";
 import { watchTheme } from "./theme";
 
 export async function boot(): Promise<void> {
   const link = readLink(location.hash);
+  linked.value = link;
   apply(link);
   tellMisread();
   watchTheme();
@@ -45,8 +47,9 @@ export async function boot(): Promise<void> {
   watchMaps();
   watchMatrix();
   watchRunFile();
+  watchContent();
   await models;
-  keepLink();
+  keepLink((followed) => awaitLink(followed) !== null);
   await restoreShelf(shelfOf(link));
 }
 
@@ -71,6 +74,8 @@ function tellMisread(): void {
 }
 
 async function openModels(link: LinkState): Promise<void> {
+  const waiting = awaitLink(link);
+  if (waiting) return waiting;
   const { a, b } = modelsOf(link) ?? demoModels(FIRST_DEMO);
   await openPair(a, b);
 }
@@ -79,6 +84,10 @@ async function openModels(link: LinkState): Promise<void> {
 function watchDocument(): void {
   effect(() => {
     document.documentElement.dataset.state = pageState.value;
+  });
+  // For styles/embed.css.
+  effect(() => {
+    document.documentElement.toggleAttribute("data-embed", embedded.value);
   });
   effect(() => {
     const fraction = run.value?.progress?.fraction;

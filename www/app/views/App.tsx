@@ -1,10 +1,12 @@
-import { demo, room, spoken } from "../state";
+import { demo, embedded, room, spoken } from "../state";
 import { wide } from "../wide";
 import { About } from "./About";
 import { Chooser } from "./Chooser";
+import { Consent } from "./Consent";
 import { Diagnostics } from "./Diagnostics";
 import { Downloads } from "./Downloads";
 import { DropOverlay } from "./DropOverlay";
+import { Embedded } from "./Embedded";
 import { Explorer } from "./Explorer";
 import { ExploreStage } from "./explore/ExploreStage";
 import { Header } from "./Header";
@@ -18,10 +20,22 @@ import { Rooms } from "./Rooms";
 import { RunFileCard } from "./RunFileCard";
 import { RunPanel } from "./RunPanel";
 import { SettingsPanel } from "./SettingsPanel";
+import { ShareDialog } from "./ShareDialog";
 import { Stage } from "./Stage";
 import { Taking } from "./Taking";
 
 export function App() {
+  return embedded.value ? (
+    <>
+      <Embedded />
+      <Spoken />
+    </>
+  ) : (
+    <WholePage />
+  );
+}
+
+function WholePage() {
   const explores = room.value === "explore";
   return (
     <>
@@ -30,6 +44,8 @@ export function App() {
         <div class="centre">
           <Notices place="page" />
           <Notices place="link" />
+          <Notices place="content" />
+          <Consent />
           <Headline />
           <Rooms />
           <Stage />
@@ -61,10 +77,18 @@ export function App() {
       <DropOverlay />
       <Chooser />
       <Taking />
-      <p class="unseen" aria-live="polite">
-        {spoken.value}
-      </p>
+      <ShareDialog />
+      <Spoken />
     </>
+  );
+}
+
+/** For screen readers. */
+function Spoken() {
+  return (
+    <p class="unseen" aria-live="polite">
+      {spoken.value}
+    </p>
   );
 }
 
