@@ -1,6 +1,6 @@
 /**
- * Serves dist/ the way a host with threads must: two headers on every response, worker scripts
- * included, and .wasm under its own type. `--no-isolation` leaves the two headers out, as most
+ * Serves dist/ the way a host with threads must: its headers on every response, worker scripts
+ * included, and .wasm under its own type. `--no-isolation` leaves them out, as most
  * static hosts do.
  */
 import { createReadStream } from "node:fs";
@@ -12,6 +12,8 @@ import { isMain, main, root, StepError } from "./steps/run.mjs";
 const isolation = {
   "Cross-Origin-Opener-Policy": "same-origin",
   "Cross-Origin-Embedder-Policy": "require-corp",
+  // So that isolated pages of other sites may show this one in a frame.
+  "Cross-Origin-Resource-Policy": "cross-origin",
 };
 
 const types = {

@@ -1,5 +1,6 @@
 /** Opens the page: numbers first, then the engine, the models and their shapes. */
 import { batch, effect } from "@preact/signals";
+import { watchContent } from "./address/checked";
 import { storedResult, watchChoices, watchPictures } from "./comparison";
 import { FIRST_DEMO } from "./demos";
 import { engineClient } from "./engine";
@@ -12,29 +13,41 @@ import { type LinkState, misread, readLink, SETTING_KEYS } from "./link";
 import { watchMaps } from "./maps";
 import { demoModels, openPair } from "./models";
 import { watchPair } from "./pair";
-import { watchRunFile } from "./runfile/run";
+import { awaitLink, watchRunFile } from "./runfile/run";
 import { settingsKey } from "./settings";
 import { restoreShelf } from "./shelf/actions";
 import { watchMatrix } from "./shelf/matrix";
 import { watchEngine } from "./shelf/reopen";
-import { begun, notify, nouns, page, pageState, result, run, settings } from "./state";
+import {
+  begun,
+  embedded,
+  linked,
+  notify,
+  nouns,
+  page,
+  pageState,
+  result,
+  run,
+  settings,
+} from "./state";
 import { fetchStored } from "./stored";
 import { watchTheme } from "./theme";
 
 export function boot(): void {
   const link = readLink(location.hash);
+  linked.value = link;
   apply(link);
   watchTheme();
   watchDocument();
   watchEngine();
   if (link.page === "compare") {
     void bootComparison(link).then(() => {
-      keepLink();
+      keepLink(waits);
       return restoreShelf(shelfOf(link));
     });
     return;
   }
-  keepLink();
+  keepLink(waits);
   // Other pages need none of it, until somebody turns to the comparison.
   const stop = effect(() => {
     if (page.value !== "compare") return;
@@ -45,6 +58,9 @@ export function boot(): void {
     });
   });
 }
+
+/** Whether what a link compares must be brought first. */
+const waits = (link: LinkState) => awaitLink(link) !== null;
 
 async function bootComparison(link: LinkState): Promise<void> {
   begun.value = true;
@@ -68,6 +84,7 @@ async function bootComparison(link: LinkState): Promise<void> {
   watchMaps();
   watchMatrix();
   watchRunFile();
+  watchContent();
   await models;
 }
 
@@ -92,6 +109,8 @@ function tellMisread(): void {
 }
 
 async function openModels(link: LinkState): Promise<void> {
+  const waiting = awaitLink(link);
+  if (waiting) return waiting;
   const { a, b } = modelsOf(link) ?? demoModels(FIRST_DEMO);
   await openPair(a, b);
 }
@@ -105,6 +124,10 @@ function watchDocument(): void {
         : page.value === "gallery"
           ? "done"
           : pageState.value;
+  });
+  // For styles/embed.css.
+  effect(() => {
+    document.documentElement.toggleAttribute("data-embed", embedded.value);
   });
   effect(() => {
     document.documentElement.dataset.page = page.value;

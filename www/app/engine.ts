@@ -56,12 +56,16 @@ function spawn(serial: boolean): Worker {
 }
 
 /** Shows what went wrong beside what it concerns; what was there stays. */
-export function report(place: Notice["place"], thrown: unknown): void {
+export function report(
+  place: Notice["place"],
+  thrown: unknown,
+  again: Notice["again"] = null,
+): void {
   const failure =
     thrown instanceof EngineFailure
       ? thrown
       : { code: "unexpected", message: sentenceOf(thrown), hint: "" };
   if (failure.code === "engine-stopped" || failure.code === "superseded") return;
-  notify(place, failure.code, failure.message, failure.hint);
+  notify(place, failure.code, failure.message, failure.hint, again);
   spoken.value = `${failure.message} ${failure.hint}`;
 }

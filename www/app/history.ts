@@ -1,6 +1,7 @@
 /** Keeps the address in step with the state, and the state with the address: Back is undo. */
 import { batch, computed, effect, untracked } from "@preact/signals";
 import type { PointSelection } from "../worker/protocol";
+import { HASH_DIGITS, type LinkedModels } from "./address/codec";
 import { findDemo } from "./demos";
 import { applyExplorer, lockedHeat, settledExplorer } from "./explore/state";
 import { applyLesson, settledLesson } from "./learn/state";
@@ -10,16 +11,19 @@ import { arrange, giveUpAdding, restoreShelf } from "./shelf/actions";
 import { closeUnused } from "./shelf/handles";
 import { measure } from "./shelf/matrix";
 import { isUsed } from "./shelf/order";
-import { demoSource, first, isOpen, wantedOf } from "./sources";
+import { demoSource, first, isOpen, sourceText, wantedOf } from "./sources";
 import {
   begun,
   camera,
   demo,
   diagnosedMode,
   diagnosedSide,
+  embedded,
   exaggeration,
+  linked,
   lockedRange,
   mapMode,
+  namesInLinks,
   page,
   painting,
   picture,
@@ -27,6 +31,7 @@ import {
   room,
   SIDES,
   type Side,
+  type Slot,
   type Source,
   settings,
   settledExaggeration,
@@ -55,22 +60,45 @@ const steps = new Steps<Place>(history, performance.timeOrigin);
 
 export const { undoable, redoable } = steps;
 
-/** Models from the user's own computer cannot be linked; their names are not put in a link. */
-export const linkable = computed(() => {
-  const linked = demo.value !== null || urls() !== null;
-  const kept = !isUsed(shelf.value) || shelf.value.every(({ source }) => source.kind === "demo");
-  return linked && kept && fitsLink(settings.value.prepare.points);
-});
+/** What of the page no link can hold. */
+export const unlinkable = computed(() => ({
+  files: SIDES.filter((side) => slots[side].value?.source.kind === "files"),
+  shelf: isUsed(shelf.value) && shelf.value.some(({ source }) => source.kind !== "demo"),
+  points: !fitsLink(settings.value.prepare.points),
+}));
 
-/** Addresses of both models, unless they are a pair that comes with the page. */
-function urls(): LinkState["urls"] {
-  const [a, b] = SIDES.map((side) => addressOf(slots[side].value?.source));
-  return demo.value === null && a && b ? { a, b } : null;
-}
-
-function addressOf(source: Source | undefined): string | null {
-  if (source?.kind === "demo") return `demo:${source.name}`;
-  return source?.kind === "url" ? source.url : null;
+/** How a link says which models these are; one that is not open yet as the last link said it. */
+function models(): LinkedModels {
+  const asked = linked.value;
+  const each = <T>(of: (slot: Slot) => T, otherwise: (side: Side) => T) => {
+    const [a, b] = SIDES.map((side) => {
+      const slot = slots[side].value;
+      return slot ? of(slot) : otherwise(side);
+    });
+    return { a: a ?? null, b: b ?? null };
+  };
+  return {
+    urls: demo.value
+      ? null
+      : each(
+          ({ source }) => sourceText(source),
+          (side) => asked?.urls?.[side] ?? null,
+        ),
+    names: each(
+      ({ source }) => (source.kind === "files" && namesInLinks.value ? source.name : null),
+      (side) => asked?.names[side] ?? null,
+    ),
+    hashes: each(
+      ({ source, report }) =>
+        source.kind === "demo" ? null : (report.fingerprint?.slice(0, HASH_DIGITS) ?? null),
+      (side) => asked?.hashes[side] ?? null,
+    ),
+    // The part of each file, where it is not the first.
+    parts: each(
+      ({ part, parts }) => (part === parts[0] ? null : part),
+      (side) => asked?.parts[side] ?? null,
+    ),
+  };
 }
 
 /** Those of the page's own models that are on the shelf, if it is in use. */
@@ -79,23 +107,14 @@ function shelved(): string[] {
   return shelf.value.flatMap(({ source }) => (source.kind === "demo" ? source.name : []));
 }
 
-/** The part of each file, where it is not the first. */
-function parts(): LinkState["parts"] {
-  const [a, b] = SIDES.map((side) => {
-    const slot = slots[side].value;
-    return slot && slot.part !== slot.parts[0] ? slot.part : null;
-  });
-  return { a: a ?? null, b: b ?? null };
-}
-
 /** All that makes the picture, as far as an address can say it. */
 function present(): LinkState {
   return {
     page: page.value,
     lesson: settledLesson.value,
+    embed: embedded.value,
     demo: demo.value?.id ?? "files",
-    urls: urls(),
-    parts: parts(),
+    ...models(),
     settings: settings.value,
     room: room.value,
     view: view.value,
@@ -117,8 +136,15 @@ function present(): LinkState {
   };
 }
 
-export function currentLink(): string {
-  return writeLink(present());
+export function currentLink(embed = embedded.value): string {
+  return writeLink({ ...present(), embed });
+}
+
+/** The same as a whole address, for somebody else. */
+export function sharedAddress(embed = false): string {
+  const address = new URL(location.href);
+  address.hash = currentLink(embed);
+  return address.href;
 }
 
 /** Puts the present state into the address, without a step of its own. */
@@ -126,20 +152,25 @@ export function writeAddress(): void {
   history.replaceState(history.state, "", `#${currentLink()}`);
 }
 
-/** What is a step to undo: all of a link but the camera, which only follows along, and what no link holds. */
+/**
+ * What is a step to undo: all of a link but the camera, which only follows along, what is only about links, and
+ * what no link holds.
+ */
 const step = computed(() => {
   // What goes on in a comparison behind them is no step of other pages.
   if (page.value === "gallery") return page.value;
   if (page.value === "learn") return JSON.stringify([page.value, settledLesson.value]);
-  const models = SIDES.map((side) => slots[side].value && slotKey(slots[side].value));
-  return JSON.stringify([models, shelf.value.map(slotKey), { ...present(), camera: null }]);
+  const open = SIDES.map((side) => slots[side].value && slotKey(slots[side].value));
+  const look = { ...present(), camera: null, embed: null, names: null };
+  return JSON.stringify([open, shelf.value.map(slotKey), look]);
 });
 
 let applied = "";
 /** What changes just now belongs to the step before. */
 let joins = false;
 
-export function keepLink(): void {
+/** `takes` is asked whether it sees to a link that somebody typed or followed. */
+export function keepLink(takes: (link: LinkState) => boolean): void {
   applied = untracked(() => step.value);
   steps.begin(placed());
   let timer: ReturnType<typeof setTimeout> | undefined;
@@ -150,12 +181,14 @@ export function keepLink(): void {
     if (meaningful) {
       applied = step.value;
       // What is written down of a step is nothing that another one waits for.
-      untracked(() => (joins ? steps.join(placed(), fragment) : steps.push(placed(), fragment)));
+      // The Back button of a page with a frame in it is about that page.
+      const join = joins || embedded.peek();
+      untracked(() => (join ? steps.join(placed(), fragment) : steps.push(placed(), fragment)));
       return;
     }
     timer = setTimeout(writeAddress, WRITE_AFTER_MS);
   });
-  addEventListener("popstate", (event) => void follow(event.state));
+  addEventListener("popstate", (event) => void follow(event.state, takes));
   addEventListener("keydown", undoByKey);
 }
 
@@ -227,15 +260,20 @@ function undoByKey(event: KeyboardEvent): void {
 let journeys = 0;
 
 /** Takes over what the address says; with the models, so that nothing half-changed is compared. */
-async function follow(state: unknown): Promise<void> {
+async function follow(state: unknown, takes: (link: LinkState) => boolean): Promise<void> {
   journeys += 1;
   const mine = journeys;
   const place = steps.arrive(state);
   const link = readLink(location.hash);
+  if (place === null) {
+    linked.value = link;
+    embedded.value = link.embed;
+  }
   if (link.page !== "compare" || !begun.peek()) {
     batch(() => apply(link));
     return;
   }
+  if (place === null && takes(link)) return;
   const wanted = place?.shelf ?? shelfOf(link);
   giveUpOpening();
   giveUpAdding();
@@ -263,14 +301,15 @@ async function follow(state: unknown): Promise<void> {
 }
 
 /** What an address says of models; those of nobody's own files. */
-export function modelsOf(link: LinkState): Record<Side, Wanted> | null {
+export function modelsOf(link: LinkState): Record<Side, Wanted | null> | null {
   const { urls: found, parts: named } = link;
   if (found) {
-    const wanted = (side: Side): Wanted => ({
-      source: sourceOf(found[side]),
-      part: named[side],
-      scale: false,
-    });
+    const wanted = (side: Side): Wanted | null => {
+      const address = found[side];
+      return address === null
+        ? null
+        : { source: sourceOf(address), part: named[side], scale: false };
+    };
     return { a: wanted("a"), b: wanted("b") };
   }
   const known = findDemo(link.demo);
@@ -288,7 +327,14 @@ export function shelfOf(link: LinkState): Wanted[] {
 }
 
 export function apply(link: LinkState): void {
+  take(link);
+  applied = step.value;
+}
+
+/** The same as a step that can be undone. */
+export function take(link: LinkState): void {
   batch(() => {
+    embedded.value = link.embed;
     page.value = link.page;
     // What is compared stays as it is while something else is looked at.
     if (link.page === "learn") applyLesson(link.lesson);
@@ -312,5 +358,4 @@ export function apply(link: LinkState): void {
     shapesSeed.value = link.shapes;
     camera.value = link.camera;
   });
-  applied = step.value;
 }

@@ -13,6 +13,13 @@ import type {
   Settings,
   SidePreparation,
 } from "../worker/protocol";
+import {
+  type LinkedModels,
+  misreadAddresses,
+  noLinkedModels,
+  readModels,
+  writeModels,
+} from "./address/codec";
 import { DEMO_MODELS, FIRST_DEMO, findDemo } from "./demos";
 import { defaultExplorer, type ExplorerState, readExplorer, writeExplorer } from "./explore/codec";
 import { defaultLesson, type LessonState, readLesson, writeLesson } from "./learn/link";
@@ -80,16 +87,14 @@ export const MOST_EXAGGERATION = 5;
 const PICTURES: Picture[] = ["draws", "exclusiveModes"];
 
 /** Everything that makes the picture. */
-export interface LinkState {
+export interface LinkState extends LinkedModels {
   page: PageName;
   /** What is taught, on the page that teaches. */
   lesson: LessonState;
-  /** A pair that comes with the page, unless both models have addresses. */
+  /** Whether the page is a frame in another page: shapes and a caption, and nothing to set. */
+  embed: boolean;
+  /** A pair that comes with the page, unless the models are said one by one. */
   demo: string;
-  /** `https:…`, or `demo:NAME` of one model that comes with the page. */
-  urls: { a: string; b: string } | null;
-  /** Parts of the files at these addresses; null for the first. */
-  parts: { a: string | null; b: string | null };
   settings: Settings;
   room: Room;
   view: ViewMode;
@@ -124,9 +129,9 @@ export function defaultLink(): LinkState {
   return {
     page: "compare",
     lesson: defaultLesson(),
+    embed: false,
     demo: FIRST_DEMO.id,
-    urls: null,
-    parts: { a: null, b: null },
+    ...noLinkedModels(),
     settings: DEFAULTS,
     room: "regions",
     view: "mean",
@@ -154,19 +159,17 @@ export function writeLink(state: LinkState): string {
 }
 
 function pagePairs(state: LinkState): [string, string | number][] {
-  const { page, lesson } = state;
-  if (page === "compare") return comparisonPairs(state);
-  return [["page", page], ...(page === "learn" ? writeLesson(lesson) : [])];
+  const { page, lesson, embed } = state;
+  const frame: [string, string][] = embed ? [["embed", "1"]] : [];
+  if (page === "compare") return [...frame, ...comparisonPairs(state)];
+  return [...frame, ["page", page], ...(page === "learn" ? writeLesson(lesson) : [])];
 }
 
 function comparisonPairs(state: LinkState): [string, string | number][] {
   const { settings, camera } = state;
   const pairs: [string, string | number][] = [];
-  if (state.urls) {
-    pairs.push(["a", state.urls.a], ["b", state.urls.b]);
-    if (state.parts.a !== null) pairs.push(["part-a", state.parts.a]);
-    if (state.parts.b !== null) pairs.push(["part-b", state.parts.b]);
-  } else pairs.push(["demo", state.demo]);
+  if (state.urls) pairs.push(...writeModels(state));
+  else pairs.push(["demo", state.demo]);
   pairs.push(
     ["align", settings.align],
     ["modes", settings.modes ?? "all"],
@@ -260,16 +263,15 @@ export function readLink(fragment: string): LinkState {
   const given = new URLSearchParams(fragment.replace(/^#/, ""));
   const fallback = defaultLink();
   const page = oneOf(given.get("page"), PAGES) ?? fallback.page;
+  const embed = given.get("embed") === "1";
   // Keys of a lesson and of a comparison may have the same names.
-  if (page !== "compare") return { ...fallback, page, lesson: readLesson(given) };
-  const a = given.get("a");
-  const b = given.get("b");
+  if (page !== "compare") return { ...fallback, page, embed, lesson: readLesson(given) };
   return {
     page,
+    embed,
     lesson: fallback.lesson,
     demo: findDemo(given.get("demo") ?? "")?.id ?? fallback.demo,
-    urls: a && b && isAddress(a) && isAddress(b) ? { a, b } : null,
-    parts: { a: given.get("part-a"), b: given.get("part-b") },
+    ...readModels(given),
     settings: readSettings(given),
     room: oneOf(given.get("room"), ROOMS) ?? fallback.room,
     map: oneOf(given.get("map"), MAPS) ?? fallback.map,
@@ -347,7 +349,7 @@ function readPreparation(given: URLSearchParams): Preparation {
   };
 }
 
-/** Settings that an address asks for in words this page does not know, as `key=value`. */
+/** What an address asks for in words this page does not know, as `key=value`. */
 export function misread(fragment: string): string[] {
   const given = new URLSearchParams(fragment.replace(/^#/, ""));
   const words: Record<string, string[]> = {
@@ -360,10 +362,11 @@ export function misread(fragment: string): string[] {
     "unit-a": [...UNITS],
     "unit-b": [...UNITS],
   };
-  return Object.entries(words).flatMap(([key, known]) => {
+  const settings = Object.entries(words).flatMap(([key, known]) => {
     const value = given.get(key);
     return value === null || known.includes(value) ? [] : `${key}=${value}`;
   });
+  return [...misreadAddresses(given), ...settings];
 }
 
 /** As many digits as single precision has. */
@@ -405,10 +408,6 @@ function valid<T>(value: T | "invalid", fallback: T): T {
 
 function oneOf<T extends string>(text: string | null, allowed: readonly T[]): T | undefined {
   return allowed.find((value) => value === text);
-}
-
-function isAddress(text: string): boolean {
-  return /^https?:\/\//.test(text) || DEMO_MODELS.some((name) => text === `demo:${name}`);
 }
 
 /** Each model once, and those that there are. */

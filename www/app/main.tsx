@@ -10,6 +10,8 @@ import "../styles/explore.css";
 import "../styles/maps.css";
 import "../styles/several.css";
 import "../styles/charts.css";
+import "../styles/share.css";
+import "../styles/embed.css";
 
 acceptDrops();
 const root = document.getElementById("app");

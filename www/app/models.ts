@@ -15,6 +15,7 @@ import {
   isOpen,
   type NamedSource,
   nameOf,
+  type OnRead,
   openWanted,
 } from "./sources";
 import {
@@ -24,8 +25,10 @@ import {
   dismiss,
   emptyRegions,
   lockedRange,
+  notify,
   opening,
   painting,
+  type Reading,
   reopening,
   SIDES,
   type Side,
@@ -226,15 +229,19 @@ export async function load(side: Side, wanted: Wanted): Promise<Slot | null> {
   const { source } = wanted;
   const name = nameOf(source);
   const controller = begin(side, name);
-  const onRead = (bytes: number, of: number) => {
-    if (loads[side] === controller) opening[side].value = { name, read: { bytes, of } };
+  const onRead = (read: Reading) => {
+    if (loads[side] === controller) opening[side].value = { name, read };
   };
+  const again = source.kind === "url" ? () => void reread(side, wanted) : null;
   try {
     const slot = await openToShow(controller.signal, wanted, onRead);
     if (source.kind !== "demo") spoken.value = `${name} opened as model ${side}.`;
     return slot;
   } catch (thrown) {
-    if (!wasAborted(thrown)) report(side, thrown);
+    if (!wasAborted(thrown)) report(side, thrown, again);
+    else if (again && loads[side] === controller && slots[side].peek() === null) {
+      notify(side, "not-downloaded", `“${name}” was not downloaded.`, "", again);
+    }
     return null;
   } finally {
     end(side, controller);
@@ -242,11 +249,7 @@ export async function load(side: Side, wanted: Wanted): Promise<Slot | null> {
 }
 
 /** With its geometry; one that is on the shelf is not opened again. Whoever asked puts it down. */
-async function openToShow(
-  signal: AbortSignal,
-  wanted: Wanted,
-  onRead: (bytes: number, of: number) => void,
-): Promise<Slot> {
+async function openToShow(signal: AbortSignal, wanted: Wanted, onRead: OnRead): Promise<Slot> {
   const kept = reopening.peek() ? undefined : shelf.peek().find((slot) => isOpen(slot, wanted));
   const slot = kept ?? (await openWanted(signal, wanted, onRead));
   carry(slot.model);

@@ -1,9 +1,11 @@
 /** Where models come from, and how one of them is opened. */
 import { EngineFailure } from "../worker/engine-errors";
 import type { DroppedFile, OpenedModel } from "../worker/protocol";
+import { fileName } from "./address/address";
+import { fetchModel } from "./address/fetching";
 import { packagedFile } from "./demos";
 import { engineClient } from "./engine";
-import { type Slot, type Source, slotKey, type Wanted } from "./state";
+import { type Reading, type Slot, type Source, slotKey, type Wanted } from "./state";
 
 export interface NamedSource {
   name: string;
@@ -39,8 +41,7 @@ export function isOpen(slot: Slot, wanted: Wanted): boolean {
 }
 
 export function nameOf(source: Source): string {
-  if (source.kind !== "url") return source.name;
-  return decodeURIComponent(source.url.split(/[?#]/)[0]?.split("/").pop() ?? source.url);
+  return source.kind === "url" ? fileName(source.url) : source.name;
 }
 
 export function baseName(path: string): string {
@@ -53,7 +54,7 @@ export function sourceText(source: Source): string | null {
   return source.kind === "url" ? source.url : null;
 }
 
-type OnRead = (bytes: number, of: number) => void;
+export type OnRead = (read: Reading) => void;
 
 /** Without its geometry, which only the two that are compared need. */
 export async function openWanted(
@@ -67,12 +68,14 @@ export async function openWanted(
   let bytes: number | null = null;
   if (source.kind === "demo") {
     const file = packagedFile(source.name);
-    const packaged = file === null ? null : await (await fetched(signal, file)).arrayBuffer();
+    const packaged = file === null ? null : await packagedBytes(signal, file);
     opened = await client.openDemo(signal, source.name, packaged);
   } else {
-    const files = source.kind === "files" ? source.files : [await download(signal, source.url)];
+    const arrive = (bytes: number, of: number | null) => onRead({ bytes, of, arrives: true });
+    const files =
+      source.kind === "files" ? source.files : [await fetchModel(signal, source.url, arrive)];
     bytes = files.reduce((sum, { blob }) => sum + blob.size, 0);
-    opened = await client.open(signal, files, part, scale, onRead);
+    opened = await client.open(signal, files, part, scale, (bytes, of) => onRead({ bytes, of }));
   }
   const { format, parts, model, report, origin, hasMap } = opened;
   return {
@@ -90,30 +93,13 @@ export async function openWanted(
   };
 }
 
-async function download(signal: AbortSignal, url: string): Promise<DroppedFile> {
-  return { name: nameOf({ kind: "url", url }), blob: await (await fetched(signal, url)).blob() };
-}
-
-async function fetched(signal: AbortSignal, address: string): Promise<Response> {
-  const url = rawAddress(address);
-  const failure = (what: string) =>
-    new EngineFailure({
-      code: "download",
-      message: `${url} cannot be downloaded: ${what}.`,
-      hint: "Check the address; its server must allow other sites to read it (CORS).",
-    });
-  const response = await fetch(url, { signal }).catch((thrown: unknown) => {
-    signal.throwIfAborted();
-    throw failure(thrown instanceof Error ? thrown.message : "no answer");
+async function packagedBytes(signal: AbortSignal, file: string): Promise<ArrayBuffer> {
+  const response = await fetch(file, { signal }).catch(() => null);
+  signal.throwIfAborted();
+  if (response?.ok) return response.arrayBuffer();
+  throw new EngineFailure({
+    code: "download",
+    message: `${file}, which comes with the page, cannot be loaded: ${response ? `the server answered ${response.status}` : "there was no answer"}.`,
+    hint: "Check the connection and load the page again.",
   });
-  if (!response.ok) throw failure(`the server answered ${response.status}`);
-  return response;
-}
-
-/** A link to a file's page on GitHub means the file. */
-function rawAddress(address: string): string {
-  return address.replace(
-    /^https:\/\/github\.com\/([^/]+)\/([^/]+)\/blob\//,
-    "https://raw.githubusercontent.com/$1/$2/",
-  );
 }

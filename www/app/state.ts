@@ -16,6 +16,7 @@ import type {
   Settings,
   SettingsPatch,
 } from "../worker/protocol";
+import type { LinkedModels } from "./address/codec";
 import { DEMO_GROUPS, FIRST_DEMO, findDemo, type Nouns, nounsOf } from "./demos";
 import { defaultLink, type LinkState, type PageName, type Room, type ViewMode } from "./link";
 import { patched } from "./preparation";
@@ -51,7 +52,15 @@ export interface Slot extends OpenedModel {
 /** What is being opened, and how much of it is read. */
 export interface Opening {
   name: string;
-  read: { bytes: number; of: number } | null;
+  read: Reading | null;
+}
+
+export interface Reading {
+  bytes: number;
+  /** Null where nobody knows how much is to come. */
+  of: number | null;
+  /** Whether it comes from another computer. */
+  arrives?: boolean;
 }
 
 export interface Result {
@@ -75,10 +84,12 @@ export interface RunState {
 
 export interface Notice {
   id: number;
-  place: Side | "pair" | "run" | "page" | "link";
+  place: Side | "pair" | "run" | "page" | "link" | "content";
   code: string;
   message: string;
   hint: string;
+  /** Tries the same again, where that may help. */
+  again: (() => void) | null;
 }
 
 export type PaintTool = "add" | "erase" | "turn";
@@ -109,6 +120,12 @@ export const spoken = signal("");
 export const page = signal<PageName>(first.page);
 /** Whether anything was compared yet: other pages do without. */
 export const begun = signal(false);
+/** Whether the page is a frame in another page. */
+export const embedded = signal(first.embed);
+/** Whether links say what the visitor's own files are called. */
+export const namesInLinks = signal(true);
+/** What the address said of the models when it was followed: not all of them may be open. */
+export const linked = signal<LinkedModels | null>(null);
 /** The part of the page that is looked at. */
 export const room = signal<Room>(first.room);
 export const view = signal<ViewMode>(first.view);
@@ -148,7 +165,7 @@ export const theme = signal<Theme>("system");
 /** The demo pair on show, if it is one. */
 export const demo = computed(() => {
   const [a, b] = [slots.a.value?.source, slots.b.value?.source];
-  if (!a && !b) return FIRST_DEMO;
+  if (!a && !b) return linked.value?.urls ? null : FIRST_DEMO;
   if (a?.kind !== "demo" || b?.kind !== "demo") return null;
   const id = a.name.startsWith("heads-")
     ? { "heads-male": "heads-sex", "heads-identity": "heads-expression" }[a.name]
@@ -268,7 +285,7 @@ export const recommended = computed(() => {
 export const pageState = computed(() => {
   if (run.value) return "running";
   if (opening.a.value !== null || opening.b.value !== null) return "loading";
-  if (notices.value.some(({ place }) => place !== "link")) return "error";
+  if (notices.value.some(({ place }) => place !== "link" && place !== "content")) return "error";
   if (inspection.value?.problem) return "error";
   if (!slots.a.value || !slots.b.value) return "idle";
   return result.value && !outOfDate.value && shapes.value.intersection ? "done" : "ready";
@@ -281,10 +298,16 @@ export function change(part: SettingsPatch): void {
 
 let noticeId = 0;
 
-export function notify(place: Notice["place"], code: string, message: string, hint: string): void {
+export function notify(
+  place: Notice["place"],
+  code: string,
+  message: string,
+  hint: string,
+  again: Notice["again"] = null,
+): void {
   noticeId += 1;
   const kept = notices.value.filter((notice) => notice.place !== place);
-  notices.value = [...kept, { id: noticeId, place, code, message, hint }];
+  notices.value = [...kept, { id: noticeId, place, code, message, hint, again }];
 }
 
 export function dismiss(place: Notice["place"]): void {

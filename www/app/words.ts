@@ -16,6 +16,7 @@ import type { Nouns } from "./demos";
 import { bytes, count, degrees, length, number, percent, plusMinus } from "./format";
 import { figure, type Phrase } from "./phrase";
 import { completed, preparationWords, UNSTATED } from "./preparation";
+import type { Reading } from "./state";
 
 /** The thresholds of src/report.rs. */
 export const R_HAT = 1.01;
@@ -451,15 +452,17 @@ export function settingsSentence(report: Report): string {
 }
 
 /** While a file is opened: how far it is read. */
-export function readingSentence(read: { bytes: number; of: number } | null): string {
+export function readingSentence(read: Reading | null): string {
   if (read === null) return "Opening…";
-  if (read.bytes >= read.of) return "Making the model…";
+  const does = read.arrives ? "Downloading" : "Reading";
+  if (read.of === null) return `${does}: ${bytes(read.bytes)} so far`;
+  if (read.bytes >= read.of && !read.arrives) return "Making the model…";
   const of = bytes(read.of);
   const unit = of.slice(of.indexOf("\u202f"));
   const done = unit.endsWith("MB")
     ? number(read.bytes / 1e6)
     : String(Math.round(read.bytes / 1e3));
-  return `Reading ${done} of ${of}`;
+  return `${does} ${done} of ${of}`;
 }
 
 /** How a model was made that is not in a file; null for one that is. */

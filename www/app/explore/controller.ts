@@ -1,7 +1,7 @@
 /** Keeps the explorer's own viewer in step with what is explored. */
 import { batch, computed, effect, signal } from "@preact/signals";
 import type { Region } from "../../worker/protocol";
-import { camera, vertex } from "../state";
+import { camera, embedded, vertex } from "../state";
 import { sceneFrame } from "../viewer/contents";
 import {
   type ExploreScene,
@@ -199,7 +199,7 @@ function gestures(canvas: HTMLCanvasElement, panes: Map<Region, HTMLElement>, ma
       camera.value = next;
     },
     flat: () => scene.peek().geometry.a?.dimension === 2,
-    ownsWheel: () => wide.matches,
+    ownsWheel: () => !embedded.peek() && wide.matches,
     pixelsPerRadius: () => {
       const [shown] = panesOf(explorer.peek());
       return Math.max(40, ((shown && panes.get(shown)?.clientHeight) ?? 200) / 2.2);

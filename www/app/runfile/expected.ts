@@ -1,21 +1,25 @@
 /** What a run file says of its two models, and whether those that are open are the same. Pure. */
 import type { BothSides, ModelReport, Report, RunFile, Settings } from "../../worker/protocol";
+import type { LinkState } from "../link";
 import { completed } from "../preparation";
 import { DEFAULTS, settingsOf } from "../settings";
 
 export interface ExpectedModel {
-  name: string;
+  /** Null where a link leaves it out. */
+  name: string | null;
   part: string | null;
   /** `demo:NAME`, an address, or null for a file of one's own. */
   source: string | null;
-  /** Hash of its content; reports of older engines lack it. */
+  /** Hash of its content, or the start of it; reports of older engines lack it. */
   fingerprint: string | null;
 }
 
 /** A run that waits for its models. */
 export interface ExpectedRun {
-  /** Name of its file. */
-  file: string;
+  /** Name of its file; null for a link. */
+  file: string | null;
+  /** What else a link says. */
+  link: LinkState | null;
   models: BothSides<ExpectedModel>;
   settings: Settings;
   /** Version of the engine that wrote it, where it says so. */
@@ -50,6 +54,7 @@ export function expectedRun(
   };
   return {
     file,
+    link: null,
     engine,
     models: { a: model("a"), b: model("b") },
     settings: chosen(run.settings, engine === version),
@@ -86,7 +91,7 @@ export function verdictOf(expected: ExpectedModel, open: OpenModel | null): Verd
   if (open === null) return "missing";
   const { fingerprint } = open.report;
   if (expected.fingerprint !== null && fingerprint) {
-    return expected.fingerprint === fingerprint ? "same" : "other";
+    return fingerprint.startsWith(expected.fingerprint) ? "same" : "other";
   }
   // A run file that was written by hand names only where its models are.
   return expected.source !== null && expected.source === open.source ? "same" : "unknown";
@@ -97,29 +102,31 @@ export function adviceOf(
   expected: ExpectedModel,
   open: OpenModel | null,
   side: "a" | "b",
+  of: "run file" | "link" = "run file",
 ): string | null {
   const letter = side.toUpperCase();
-  const words = modelWords(expected);
+  const words = `The ${of} was made with ${modelWords(expected)}`;
   switch (verdictOf(expected, open)) {
     case "same":
       return null;
     case "missing":
-      return `The run file was made with ${words}; open it as ${letter}.`;
+      return `${words}; open it as ${letter}.`;
     case "unknown":
-      return `The run file was made with ${words}; whether that is what is open as ${letter} cannot be told without fingerprints.`;
+      return `${words}; whether that is what is open as ${letter} cannot be told without fingerprints.`;
     case "other": {
       const found = `“${open?.report.name}” (${shortened(open?.report.fingerprint)})`;
       if (expected.source !== null && expected.source === open?.source) {
-        return `The run file was made with another ${words} than is found there now, ${found}.`;
+        return `The ${of} was made with another ${modelWords(expected)} than is found there now, ${found}.`;
       }
-      return `The run file was made with ${words}; open it as ${letter}. What is open is ${found}.`;
+      return `${words}; open it as ${letter}. What is open is ${found}.`;
     }
   }
 }
 
 /** “male.h5” (3f2a…), with its part where it was not the only one. */
 export function modelWords({ name, part, fingerprint }: ExpectedModel): string {
-  const named = part !== null && part !== "shape" ? `“${name}”, ${part}` : `“${name}”`;
+  const file = name === null ? "a file" : `“${name}”`;
+  const named = part !== null && part !== "shape" ? `${file}, ${part}` : file;
   return fingerprint === null ? named : `${named} (${shortened(fingerprint)})`;
 }
 

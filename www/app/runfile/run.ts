@@ -2,12 +2,15 @@
 import { batch, computed, effect, signal } from "@preact/signals";
 import { wasAborted } from "../../worker/engine-errors";
 import type { DroppedFile } from "../../worker/protocol";
+import { looksLikeAddress } from "../address/address";
+import { expectedByLink } from "../address/waiting";
 import { DEMO_MODELS } from "../demos";
 import { saveText } from "../download";
 import { engineClient, report } from "../engine";
-import { currentStep, joinStep } from "../history";
+import { currentStep, joinStep, take } from "../history";
+import type { LinkState } from "../link";
 import { openPair } from "../models";
-import { baseName, demoSource, first, isOpen, sourceText, wantedOf } from "../sources";
+import { baseName, demoSource, first, isOpen, nameOf, sourceText, wantedOf } from "../sources";
 import {
   currentKey,
   dismiss,
@@ -16,6 +19,7 @@ import {
   result,
   SIDES,
   type Side,
+  type Slot,
   settings,
   shelf,
   slots,
@@ -37,12 +41,15 @@ import {
 /** The run whose models are not both open yet. */
 export const awaited = signal<ExpectedRun | null>(null);
 /** The run whose settings were taken over, while they are what is chosen. */
-const taken = signal<{ run: ExpectedRun; key: string | null } | null>(null);
+const taken = signal<{ run: ExpectedRun; key: string | null; same: boolean } | null>(null);
 
 export const repeated = computed(() => {
   const found = taken.value;
   return found && found.key === currentKey.value ? found.run : null;
 });
+
+/** Whether its models are the very ones, too. */
+export const sameModels = computed(() => taken.value?.same ?? false);
 
 /** Whether what is shown has the numbers of the report: the first that differs, or null; else undefined. */
 export const reproduced = computed(() => {
@@ -54,7 +61,8 @@ export const reproduced = computed(() => {
 /** What is to be done before the run can begin, by side. */
 export const advice = computed(() => {
   const run = awaited.value;
-  const of = (side: Side) => (run ? adviceOf(run.models[side], openAs(side), side) : null);
+  const kind = run?.link ? "link" : "run file";
+  const of = (side: Side) => (run ? adviceOf(run.models[side], openAs(side), side, kind) : null);
   return { a: of("a"), b: of("b") };
 });
 
@@ -82,12 +90,25 @@ export async function openRun(name: string, text: string, models: boolean): Prom
     const { signal } = new AbortController();
     const read = await engineClient().readRun(signal, text);
     const run = expectedRun(baseName(name), text, read, engine.value?.version ?? "");
-    awaited.value = run;
-    taken.value = null;
-    if (!models) await openPair(fetchable(run, "a"), fetchable(run, "b"));
+    await awaitRun(run, models);
   } catch (thrown) {
     if (!wasAborted(thrown)) report("page", thrown);
   }
+}
+
+/** Waits for its models, and opens those of them that can be fetched unless others are to come. */
+async function awaitRun(run: ExpectedRun, models = false): Promise<void> {
+  awaited.value = run;
+  taken.value = null;
+  if (!models) await openPair(fetchable(run, "a"), fetchable(run, "b"));
+}
+
+/** Waits for the files that a link names and does not hold; null where it holds everything. */
+export function awaitLink(link: LinkState): Promise<void> | null {
+  const run = expectedByLink(link);
+  // Nobody waits for a former link any more.
+  if (awaited.peek()?.link) awaited.value = null;
+  return run && awaitRun(run);
 }
 
 /** What the run file says where to find, unless it is open. */
@@ -96,8 +117,8 @@ function fetchable(run: ExpectedRun, side: Side): Wanted | null {
   const demo = /^demo:(.+)/.exec(source ?? "")?.[1];
   const slot = slots[side].value;
   let wanted: Wanted | null = null;
-  if (demo !== undefined && DEMO_MODELS.includes(demo)) wanted = first(demoSource(demo));
-  else if (source && /^https?:/.test(source)) {
+  if (demo !== undefined) wanted = DEMO_MODELS.includes(demo) ? first(demoSource(demo)) : null;
+  else if (source && looksLikeAddress(source)) {
     wanted = { source: { kind: "url", url: source }, part, scale: false };
   }
   return wanted && slot && isOpen(slot, wanted) ? null : wanted;
@@ -135,13 +156,14 @@ function isSame(expected: ExpectedModel, open: OpenModel | null): boolean {
   return verdictOf(expected, open) === "same";
 }
 
-/** Its models may be open in other places: on the shelf, or the other way round. */
+/** Its models may be open in other places: on the shelf, or the other way round, or as another part of their file. */
 async function takeFromShelf(run: ExpectedRun): Promise<void> {
   const found = (side: Side): Wanted | null => {
     const expected = run.models[side];
     if (isSame(expected, openAs(side)) || expected.fingerprint === null) return null;
-    const slot = shelf.value.find((one) => one.report.fingerprint === expected.fingerprint);
-    return slot ? wantedOf(slot) : null;
+    const open = (slot: Slot) => ({ report: slot.report, source: null });
+    const slot = shelf.value.find((one) => isSame(expected, open(one)));
+    return slot ? wantedOf(slot) : partOf(expected);
   };
   const [a, b] = [found("a"), found("b")];
   const complete = SIDES.every(
@@ -150,22 +172,31 @@ async function takeFromShelf(run: ExpectedRun): Promise<void> {
   if (complete && (a || b)) await openPair(a, b);
 }
 
+/** The part that is expected, of an open file of that name of which only other parts are open. */
+function partOf({ name, part }: ExpectedModel): Wanted | null {
+  if (name === null || part === null) return null;
+  const files = shelf.value.filter(({ source }) => nameOf(source) === name);
+  const file = files.find(({ parts }) => parts.includes(part));
+  return file && files.every((one) => one.part !== part) ? { ...wantedOf(file), part } : null;
+}
+
 /** Its settings become those of the page, as a part of a step or as one of their own. */
-function takeOver(run: ExpectedRun, step: number | null): void {
+function takeOver(run: ExpectedRun, step: number | null, same = true): void {
   const change = () => {
-    settings.value = run.settings;
+    if (run.link) take(run.link);
+    else settings.value = run.settings;
     awaited.value = null;
-    taken.value = { run, key: currentKey.value };
+    taken.value = { run, key: currentKey.value, same };
   };
   if (step === null) batch(change);
   else joinStep(change, step);
-  spoken.value = `The settings of ${run.file} are taken over.`;
+  spoken.value = `The settings of ${run.file ?? "the link"} are taken over.`;
 }
 
 /** Whatever models are open: its settings for them. */
 export function useSettingsAnyway(): void {
   // Of other models its numbers cannot be expected.
-  if (awaited.value) takeOver({ ...awaited.value, report: null }, null);
+  if (awaited.value) takeOver({ ...awaited.value, report: null }, null, false);
 }
 
 export function forgetRunFile(): void {

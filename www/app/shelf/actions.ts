@@ -7,6 +7,7 @@ import { first, isOpen, type NamedSource, nameOf, openWanted, wantedOf } from ".
 import {
   demo,
   dismiss,
+  type Reading,
   room,
   type Side,
   type Slot,
@@ -82,12 +83,12 @@ async function openAll(wanted: Wanted[]): Promise<Slot[] | null> {
     if (signal.aborted) break;
     if ([...shelf.peek(), ...added].some((slot) => isOpen(slot, one))) continue;
     const name = nameOf(one.source);
-    const tell = (read: { bytes: number; of: number } | null) => {
+    const tell = (read: Reading | null) => {
       if (opening === controller) shelving.value = { name, read, done, of: wanted.length };
     };
     tell(null);
     try {
-      const slot = await openWanted(signal, one, (bytes, of) => tell({ bytes, of }));
+      const slot = await openWanted(signal, one, tell);
       carry(slot.model);
       added.push(slot);
     } catch (thrown) {

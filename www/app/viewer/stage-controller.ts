@@ -8,6 +8,7 @@ import {
   alone,
   camera,
   compared,
+  embedded,
   packagedHeads,
   painting,
   region,
@@ -164,7 +165,8 @@ function gestures(canvas: HTMLCanvasElement, made: Viewer) {
       camera.value = next;
     },
     flat: () => dimension.peek() === 2,
-    ownsWheel: () => wide.matches || alone.peek() !== null,
+    // A frame scrolls with the page around it.
+    ownsWheel: () => !embedded.peek() && (wide.matches || alone.peek() !== null),
     pixelsPerRadius: () => {
       const pane = panes.get(alone.peek() ?? "intersection");
       return Math.max(40, (pane?.clientHeight ?? 200) / 2.2);

@@ -43,7 +43,7 @@ function Adding() {
   const found = shelving.value;
   if (!found) return null;
   const { name, read, done, of } = found;
-  const share = read ? read.bytes / read.of : 0;
+  const share = read?.of ? Math.min(1, read.bytes / read.of) : 0;
   return (
     <div class="working">
       <p class="run-state">

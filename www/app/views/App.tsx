@@ -1,10 +1,12 @@
-import { demo, page, room, spoken } from "../state";
+import { demo, embedded, page, room, spoken } from "../state";
 import { wide } from "../wide";
 import { About } from "./About";
 import { Chooser } from "./Chooser";
+import { Consent } from "./Consent";
 import { Diagnostics } from "./Diagnostics";
 import { Downloads } from "./Downloads";
 import { DropOverlay } from "./DropOverlay";
+import { Embedded } from "./Embedded";
 import { Explorer } from "./Explorer";
 import { ExploreStage } from "./explore/ExploreStage";
 import { Header } from "./Header";
@@ -19,10 +21,22 @@ import { Rooms } from "./Rooms";
 import { RunFileCard } from "./RunFileCard";
 import { RunPanel } from "./RunPanel";
 import { SettingsPanel } from "./SettingsPanel";
+import { ShareDialog } from "./ShareDialog";
 import { Stage } from "./Stage";
 import { Taking } from "./Taking";
 
 export function App() {
+  return embedded.value ? (
+    <>
+      {page.value === "learn" ? <Later load={learn} /> : <Embedded />}
+      <Spoken />
+    </>
+  ) : (
+    <WholePage />
+  );
+}
+
+function WholePage() {
   return (
     <>
       <Header />
@@ -32,9 +46,8 @@ export function App() {
       <DropOverlay />
       <Chooser />
       <Taking />
-      <p class="unseen" aria-live="polite">
-        {spoken.value}
-      </p>
+      <ShareDialog />
+      <Spoken />
     </>
   );
 }
@@ -49,6 +62,8 @@ function Comparison() {
       <div class="centre">
         <Notices place="page" />
         <Notices place="link" />
+        <Notices place="content" />
+        <Consent />
         <Headline />
         <Rooms />
         <Stage />
@@ -77,6 +92,15 @@ function Comparison() {
         <About />
       </div>
     </main>
+  );
+}
+
+/** For screen readers. */
+function Spoken() {
+  return (
+    <p class="unseen" aria-live="polite">
+      {spoken.value}
+    </p>
   );
 }
 

@@ -1,11 +1,11 @@
-import { useSignal } from "@preact/signals";
 import { DEMO_GROUPS, findDemo } from "../demos";
-import { linkable, redo, redoable, undo, undoable, writeAddress } from "../history";
+import { redo, redoable, undo, undoable } from "../history";
 import { chooseDemo } from "../models";
-import { demo, page, painting, spoken } from "../state";
+import { demo, page, painting } from "../state";
 import { isDark, toggleTheme } from "../theme";
-import { LinkIcon, MoonIcon, RedoIcon, SunIcon, UndoIcon } from "./icons";
+import { MoonIcon, RedoIcon, ShareIcon, SunIcon, UndoIcon } from "./icons";
 import { Pages } from "./Pages";
+import { sharing } from "./ShareDialog";
 
 export function Header() {
   return (
@@ -22,7 +22,17 @@ export function Header() {
       <div class="tools">
         <UndoButtons />
         {page.value === "compare" && <DemoChooser />}
-        <CopyLink />
+        <button
+          type="button"
+          class="quiet share-button"
+          aria-label="Share"
+          onClick={() => {
+            sharing.value = true;
+          }}
+        >
+          <ShareIcon />
+          <span>Share</span>
+        </button>
         <button
           type="button"
           class="quiet icon-only"
@@ -98,38 +108,5 @@ function DemoChooser() {
         ))}
       </select>
     </label>
-  );
-}
-
-function CopyLink() {
-  const said = useSignal("");
-  const say = (text: string) => {
-    said.value = text;
-    spoken.value = text;
-    setTimeout(() => {
-      said.value = "";
-    }, 2500);
-  };
-  const copy = async () => {
-    writeAddress();
-    try {
-      await navigator.clipboard.writeText(location.href);
-      say(linkable.value ? "Link copied" : "Copied; it cannot hold your files and lists");
-    } catch {
-      say("Copy it from the address bar");
-    }
-  };
-  return (
-    <button
-      type="button"
-      class="quiet copy-link"
-      aria-label={said.value || "Copy link"}
-      title="Copy link"
-      data-said={said.value !== ""}
-      onClick={() => void copy()}
-    >
-      <LinkIcon />
-      <span>{said.value || "Copy link"}</span>
-    </button>
   );
 }

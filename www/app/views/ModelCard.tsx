@@ -1,10 +1,21 @@
 import { useEffect, useRef } from "preact/hooks";
 import type { ModelReport } from "../../worker/protocol";
+import { askedName } from "../address/waiting";
 import { bytes, count, length } from "../format";
 import { cancelOpening, choosePart, chooseScale, openParts } from "../models";
 import { keptModes } from "../preparation";
 import { nameOf } from "../sources";
-import { demo, opening, partName, result, type Side, type Slot, settings, slots } from "../state";
+import {
+  demo,
+  linked,
+  opening,
+  partName,
+  result,
+  type Side,
+  type Slot,
+  settings,
+  slots,
+} from "../state";
 import { isDark } from "../theme";
 import { cardPicture, drawable } from "../viewer/stage-controller";
 import { basisSentence, originSentence, readingSentence, unitSentence } from "../words";
@@ -20,7 +31,8 @@ export function ModelCard({ side }: { side: Side }) {
   // Before the engine is up, the stored report already describes both models.
   const report = slot?.report ?? result.value?.report.models[side];
   const ofFile = slot && slot.source.kind !== "demo" ? nameOf(slot.source) : undefined;
-  const name = ofFile ?? report?.name ?? demo.value?.[side] ?? "";
+  const asked = linked.value && askedName(linked.value, side);
+  const name = ofFile ?? report?.name ?? demo.value?.[side] ?? asked ?? "";
   const busy = opening[side].value;
   return (
     <section
@@ -35,11 +47,13 @@ export function ModelCard({ side }: { side: Side }) {
         </span>
         <div class="card-title">
           <h2 title={busy?.name ?? name}>{busy?.name ?? name}</h2>
-          <p class="format">{busy ? readingSentence(busy.read) : (report?.format ?? "")}</p>
+          <p class="format">
+            {busy ? readingSentence(busy.read) : (report?.format ?? "Not open yet")}
+          </p>
         </div>
         {busy ? <CancelButton side={side} /> : <OpenButtons side={side} />}
       </div>
-      {busy?.read && busy.read.bytes < busy.read.of && (
+      {busy?.read?.of && busy.read.bytes < busy.read.of && (
         <progress
           class="bar"
           value={busy.read.bytes}

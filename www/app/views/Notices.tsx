@@ -16,6 +16,11 @@ export function Notices({ place }: { place: Notice["place"] }) {
           <div>
             <p class="notice-message">{notice.message}</p>
             {notice.hint && <p class="notice-hint">{notice.hint}</p>}
+            {notice.again && (
+              <button type="button" class="notice-again" onClick={notice.again}>
+                Try again
+              </button>
+            )}
           </div>
           <button
             type="button"

@@ -1,6 +1,6 @@
 import { count, degrees } from "../format";
 import { DIAGNOSTICS, GROUPS } from "../numbers";
-import { outOfDate, result } from "../state";
+import { linked, opening, outOfDate, result, SIDES, slots } from "../state";
 import {
   belief,
   differences,
@@ -22,13 +22,16 @@ export function Headline() {
   const held = result.value;
   return (
     <h2 class="headline" data-stale={outOfDate.value}>
-      {held ? (
-        <Phrase parts={headline(held.report, held.nouns)} />
-      ) : (
-        "Comparing two models of shape."
-      )}
+      {held ? <Phrase parts={headline(held.report, held.nouns)} /> : waiting()}
     </h2>
   );
+}
+
+function waiting(): string {
+  const open = SIDES.filter((side) => slots[side].value || opening[side].value);
+  return linked.value?.urls && open.length < 2
+    ? "Waiting for the models of the link."
+    : "Comparing two models of shape.";
 }
 
 export function Results() {

@@ -1,31 +1,40 @@
+import type { ExpectedRun } from "../runfile/expected";
 import {
   advice,
   awaited,
   forgetRunFile,
   repeated,
   reproduced,
+  sameModels,
   useSettingsAnyway,
 } from "../runfile/run";
-import { outOfDate, run } from "../state";
+import { outOfDate, run, SIDES, slots } from "../state";
 import { CloseIcon } from "./icons";
 import { showNotice } from "./Notices";
 
 /** A run file that waits for its models, or what became of one. */
 export function RunFileCard() {
-  if (awaited.value) return <Awaited file={awaited.value.file} />;
+  if (awaited.value) return <Awaited run={awaited.value} />;
   const shown = repeated.value;
   if (!shown) return null;
   return (
-    <div class="run-file" role="status" aria-label="Run file" data-about="taken">
-      <p>
-        With the settings of “{shown.file}”
-        {shown.engine !== null && `, made by engine ${shown.engine}`}. <Numbers />
-      </p>
+    <div class="run-file" role="status" aria-label={label(shown)} data-about="taken">
+      {shown.file === null ? (
+        <p>
+          With the settings of the link.
+          {sameModels.value && " Both models are the ones that it was made with."}
+        </p>
+      ) : (
+        <p>
+          With the settings of “{shown.file}”
+          {shown.engine !== null && `, made by engine ${shown.engine}`}. <Numbers />
+        </p>
+      )}
       <button
         type="button"
         class="quiet icon-only"
         onClick={forgetRunFile}
-        aria-label="Dismiss the run file"
+        aria-label={`Dismiss the ${label(shown).toLowerCase()}`}
       >
         <CloseIcon />
       </button>
@@ -33,22 +42,33 @@ export function RunFileCard() {
   );
 }
 
-function Awaited({ file }: { file: string }) {
+function label({ link }: ExpectedRun): string {
+  return link ? "Link" : "Run file";
+}
+
+function Awaited({ run }: { run: ExpectedRun }) {
+  const empty = SIDES.every((side) => slots[side].value === null);
   const sentences = [advice.value.a, advice.value.b].flatMap((sentence) => sentence ?? []);
   return (
-    <section ref={showNotice} class="run-file" aria-label="Run file" data-about="awaited">
+    <section ref={showNotice} class="run-file" aria-label={label(run)} data-about="awaited">
       <div class="run-file-body">
-        <h2>“{file}” waits for its models</h2>
+        <h2>{run.link ? "The link waits for its models" : `“${run.file}” waits for its models`}</h2>
         <div role="alert">
           {sentences.map((sentence) => (
             <p key={sentence}>{sentence}</p>
           ))}
         </div>
-        <p class="small">Once they are open it runs by itself; until then nothing changes.</p>
+        <p class="small">
+          {run.link &&
+            "A link holds no files: drop the same ones anywhere, and it is checked that they are. "}
+          Once they are open it runs by itself; until then nothing changes.
+        </p>
         <div class="card-row">
-          <button type="button" onClick={useSettingsAnyway}>
-            Use its settings for these
-          </button>
+          {!empty && (
+            <button type="button" onClick={useSettingsAnyway}>
+              Use its settings for these
+            </button>
+          )}
           <button type="button" class="quiet" onClick={forgetRunFile}>
             Forget it
           </button>

@@ -8,9 +8,9 @@ function Icon({ children }: { children: ComponentChildren }) {
   );
 }
 
-export const LinkIcon = () => (
+export const ShareIcon = () => (
   <Icon>
-    <path d="M8.5 11.5a3 3 0 0 0 4.2 0l2.8-2.8a3 3 0 0 0-4.2-4.2l-1 1M11.5 8.5a3 3 0 0 0-4.2 0l-2.8 2.8a3 3 0 0 0 4.2 4.2l1-1" />
+    <path d="M10 12.500v-9M6.500 7 10 3.500 13.500 7M6 9.500H4.500v7h11v-7H14" />
   </Icon>
 );
 

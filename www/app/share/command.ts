@@ -1,0 +1,86 @@
+/** The comparison on show as a line for the command line. Pure. */
+import type { BothSides, Settings, SidePreparation } from "../../worker/protocol";
+import { budgetOf, DEFAULTS } from "../settings";
+
+/** A model as the command line names it. */
+export interface CommandModel {
+  /** `demo:NAME`, or the name of a file. */
+  source: string;
+  /** Null for the first of the file. */
+  part: string | null;
+  /** Whether the shapes of a set were brought to one size. */
+  scale: boolean;
+}
+
+export interface Command {
+  line: string;
+  /** What the line cannot say; a run file can. */
+  missing: string[];
+}
+
+const FLAGS = {
+  sigma: "sigma",
+  seed: "seed",
+  chains: "chains",
+  draws: "draws",
+  burnIn: "burn-in",
+  thin: "thin",
+  fit: "fit",
+  weighted: "weighted",
+  pooling: "pooling",
+  plausibility: "plausibility",
+  noise: "noise",
+  difference: "difference",
+  differenceQuantile: "difference-quantile",
+  differenceThreshold: "difference-threshold",
+  differenceDraws: "difference-draws",
+  modes: "modes",
+  align: "align",
+} as const;
+
+export function commandOf(settings: Settings, models: BothSides<CommandModel>): Command {
+  const standard = { ...DEFAULTS, ...budgetOf(settings.sampler) };
+  const words = ["shapevenn", "compare", modelWord(models.a), modelWord(models.b)];
+  if (settings.sampler !== DEFAULTS.sampler) words.push("--sampler", settings.sampler);
+  for (const [name, flag] of Object.entries(FLAGS) as [keyof typeof FLAGS, string][]) {
+    const value = settings[name];
+    if (value !== standard[name] && value !== null) words.push(`--${flag}`, String(value));
+  }
+  const missing: string[] = [];
+  words.push(...preparation(settings, missing));
+  if (models.a.scale && models.b.scale) words.push("--scale");
+  else if (models.a.scale || models.b.scale) missing.push("one size for the shapes of one model");
+  return { line: words.map(quoted).join(" "), missing };
+}
+
+/** Steps before the comparison; what cannot be said goes to `missing`. */
+function preparation({ prepare }: Settings, missing: string[]): string[] {
+  const { a, b, convert, points, subsample } = prepare;
+  const words: string[] = [];
+  const eitherSide = (say: (side: SidePreparation) => boolean) => say(a) || say(b);
+  if (a.unit !== null) words.push("--unit-a", a.unit);
+  if (b.unit !== null) words.push("--unit-b", b.unit);
+  if (convert) words.push("--convert-units");
+  if (eitherSide(({ modes }) => modes !== null)) missing.push("a number of modes for one model");
+  if (a.variance !== null && a.variance === b.variance) {
+    words.push("--variance", String(a.variance));
+  } else if (eitherSide(({ variance }) => variance !== null)) {
+    missing.push("a share of the variance for one model");
+  }
+  if (a.rebase && b.rebase) missing.push("both models on the mean of the other");
+  else if (a.rebase || b.rebase) words.push("--rebase", a.rebase ? "a" : "b");
+  if (points?.by === "map") words.push("--crop-map");
+  if (points?.by === "region") words.push("--region", points.ranges);
+  if (points?.by === "list") missing.push("the list of points");
+  if (subsample !== null) words.push("--subsample", String(subsample));
+  return words;
+}
+
+function modelWord({ source, part }: CommandModel): string {
+  return part === null ? source : `${source}#${part}`;
+}
+
+/** As a POSIX shell reads it. */
+function quoted(word: string): string {
+  return /^[\w./:@%+=,-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
+}

@@ -1,0 +1,58 @@
+import { percent } from "../format";
+import { sharedAddress } from "../history";
+import { MAP_WORDS } from "../map-words";
+import { awaited } from "../runfile/run";
+import { alone, nouns, room, run, vertexMap, view } from "../state";
+import { Consent } from "./Consent";
+import { Diagnostics } from "./Diagnostics";
+import { ExploreStage } from "./explore/ExploreStage";
+import { Measures } from "./Measures";
+import { ModelTable } from "./ModelTable";
+import { Notices } from "./Notices";
+import { regionLabel } from "./names";
+import { Headline } from "./Results";
+import { RunFileCard } from "./RunFileCard";
+import { Stage } from "./Stage";
+
+/** The page as a frame in another page: one room, one line of caption, and the way out of the frame. */
+export function Embedded() {
+  return (
+    <main class="embedded" data-room={room.value}>
+      <div class="centre">
+        {(["page", "link", "content", "a", "b", "pair", "run"] as const).map((place) => (
+          <Notices key={place} place={place} />
+        ))}
+        <Consent />
+        {awaited.value && <RunFileCard />}
+        <Stage />
+        {room.value === "explore" && <ExploreStage />}
+        {room.value === "measures" && <Measures />}
+        {room.value === "diagnostics" && <Diagnostics />}
+        {room.value === "models" && <ModelTable />}
+      </div>
+      <footer class="caption">
+        <p class="caption-what">{shown()}</p>
+        <Headline />
+        <a href={sharedAddress()} target="_blank" rel="noopener">
+          Open in Shapevenn
+        </a>
+      </footer>
+    </main>
+  );
+}
+
+/** Whose, and what of them. */
+function shown(): string {
+  const { a, b } = nouns.value;
+  const whose = `A: ${a}. B: ${b}.`;
+  if (run.value) return `${whose} Comparing, ${percent(run.value.progress?.fraction ?? 0)} …`;
+  if (room.value !== "regions") return whose;
+  const what = {
+    mean: "Mean shapes",
+    samples: "Random shapes",
+    sd: MAP_WORDS[vertexMap.value].label,
+  }[view.value];
+  return alone.value === null
+    ? `${whose} ${what}.`
+    : `${whose} ${what} of ${regionLabel(alone.value)}.`;
+}
