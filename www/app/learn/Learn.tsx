@@ -1,4 +1,6 @@
 import { useEffect, useRef } from "preact/hooks";
+import { sharedAddress } from "../history";
+import { embedded } from "../state";
 import { Notices } from "../views/Notices";
 import { useKeys } from "./keys";
 import { SceneList, StepAlong } from "./parts/SceneList";
@@ -20,12 +22,13 @@ export function Learn() {
     document.documentElement.dataset.letters = large.value ? "large" : "usual";
     return () => delete document.documentElement.dataset.letters;
   }, [large.value]);
+  const framed = embedded.value;
   const View = SCENE_VIEWS[name];
   const { title } = titleOf(name);
   const place = SCENES.findIndex((one) => one.name === name);
   return (
-    <main class="learn" ref={top} data-scene={name}>
-      <SceneList scenes={SCENES} teacher={TEACHER} />
+    <main class="learn" ref={top} data-scene={name} data-framed={framed}>
+      {!framed && <SceneList scenes={SCENES} teacher={TEACHER} />}
       <article class="scene" aria-labelledby="scene-title">
         <Notices place="page" />
         <header class="scene-head">
@@ -37,8 +40,19 @@ export function Learn() {
           <h2 id="scene-title">{title}</h2>
         </header>
         <View key={`${name} ${resets.value}`} />
-        <StepAlong />
+        {framed ? <WayOut /> : <StepAlong />}
       </article>
     </main>
+  );
+}
+
+/** Of a frame in another page. */
+function WayOut() {
+  return (
+    <footer class="scene-along">
+      <a class="scene-next" href={sharedAddress()} target="_blank" rel="noopener">
+        Open in Shapevenn
+      </a>
+    </footer>
   );
 }
