@@ -24,6 +24,8 @@ mod place;
 mod scene;
 mod scene_figures;
 mod target;
+#[cfg(test)]
+mod tests;
 
 pub use answer::{
     Fall, LaneDraws, LaneFigures, LaneProgress, LaneShapes, LaneStart, Law, LessonAnswer,
