@@ -766,13 +766,6 @@ fn shapes_of_a_set_are_brought_to_one_size_when_it_is_asked_for() {
     assert!(without < 0.999 * with_size, "size varies no longer: {without}, {with_size} before");
 }
 
-/// A report without what depends on the clock.
-fn timeless(report: &str) -> Value {
-    let mut report: Value = serde_json::from_str(report).unwrap();
-    report.as_object_mut().unwrap().remove("seconds");
-    report
-}
-
 #[test]
 fn a_link_means_the_comparison_that_its_settings_mean() {
     let link = "http://localhost:8080/#v=1&demo=stars-2&seed=7&draws=800&chains=4&sampler=independence\

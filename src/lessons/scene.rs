@@ -132,28 +132,21 @@ impl Scene {
         }
     }
 
-    /// The scene of a link, a whole address or its fragment, and the keys that say nothing of its figures.
+    /// The scene of a link, by its keys and values, and the keys that say nothing of its figures.
     ///
     /// # Errors
     /// [`LessonError`] when it names no scene, or a value cannot be read.
-    pub fn parse(link: &str) -> Result<(Self, Vec<String>), LessonError> {
-        let fragment = link.rsplit_once('#').map_or(link, |(_, fragment)| fragment);
-        let pairs: Vec<(&str, String)> = fragment
-            .split('&')
-            .filter(|part| !part.is_empty())
-            .map(|part| part.split_once('=').unwrap_or((part, "")))
-            .map(|(key, value)| (key, decoded(value)))
-            .collect();
-        let Some((_, name)) = pairs.iter().find(|(key, _)| *key == "scene") else {
-            let message = format!("“{link}” names no scene: scene=… was expected among its keys");
+    pub fn of_link(pairs: &[(String, String)]) -> Result<(Self, Vec<String>), LessonError> {
+        let Some((_, name)) = pairs.iter().find(|(key, _)| key == "scene") else {
+            let message = "The link names no scene: scene=… was expected among its keys".to_owned();
             return Err(LessonError::Unreadable { message });
         };
         let scenes = "one of model, agree, planes, step, cloud, difference, race";
         let mut scene = Self::of(word("The scene", name, scenes)?);
         let mut others = Vec::new();
-        for (key, value) in &pairs {
+        for (key, value) in pairs {
             if !scene.set(key, value)? {
-                others.push((*key).to_owned());
+                others.push(key.clone());
             }
         }
         Ok((scene, others))
@@ -224,35 +217,21 @@ fn count(what: &'static str, found: &str) -> Result<usize, LessonError> {
     found.parse().map_err(|_| unexpected(what, "a whole number", found))
 }
 
-/// A value of a link without its escapes: %2C is a comma, + a space.
-fn decoded(value: &str) -> String {
-    let mut bytes = Vec::new();
-    let mut rest = value.as_bytes();
-    while let [first, tail @ ..] = rest {
-        let digits = tail.get(..2).and_then(|digits| core::str::from_utf8(digits).ok());
-        let escaped = digits.and_then(|digits| u8::from_str_radix(digits, 16).ok());
-        match (first, escaped) {
-            (b'%', Some(byte)) => {
-                bytes.push(byte);
-                rest = &tail[2..];
-                continue;
-            }
-            (b'+', _) => bytes.push(b' '),
-            (byte, _) => bytes.push(*byte),
-        }
-        rest = tail;
-    }
-    String::from_utf8_lossy(&bytes).into_owned()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    /// Keys and values as they stand in a link.
+    fn of_link(text: &str) -> Result<(Scene, Vec<String>), LessonError> {
+        let pairs = text.split('&').filter_map(|pair| pair.split_once('='));
+        let owned = |(key, value): (&str, &str)| (key.to_owned(), value.to_owned());
+        Scene::of_link(&pairs.map(owned).collect::<Vec<_>>())
+    }
+
     #[test]
-    fn an_address_and_its_fragment_are_the_same_scene() {
-        let fragment = "page=learn&scene=step&seed=7&steps=120&camera=1,2&coefficients=1%2C-0.5";
-        let (scene, others) = Scene::parse(fragment).unwrap();
+    fn what_is_left_out_of_a_link_has_its_default() {
+        let link = "page=learn&scene=step&seed=7&steps=120&camera=1,2&coefficients=1,-0.5";
+        let (scene, others) = of_link(link).unwrap();
         let expected = Scene {
             seed: "7".to_owned(),
             steps: 120,
@@ -261,23 +240,21 @@ mod tests {
         };
         assert_eq!(scene, expected, "what is left out has its default");
         assert_eq!(others, ["camera"], "the picture's own keys are told");
-        let address = format!("https://example.org/shapevenn/?serial#{fragment}");
-        assert_eq!(Scene::parse(&address).unwrap(), (scene, others), "with the address before it");
     }
 
     #[test]
     fn every_scene_opens_by_its_name_and_all_modes_can_be_asked_for() {
         for name in ["model", "agree", "planes", "step", "cloud", "difference", "race"] {
-            assert!(Scene::parse(&format!("scene={name}")).is_ok(), "{name}");
+            assert!(of_link(&format!("scene={name}")).is_ok(), "{name}");
         }
-        let (scene, _) = Scene::parse("scene=step&modes=all&sampler=paper").unwrap();
+        let (scene, _) = of_link("scene=step&modes=all&sampler=paper").unwrap();
         assert_eq!((scene.opening.modes, scene.sampler), (None, LessonSampler::Paper), "set");
     }
 
     #[test]
     fn faults_name_what_was_expected_and_what_was_found() {
         for (link, expected) in [
-            ("page=learn", "“page=learn” names no scene: scene=… was expected among its keys."),
+            ("page=learn", "The link names no scene: scene=… was expected among its keys."),
             ("scene=step&steps=-1", "The number of steps is a whole number, not “-1”."),
             ("scene=step&side=c", "The side is a or b, not “c”."),
             ("scene=agree&sigma=small", "σ is a number, not “small”."),
@@ -286,7 +263,7 @@ mod tests {
                 "What is broken is one of none, scaling, one-chain, sigma, misaligned, not “all”.",
             ),
         ] {
-            let error = Scene::parse(link).unwrap_err();
+            let error = of_link(link).unwrap_err();
             assert_eq!(error.to_string(), expected, "{link}");
         }
     }

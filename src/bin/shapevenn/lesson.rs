@@ -4,6 +4,7 @@ use clap::Args;
 use serde_json::Value;
 use shapevenn::lessons::{LessonError, Scene};
 
+use crate::link::Link;
 use crate::{Failure, to_json};
 
 /// Longer lists are for programs.
@@ -25,7 +26,8 @@ impl From<LessonError> for Failure {
 }
 
 pub(crate) fn lesson(arguments: &Arguments) -> Result<(), Failure> {
-    let (scene, others) = Scene::parse(&arguments.link)?;
+    let link = Link::parse(&arguments.link);
+    let (scene, others) = Scene::of_link(link.pairs())?;
     let figures = scene.figures()?;
     if arguments.json {
         println!("{}", to_json(&figures)?);

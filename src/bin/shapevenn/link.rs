@@ -1,4 +1,4 @@
-//! `compare --link`: the comparison that a link of the page is about.
+//! Links of the page, and the comparison that one is about (`compare --link`).
 //!
 //! The grammar is that of docs/links.md. Where the page falls back to the default, because a value cannot be
 //! read, the command line refuses: whoever types a command sees what was wrong with it.
@@ -57,6 +57,11 @@ impl Link {
     pub(crate) fn parse(text: &str) -> Self {
         let fragment = text.split_once('#').map_or(text, |(_, fragment)| fragment);
         Self(form_urlencoded::parse(fragment.as_bytes()).into_owned().collect())
+    }
+
+    /// All of them, in order.
+    pub(crate) fn pairs(&self) -> &[(String, String)] {
+        &self.0
     }
 
     /// The first value of a key, as the page reads it.
@@ -201,4 +206,52 @@ fn demo_models(pair: &str) -> Result<[String; 2], Failure> {
         });
     }
     Ok([a, b].map(|name| format!("demo:{name}")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_address_and_its_fragment_are_the_same_link() {
+        let fragment = "v=1&a=https://example.org/x%20y.h5&modes=3&modes=4";
+        for text in
+            [fragment, &format!("#{fragment}"), &format!("https://a.org/?serial#{fragment}")]
+        {
+            let link = Link::parse(text);
+            assert_eq!(link.get("a"), Some("https://example.org/x y.h5"), "{text}");
+            assert_eq!(link.get("modes"), Some("3"), "the first of two: {text}");
+            assert_eq!(link.pairs().len(), 4, "{text}");
+            assert_eq!(link.page(), "compare", "{text}");
+        }
+    }
+
+    #[test]
+    fn a_link_that_says_nothing_is_the_stored_comparison() {
+        let settings = |text: &str| Link::parse(text).settings().unwrap();
+        assert_eq!(settings("v=1").sigma, Some(FIRST.1), "as the page");
+        assert_eq!(
+            settings("v=1&demo=heads-sex&view=sd").sigma,
+            Some(FIRST.1),
+            "views are no settings"
+        );
+        assert_eq!(
+            settings("v=1&seed=1").sigma,
+            None,
+            "whoever sets one thing leaves σ to the engine"
+        );
+        assert_eq!(settings("v=1&demo=planes").sigma, None, "of other pairs");
+    }
+
+    #[test]
+    fn per_cent_are_shares_with_the_digits_of_the_page() {
+        let settings =
+            Link::parse("v=1&demo=planes&leaves=95.3&variance-b=99.9").settings().unwrap();
+        assert_eq!(
+            settings.difference_quantile.to_bits(),
+            0.953_f64.to_bits(),
+            "as JavaScript has it"
+        );
+        assert_eq!(settings.prepare.b.variance, Some(0.999), "of one model");
+    }
 }
