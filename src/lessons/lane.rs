@@ -25,7 +25,7 @@ use crate::sampling::{
 /// Numbers that a lane keeps at the most: 40 MB.
 const MOST_NUMBERS: usize = 5_000_000;
 /// Proposals after which rejection gives up.
-const MOST_PROPOSALS: u64 = 1 << 21;
+const MOST_PROPOSALS: u64 = 1 << 20;
 /// Fewer draws of a chain say nothing about it.
 const LEAST_DRAWS: usize = 4;
 /// R-hat of chains that each stay at a point of their own, which JSON cannot hold.
