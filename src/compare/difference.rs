@@ -276,7 +276,7 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
 
     use super::*;
-    use crate::compare::Pair;
+    use crate::compare::{Intersection, Pair};
     use crate::measure::mean_vertex_distance;
     use crate::model::Alignment;
 
@@ -328,6 +328,51 @@ mod tests {
                 };
                 assert!((distance / expected_distance - 1.0).abs() < 1e-5, "{definition:?}: d");
                 assert!((score / expected - 1.0).abs() < 1e-5, "{definition:?}: {score}");
+            }
+        }
+    }
+
+    #[test]
+    fn targets_in_double_precision_are_those_of_the_kernel_with_the_slope_of_finite_differences() {
+        let pair = Pair::new(&model(1, 4), &model(2, 3), Alignment::None, None).unwrap();
+        let side = pair.side(0);
+        let criterion =
+            Criterion::new(DifferenceDefinition::Soft, Level::Value(2.0), &side, pair.a(), 1, 0);
+        let mut points = vec![0.0; 4 * 20];
+        fill_normal(&mut stream(4, Stream::Display, 9, 0), &mut points);
+        let centre = DVector::zeros(4);
+        let targets: [[Box<dyn Target>; 2]; 2] = [
+            [
+                Box::new(Difference::exact(&side, &criterion)),
+                Box::new(Difference::new(&side, &criterion)),
+            ],
+            [
+                Box::new(Intersection::exact(&side, 2.0)),
+                Box::new(Intersection::new(&side, 2.0, &centre)),
+            ],
+        ];
+        for [exact, kernel] in targets {
+            let (evaluations, gradients) = exact.differentiate(&points);
+            let (by_kernel, slopes) = kernel.differentiate(&points);
+            assert_eq!(evaluations, exact.evaluate(&points), "with and without gradient");
+            for (index, point) in points.chunks_exact(4).enumerate() {
+                let (found, other) = (evaluations[index], by_kernel[index]);
+                assert!((found.statistic / other.statistic - 1.0).abs() < 1e-5, "d");
+                assert!((found.log_density - other.log_density).abs() < 1e-4, "log p");
+                for mode in 0..4 {
+                    const STEP: f64 = 1e-5;
+                    let moved = |step: f64| {
+                        let mut moved = point.to_vec();
+                        moved[mode] += step;
+                        exact.evaluate(&moved)[0].log_density
+                    };
+                    let expected = (moved(STEP) - moved(-STEP)) / (2.0 * STEP);
+                    let slope = gradients[4 * index + mode];
+                    let off = (slope - expected).abs();
+                    assert!(off < 1e-6 * (1.0 + slope.abs()), "{slope}, not {expected}");
+                    let off = (slope - slopes[4 * index + mode]).abs();
+                    assert!(off < 1e-4 * (1.0 + slope.abs()), "{slope}: the kernel's");
+                }
             }
         }
     }

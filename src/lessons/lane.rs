@@ -25,7 +25,7 @@ use crate::sampling::{
 /// Numbers that a lane keeps at the most: 40 MB.
 const MOST_NUMBERS: usize = 5_000_000;
 /// Proposals after which rejection gives up.
-const MOST_PROPOSALS: u64 = 1 << 21;
+const MOST_PROPOSALS: u64 = 1 << 20;
 /// Fewer draws of a chain say nothing about it.
 const LEAST_DRAWS: usize = 4;
 /// R-hat of chains that each stay at a point of their own, which JSON cannot hold.
@@ -34,7 +34,7 @@ const FROZEN: f64 = 1e6;
 /// What runs.
 #[derive(Debug)]
 enum Runner {
-    Walks(RandomWalkChains),
+    Walks(Box<RandomWalkChains>),
     Chains(Box<dyn Chains>),
     /// With the number of draws that were handed out.
     Rejection(Box<Rejection>, usize),
@@ -105,7 +105,7 @@ impl Lane {
         let start = how.start.as_ref();
         let start = start.map(|start| padded("The start", start, self.dimension)).transpose()?;
         let chains: &mut dyn Chains = match &mut self.runner {
-            Runner::Walks(walks) => walks,
+            Runner::Walks(walks) => &mut **walks,
             Runner::Chains(chains) => &mut **chains,
             Runner::Rejection(..) if start.is_some() => return Err(LessonError::NoStart),
             Runner::Rejection(..) => return Ok(()),
@@ -347,8 +347,9 @@ fn runner(
 ) -> Result<Runner, LessonError> {
     let Beginning { target, side, sampler, .. } = *how;
     let (seed, index) = (seed_of(&how.seed)?, side.index());
-    let walks =
-        |scaling| Runner::Walks(RandomWalkChains::new(dimension, scaling, schedule, seed, index));
+    let walks = |scaling| {
+        Runner::Walks(Box::new(RandomWalkChains::new(dimension, scaling, schedule, seed, index)))
+    };
     let models = opened.filter(|_| target != LessonTarget::Normal);
     let proposals = || -> Result<[Gaussian; 2], LessonError> {
         match models {

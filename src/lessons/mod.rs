@@ -12,6 +12,8 @@
 //! **Limits.** Models made by code alone, since every evaluation is on its own. A lane keeps at most 200,000
 //! draws, or as many as five million numbers hold, and then does no more.
 //!
+//! **References.** Weiherer, Klein & Egger, WACV 2024; the targets, samplers and measures name theirs.
+//!
 //! [`Scene`] has the scenes of the page's lessons: their links, their defaults, their figures.
 
 mod answer;

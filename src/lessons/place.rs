@@ -35,7 +35,8 @@ impl Opened {
             distance_likelihood: distance_likelihood(distance, self.sigma),
             projection_likelihood: libm::exp(-0.5 * projected.norm_squared()),
             projected: projected.as_slice().to_vec(),
-            log_prior: -0.5 * square,
+            // Not −0 at the mean.
+            log_prior: 0.0 - 0.5 * square,
             log_density: evaluations[0].log_density,
             gradient,
             log_difference: log_difference.is_finite().then_some(log_difference),

@@ -164,6 +164,18 @@ mod tests {
     }
 
     #[test]
+    fn the_expected_error_of_sampling_falls_with_the_root_of_the_draws() {
+        // One mode of variance 4 beside one of 1: √(4·1/(4 − 1)²/N).
+        for draws in [25.0, 100.0] {
+            let expected = 2.0 / 3.0 / f64::sqrt(draws);
+            let found = grassmann_sampling_error(&[4.0], &[1.0], draws);
+            assert!((found - expected).abs() < 1e-15, "{found}, not {expected}");
+        }
+        let found = grassmann_sampling_error(&[4.0, 3.0], &[1.0, 0.0], 1.0);
+        assert!((found * found - (4.0 / 9.0 + 3.0 / 4.0)).abs() < 1e-14, "squares add: {found}");
+    }
+
+    #[test]
     fn a_space_has_distance_zero_to_itself() {
         let space = parallel(0.7);
         for displacement in [Displacement::Unit, Displacement::Full] {

@@ -208,6 +208,18 @@ mod tests {
     }
 
     #[test]
+    fn a_turn_is_counter_clockwise_about_the_origin() {
+        let angle = 30_f64.to_radians();
+        for dimension in [2, 3] {
+            let mut point = [2.0, 0.0, 5.0];
+            Similarity::turn(dimension, angle).move_points(&mut point[..dimension]);
+            assert!((point[0] - 3_f64.sqrt()).abs() < 1e-15, "{dimension}: {point:?}");
+            assert!((point[1] - 1.0).abs() < 1e-15, "{dimension}: {point:?}");
+            assert_eq!(point[2], 5.0, "{dimension}: the third coordinate stays");
+        }
+    }
+
+    #[test]
     fn a_known_similarity_is_recovered() {
         for (scale, alignment) in [(1.0, Alignment::Rigid), (2.5, Alignment::Similarity)] {
             let truth = known(scale);

@@ -239,6 +239,34 @@ mod tests {
     }
 
     #[test]
+    fn watching_changes_nothing_and_tells_every_decision() {
+        let schedule = Schedule { chains: 3, burn_in: 20, thin: 2, kept: 40 };
+        let walk = || RandomWalkChains::new(4, Scaling::Corrected, schedule, 5, 1);
+        let (mut plain, mut watched) = (walk(), walk());
+        plain.advance(&StandardNormal(4), usize::MAX);
+        watched.watch(true);
+        watched.advance(&StandardNormal(4), 30);
+        let mut steps = watched.take_steps();
+        assert_eq!(steps.len(), 90, "30 steps of 3 chains");
+        watched.advance(&StandardNormal(4), usize::MAX);
+        steps.extend(watched.take_steps());
+        assert_eq!(plain.draws(), watched.draws(), "the same draws, bit for bit");
+        assert_eq!(plain.states(), watched.states(), "and states");
+        assert!(plain.take_steps().is_empty(), "nothing was written down unasked");
+        for chain in 0..3 {
+            let own: Vec<&Step> = steps.iter().filter(|step| step.chain == chain).collect();
+            for pair in own.windows(2) {
+                let expected = if pair[0].accepted { &pair[0].proposal } else { &pair[0].from };
+                assert_eq!(&pair[1].from, expected, "each goes on where the last one ended");
+            }
+            let kept = own.iter().skip(20).map(|step| step.accepted);
+            assert!(kept.clone().any(|taken| taken) && !kept.clone().all(|taken| taken), "both");
+        }
+        let accepted = steps.iter().skip(60).filter(|step| step.accepted).count() as u64;
+        assert_eq!(accepted, plain.draws().accepted, "counted after the burn-in");
+    }
+
+    #[test]
     fn the_corrected_walk_samples_its_target() {
         for dimension in [2, 10] {
             let (mean, error) = mean_square(dimension, Scaling::Corrected);
