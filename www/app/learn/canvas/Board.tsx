@@ -27,6 +27,8 @@ interface Props {
   onDrop?: () => void;
   /** Returns whether the key was meant. */
   onKey?: (key: string, event: KeyboardEvent) => boolean;
+  /** The id of what says how it is handled. */
+  help?: string;
   children?: ComponentChildren;
 }
 
@@ -36,7 +38,7 @@ export function Board(props: Props) {
   const latest = useRef(props);
   latest.current = props;
   const held = useRef(false);
-  const { label, aspect, onGrab, onKey } = props;
+  const { label, aspect, onGrab, onKey, help } = props;
   const dark = isDark();
   useLayoutEffect(() => paint(canvas.current, latest.current.draw));
   useEffect(() => {
@@ -44,7 +46,16 @@ export function Board(props: Props) {
     if (!element) return;
     const observer = new ResizeObserver(() => paint(element, latest.current.draw));
     observer.observe(element);
-    return () => observer.disconnect();
+    // A finger that holds something moves it; any other one scrolls the page. Browsers decide that by
+    // `touchstart`, which follows `pointerdown` and which Preact would listen to passively.
+    const hold = (event: TouchEvent) => {
+      if (held.current) event.preventDefault();
+    };
+    element.addEventListener("touchstart", hold, { passive: false });
+    return () => {
+      observer.disconnect();
+      element.removeEventListener("touchstart", hold);
+    };
   }, []);
   const at = (event: PointerEvent): Pointer => {
     const box = (event.currentTarget as HTMLElement).getBoundingClientRect();
@@ -74,6 +85,7 @@ export function Board(props: Props) {
         role={onKey ? "application" : "img"}
         tabIndex={onKey ? 0 : -1}
         aria-label={label}
+        aria-describedby={help}
         data-drags={onGrab !== undefined}
         onPointerDown={down}
         onPointerMove={move}
