@@ -36,8 +36,3 @@ export function turnOf(mean: ArrayLike<number>, shape: ArrayLike<number>, point:
   const [u, v] = pointOf(shape, point);
   return (Math.atan2(x * v - y * u, x * u + y * v) * 180) / Math.PI;
 }
-
-/** A star closes on itself; shapes of one point have no lines. */
-export function outlineOf(points: number): [number, number][] {
-  return Array.from({ length: points }, (_, i) => [i, (i + 1) % points]);
-}

@@ -49,6 +49,7 @@ export function write(
 ): void {
   const { colour = palette.ink, align = "left", baseline = "middle" } = words;
   const size = (words.size ?? 1) * palette.text;
+  pen.save();
   pen.font = `${words.italic ? "italic " : ""}${words.weight ?? 400} ${size}px ${palette.font}`;
   pen.textAlign = align;
   pen.textBaseline = baseline;
@@ -57,6 +58,7 @@ export function write(
   pen.strokeText(text, x, y);
   pen.fillStyle = colour;
   pen.fillText(text, x, y);
+  pen.restore();
 }
 
 /** How near a pointer must be to something to take hold of it, in pixels. */

@@ -12,6 +12,9 @@ export interface Palette {
   good: string;
   bad: string;
   warn: string;
+  /** Of the first and the second mode, or coefficient. */
+  first: string;
+  second: string;
   /** Family and pixels of small letters. */
   font: string;
   text: number;
@@ -30,6 +33,8 @@ const NAMES = [
   "good",
   "bad",
   "warn",
+  "first",
+  "second",
 ] as const;
 
 type Colours = Omit<Palette, "font" | "text">;
