@@ -59,8 +59,8 @@ export function ModelScene() {
       lane: LANE,
       target: "prior",
       side,
-      sampler: "independence",
-      chains: 4,
+      sampler: "rejection",
+      chains: 1,
       seed: "1",
       burnIn: 0,
     },
@@ -68,7 +68,7 @@ export function ModelScene() {
   );
   const drawn = useAsked(
     ask,
-    lane.current ? { ask: "advance", lane: LANE, steps: OWN_SHAPES / 4, watch: false } : null,
+    lane.current ? { ask: "advance", lane: LANE, steps: OWN_SHAPES, watch: false } : null,
     lane.answer,
   );
   const cloud = useAsked(
@@ -110,8 +110,8 @@ export function ModelScene() {
         <div class="scene-side">
           <PlayBar playing={playing} onToggle={roam.toggle} onReset={resetScene} />
           <p class="board-caption" id="model-help">
-            Drag the point, or press an arrow key on it: by 0.1, with Shift by 0.5. Home goes to
-            the mean.
+            Drag the point, or press an arrow key on it: by 0.1, with Shift by 0.5. Home goes to the
+            mean.
           </p>
           <LessonNumbers label="The shape in numbers">
             <LessonNumber label="‖α‖, from the mean" metric="point.norm" value={found?.norm} />
@@ -123,11 +123,7 @@ export function ModelScene() {
           </LessonNumbers>
           <p class="model-claim">
             More plausible than{" "}
-            <strong
-              class="num"
-              data-metric="point.plausibility"
-              data-value={found?.plausibility}
-            >
+            <strong class="num" data-metric="point.plausibility" data-value={found?.plausibility}>
               {found ? percent(found.plausibility) : "–"}
             </strong>{" "}
             of the shapes that this model makes.
@@ -162,7 +158,9 @@ export function ModelScene() {
           </div>
         </div>
       </div>
-      {model && <Equation model={model} coefficients={now} shape={shapeAt(model, now)} side={side} />}
+      {model && (
+        <Equation model={model} coefficients={now} shape={shapeAt(model, now)} side={side} />
+      )}
       <p class="board-caption">
         u₁ and u₂ are the modes of the model, √λ₁ and √λ₂ their standard deviations: coefficients
         count in those. This model has {q} modes. The other {q - 2} bend the tips back onto their
@@ -171,13 +169,13 @@ export function ModelScene() {
       <details class="ask">
         <summary>What do the rings say, and what is beyond the third?</summary>
         <p>
-          Before anything is measured, coefficients follow the standard normal distribution
-          N(0, I): so p(α) falls off as exp(−½‖α‖²), the same in every direction. That is what
-          dividing by the standard deviations √λ is for: one step along the first mode is as
-          probable as one along the second, though it moves the star further. Nothing forbids a
-          shape beyond the third ring; it is only so improbable that the star no longer looks like
-          those that the model was learnt from. The paper therefore cuts the model off somewhere
-          and calls what is left its <em>allowable domain</em>.
+          Before anything is measured, coefficients follow the standard normal distribution N(0, I):
+          so p(α) falls off as exp(−½‖α‖²), the same in every direction. That is what dividing by
+          the standard deviations √λ is for: one step along the first mode is as probable as one
+          along the second, though it moves the star further. Nothing forbids a shape beyond the
+          third ring; it is only so improbable that the star no longer looks like those that the
+          model was learnt from. The paper therefore cuts the model off somewhere and calls what is
+          left its <em>allowable domain</em>.
         </p>
       </details>
     </>

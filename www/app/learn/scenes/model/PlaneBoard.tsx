@@ -79,12 +79,7 @@ export function PlaneBoard({ field, place, side, moving, onMove, onPlace, onTogg
   );
 }
 
-function drawAxes(
-  pen: CanvasRenderingContext2D,
-  plane: Plane,
-  size: Size,
-  palette: Palette,
-): void {
+function drawAxes(pen: CanvasRenderingContext2D, plane: Plane, size: Size, palette: Palette): void {
   pen.lineWidth = 1;
   pen.strokeStyle = palette.line;
   pen.beginPath();

@@ -1,0 +1,75 @@
+/** What is said about tips that were guessed, and about those that can really move. Pure. */
+import { TIPS } from "../../shape";
+
+/** Of a star’s tips, the top one first, then against the clock. */
+export const TIP_NAMES = ["top", "upper left", "lower left", "lower right", "upper right"] as const;
+
+/** Less than this share of the most movable tip looks like no movement. */
+const SEEN = 0.15;
+
+/** Tips, from 0 to 4, that visibly move, by the standard deviation of every point. */
+export function movable(vertexSd: readonly number[]): number[] {
+  const sds = TIPS.map((point) => vertexSd[point] ?? 0);
+  const most = Math.max(...sds);
+  return sds.flatMap((sd, tip) => (most > 0 && sd >= SEEN * most ? tip : []));
+}
+
+/** “top”, “top and lower left”, “top, lower left and lower right”. */
+export function named(tips: readonly number[]): string {
+  const names = tips.map((tip) => TIP_NAMES[tip] ?? "");
+  const last = names.pop() ?? "no tip";
+  return names.length === 0 ? last : `${names.join(", ")} and ${last}`;
+}
+
+export type Verdict = "none" | "right" | "partly" | "wrong";
+
+export function verdictOn(guess: readonly number[], answer: readonly number[]): Verdict {
+  if (guess.length === 0) return "none";
+  const hits = guess.filter((tip) => answer.includes(tip)).length;
+  if (hits === guess.length && hits === answer.length) return "right";
+  return hits > 0 ? "partly" : "wrong";
+}
+
+const OPENINGS: Record<Verdict, string> = {
+  none: "Next time, guess first.",
+  right: "Right.",
+  partly: "Partly right.",
+  wrong: "A good guess, but no.",
+};
+
+const tipsOf = (tips: readonly number[]) => `${named(tips)} tip${tips.length > 1 ? "s" : ""}`;
+
+/** What there is to say when it is shown: kindly, and with the reason. */
+export function answerIn(
+  guess: readonly number[],
+  { a, b, both }: Record<"a" | "b" | "both", readonly number[]>,
+): string {
+  const shared = a.filter((tip) => b.includes(tip));
+  const [onlyA, onlyB] = [a, b].map((tips) => tips.filter((tip) => !shared.includes(tip)));
+  const extra = both.filter((tip) => !shared.includes(tip));
+  const said = [OPENINGS[verdictOn(guess, both)]];
+  said.push(
+    both.length === 1
+      ? `Both can move the ${tipsOf(both)}, and no other.`
+      : `Both can move the ${tipsOf(both)}.`,
+  );
+  if (extra.length > 0) {
+    said.push(
+      `Strictly only the ${tipsOf(shared)}; but with so large a σ a star whose ${tipsOf(extra)} ` +
+        `${extra.length > 1 ? "have" : "has"} moved still counts as near.`,
+    );
+  } else {
+    if (onlyA?.length) said.push(`The ${tipsOf(onlyA)} only A can move: B holds it where it is.`);
+    if (onlyB?.length) said.push(`The ${tipsOf(onlyB)} only B.`);
+  }
+  return said.join(" ");
+}
+
+/** A star that nobody has moved, for guesses: xyxy… */
+export function plainStar(): number[] {
+  return Array.from({ length: 10 }, (_, point) => {
+    const angle = Math.PI / 2 + (point * Math.PI) / 5;
+    const radius = point % 2 === 0 ? 10 : 3;
+    return [radius * Math.cos(angle), radius * Math.sin(angle)];
+  }).flat();
+}

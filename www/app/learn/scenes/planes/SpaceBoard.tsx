@@ -1,0 +1,232 @@
+import { useMemo, useRef } from "preact/hooks";
+import type { LessonField, LessonModel, LessonPoint, LessonSide } from "../../../../worker/lessons";
+import { isDark } from "../../../theme";
+import { Board, type Pointer, type Size } from "../../canvas/Board";
+import { arrow, handle, REACH, write } from "../../canvas/marks";
+import type { Palette } from "../../canvas/palette";
+import { tintedField } from "../../canvas/tint";
+import { nudge } from "../../roam";
+import { ALLOWABLE, drawSheets, EXTENT, type ToBoard } from "./draw";
+import {
+  along,
+  commonSegment,
+  type Flat,
+  meeting,
+  pointAt,
+  type Sheet,
+  seen,
+  under,
+  type Vec,
+  type View,
+  viewFrom,
+} from "./space";
+
+interface Props {
+  models: Record<LessonSide, LessonModel>;
+  /** The density of A∩B over the coefficients of each. */
+  fields: Record<LessonSide, LessonField | null>;
+  side: LessonSide;
+  place: Flat;
+  point: LessonPoint | null;
+  turn: Flat;
+  onPlace: (place: Flat) => void;
+  onTurn: (turn: Flat) => void;
+  onRun: () => void;
+}
+
+/** Pixels of a drag for one radian. */
+const PER_RADIAN = 170;
+/** How far keys turn it. */
+const KEY_TURN = 0.1;
+const TURNS: Record<string, Flat> = {
+  j: [-KEY_TURN, 0],
+  l: [KEY_TURN, 0],
+  i: [0, KEY_TURN],
+  k: [0, -KEY_TURN],
+};
+/** How much of the height of the board the sheets fill when they are seen at their largest. */
+const FILLED = 4.4;
+
+export function sheetOf({ mean, basis }: LessonModel): Sheet {
+  const vec = (from: readonly number[], at: number): Vec => [
+    from[at] ?? 0,
+    from[at + 1] ?? 0,
+    from[at + 2] ?? 0,
+  ];
+  return { middle: vec(mean, 0), first: vec(basis, 0), second: vec(basis, 3) };
+}
+
+/** Two planes in space, what is common to them, and a point of one with the nearest of the other. */
+export function SpaceBoard(props: Props) {
+  const { models, fields, side, place, point, turn } = props;
+  const dark = isDark();
+  const sheets = useMemo(() => ({ a: sheetOf(models.a), b: sheetOf(models.b) }), [models]);
+  const pictures = usePictures(fields, dark);
+  const view = viewFrom(...turn);
+  const held = useRef<{ apart: Flat } | { at: Flat; turn: Flat } | null>(null);
+  const draw = (pen: CanvasRenderingContext2D, size: Size, palette: Palette) => {
+    const to = boardOf(view, size);
+    const one = (which: LessonSide) => ({
+      sheet: sheets[which],
+      colour: palette[which],
+      picture: pictures(which, palette),
+    });
+    drawSheets(pen, palette, view, to, { a: one("a"), b: one("b") });
+    drawCommon(pen, palette, to, sheets);
+    const letter = { weight: 700, size: 1.5, align: "center" } as const;
+    write(pen, palette, "A", cornerOf(sheets.a, to, 0), { ...letter, colour: palette.a });
+    write(pen, palette, "B", cornerOf(sheets.b, to, 1), { ...letter, colour: palette.b });
+    drawPoint(pen, palette, to, sheets, side, place, point);
+  };
+  const spot = (size: Size): Flat => boardOf(view, size)(pointAt(sheets[side], place));
+  const grab = ({ x, y, size }: Pointer) => {
+    const [u, v] = spot(size);
+    const near = Math.hypot(u - x, v - y) < REACH;
+    held.current = near ? { apart: [u - x, v - y] } : { at: [x, y], turn };
+    return near || ("sideways" as const);
+  };
+  const drag = ({ x, y, size }: Pointer) => {
+    const { current } = held;
+    if (!current) return;
+    if ("apart" in current) {
+      const [u, v] = fromBoard(size, [x + current.apart[0], y + current.apart[1]]);
+      const found = under(sheets[side], view, [u, v]);
+      if (found) props.onPlace(found);
+    } else {
+      const [yaw, pitch] = current.turn;
+      props.onTurn(
+        upright([yaw - (x - current.at[0]) / PER_RADIAN, pitch + (y - current.at[1]) / PER_RADIAN]),
+      );
+    }
+  };
+  const key = (name: string, event: KeyboardEvent) => {
+    const by = nudge(event);
+    const turned = TURNS[name.toLowerCase()];
+    if (by) props.onPlace([place[0] + by[0], place[1] + by[1]]);
+    else if (turned) props.onTurn(upright([turn[0] + turned[0], turn[1] + turned[1]]));
+    else if (name === "Home") props.onPlace([0, 0]);
+    else if (name === " ") props.onRun();
+    else return false;
+    return true;
+  };
+  return (
+    <Board
+      label="Two planes in space, that of model A and that of model B, each with the ellipse of its plausible shapes. What is common to both glows along the line in which they meet. A point x of one plane and the nearest point of the other are joined by a line. Arrow keys move x; J, L, I and K turn the view."
+      help="planes-help"
+      aspect={0.74}
+      draw={draw}
+      onGrab={grab}
+      onDrag={drag}
+      onKey={key}
+    />
+  );
+}
+
+/** Never over the top. */
+const upright = ([yaw, pitch]: Flat): Flat => [
+  yaw > 2 * Math.PI ? yaw - 2 * Math.PI : yaw < -2 * Math.PI ? yaw + 2 * Math.PI : yaw,
+  Math.min(1.5, Math.max(-1.5, pitch)),
+];
+
+const scaleOf = ({ width, height }: Size) => Math.min(width / 1.25, height) / (2 * FILLED);
+
+function boardOf(view: View, size: Size): ToBoard {
+  const scale = scaleOf(size);
+  return (point) => {
+    const [x, y] = seen(view, point);
+    return [size.width / 2 + scale * x, size.height / 2 - scale * y];
+  };
+}
+
+function fromBoard(size: Size, [x, y]: Flat): Flat {
+  const scale = scaleOf(size);
+  return [(x - size.width / 2) / scale, (size.height / 2 - y) / scale];
+}
+
+/** Pictures of the fields, made once they are first drawn: then the colours are known. */
+function usePictures(fields: Props["fields"], dark: boolean) {
+  const { a, b } = fields;
+  const kept = useMemo(
+    () => ({ dark, fields: { a, b }, made: new Map<LessonSide, HTMLCanvasElement>() }),
+    [a, b, dark],
+  );
+  return (side: LessonSide, palette: Palette) => {
+    const field = kept.fields[side];
+    const made = kept.made.get(side) ?? (field ? tintedField(field, palette.ab, 0.95) : null);
+    if (made) kept.made.set(side, made);
+    return made;
+  };
+}
+
+/** The corner that lies furthest to the right (0) or furthest down (1): there is room for a letter. */
+function cornerOf(sheet: Sheet, to: ToBoard, axis: 0 | 1): Flat {
+  const far = 0.88 * EXTENT;
+  const corners = [-far, far].flatMap((s) => [-far, far].map((t) => to(pointAt(sheet, [s, t]))));
+  return corners.reduce((most, corner) => (corner[axis] > most[axis] ? corner : most));
+}
+
+/** The line where the planes meet, and the piece of it that lies in both ellipses. */
+function drawCommon(
+  pen: CanvasRenderingContext2D,
+  palette: Palette,
+  to: ToBoard,
+  { a, b }: Record<LessonSide, Sheet>,
+): void {
+  const line = meeting(a, b);
+  if (!line) return;
+  const ends = [-6, 6].map((far) => to(along(line.from, line.way, far)));
+  const [start = [0, 0], end = [0, 0]] = ends;
+  pen.strokeStyle = palette.ab;
+  pen.lineWidth = 1.25;
+  pen.setLineDash([3, 6]);
+  pen.beginPath();
+  pen.moveTo(...(start as [number, number]));
+  pen.lineTo(...(end as [number, number]));
+  pen.stroke();
+  pen.setLineDash([]);
+  const common = commonSegment(a, b, ALLOWABLE);
+  if (!common) return;
+  const [low, high] = [to(common[0]), to(common[1])];
+  pen.lineWidth = 4;
+  pen.beginPath();
+  pen.moveTo(low[0], low[1]);
+  pen.lineTo(high[0], high[1]);
+  pen.stroke();
+  const left = low[0] < high[0] ? low : high;
+  write(pen, palette, "I", [left[0] - 14, left[1] - 8], {
+    colour: palette.ab,
+    italic: true,
+    weight: 700,
+    size: 1.3,
+  });
+}
+
+/** x, x′ and the way from the one to the other. */
+function drawPoint(
+  pen: CanvasRenderingContext2D,
+  palette: Palette,
+  to: ToBoard,
+  sheets: Record<LessonSide, Sheet>,
+  side: LessonSide,
+  place: Flat,
+  point: LessonPoint | null,
+): void {
+  const other = side === "a" ? "b" : "a";
+  const spot = to(pointAt(sheets[side], place));
+  const italic = { italic: true, weight: 700, size: 1.25 };
+  if (point) {
+    const [x = 0, y = 0, z = 0] = point.nearest;
+    const near = to([x, y, z]);
+    arrow(pen, spot, near, palette.ink, 2.5);
+    handle(pen, palette, near, palette[other], 5);
+    const middle: Flat = [(spot[0] + near[0]) / 2 + 10, (spot[1] + near[1]) / 2];
+    if (Math.hypot(spot[0] - near[0], spot[1] - near[1]) > 30) {
+      write(pen, palette, "d", middle, { ...italic, size: 1.15 });
+    }
+    // Its name on the far side of the point.
+    const down = near[1] > spot[1] ? 18 : -18;
+    write(pen, palette, "x′", [near[0] + 8, near[1] + down], { ...italic, colour: palette[other] });
+  }
+  handle(pen, palette, spot, palette[side], 9);
+  write(pen, palette, "x", [spot[0] + 15, spot[1] - 13], { ...italic, colour: palette[side] });
+}
