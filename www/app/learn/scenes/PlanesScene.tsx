@@ -166,13 +166,14 @@ export function PlanesScene() {
         </div>
         <div class="planes-below">
           <p class="planes-see">{whatToSee({ tilt, lift, sigma })}</p>
-          <div class="planes-tries" role="group" aria-label="Try">
+          <fieldset class="planes-tries">
+            <legend class="unseen">Try</legend>
             {TRIES.map(([name, lie]) => (
               <button key={name} type="button" onClick={() => set(lie)}>
                 {name}
               </button>
             ))}
-          </div>
+          </fieldset>
         </div>
       </div>
       <details class="ask">

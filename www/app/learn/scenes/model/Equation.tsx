@@ -14,7 +14,7 @@ interface Props {
 export function Equation({ model, coefficients, shape, side }: Props) {
   const [first = 0, second = 0] = coefficients;
   return (
-    <div class="equation" data-side={side} role="group" aria-label="The shape as a sum">
+    <section class="equation" data-side={side} aria-label="The shape as a sum">
       <div class="equation-part">
         <Term symbol={<i>x</i>} says="shape">
           <path d={pathOf(shape)} class="equation-shape" />
@@ -36,7 +36,7 @@ export function Equation({ model, coefficients, shape, side }: Props) {
           <Mode model={model} mode={1} />
         </Term>
       </div>
-    </div>
+    </section>
   );
 }
 
