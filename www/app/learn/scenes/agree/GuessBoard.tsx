@@ -2,10 +2,11 @@ import { Board, type Size } from "../../canvas/Board";
 import { faded, type Palette } from "../../canvas/palette";
 import { planeOf, traceOutline } from "../../canvas/plane";
 import { pointOf, TIPS } from "../../shape";
+import { starOf } from "../../star";
 import { ASPECT, EXTENT } from "./MovingStar";
-import { plainStar, TIP_NAMES } from "./tips";
+import { TIP_NAMES } from "./tips";
 
-const STAR = plainStar();
+const STAR = starOf([]);
 
 interface Props {
   guess: readonly number[];

@@ -64,12 +64,3 @@ export function answerIn(
   }
   return said.join(" ");
 }
-
-/** A star that nobody has moved, for guesses: xyxy… */
-export function plainStar(): number[] {
-  return Array.from({ length: 10 }, (_, point) => {
-    const angle = Math.PI / 2 + (point * Math.PI) / 5;
-    const radius = point % 2 === 0 ? 10 : 3;
-    return [radius * Math.cos(angle), radius * Math.sin(angle)];
-  }).flat();
-}

@@ -1,6 +1,7 @@
 import type { ComponentChildren } from "preact";
 import type { LessonModel, LessonSide } from "../../../../worker/lessons";
 import { modeOf, pointOf } from "../../shape";
+import { pathOf } from "../../star";
 import { STAR_EXTENT } from "./StarBoard";
 
 interface Props {
@@ -107,9 +108,4 @@ function Mode({ model, mode }: { model: LessonModel; mode: number }) {
       })}
     </>
   );
-}
-
-function pathOf(shape: readonly number[]): string {
-  const points = Array.from({ length: shape.length / 2 }, (_, i) => pointOf(shape, i));
-  return `M${points.map(([x, y]) => `${x.toFixed(2)} ${(-y).toFixed(2)}`).join("L")}Z`;
 }
