@@ -36,7 +36,7 @@ export const SCENE_PARAMS = {
     lift: number(0, -1.5, 1.5, 2),
     sigma: number(0.3, 0.01, 3),
     side: choice("a", SIDES),
-    coefficients: coefficients([1, 0.5]),
+    coefficients: coefficients([0.8, 0.8]),
     turn: list([-0.7, 0.38], -7, 7),
   },
   step: {

@@ -114,7 +114,7 @@ export function PlanesScene() {
           <Factors point={found} side={side} />
           <div class="planes-sliders">
             <Slider
-              label="σ, how near is near"
+              label="σ (how near)"
               value={sigma}
               least={0.03}
               most={3}

@@ -220,7 +220,7 @@ function drawPoint(
     arrow(pen, spot, near, palette.ink, 2.5);
     handle(pen, palette, near, palette[other], 5);
     const middle: Flat = [(spot[0] + near[0]) / 2 + 10, (spot[1] + near[1]) / 2];
-    if (Math.hypot(spot[0] - near[0], spot[1] - near[1]) > 30) {
+    if (Math.hypot(spot[0] - near[0], spot[1] - near[1]) > 26) {
       write(pen, palette, "d", middle, { ...italic, size: 1.15 });
     }
     // Its name on the far side of the point.

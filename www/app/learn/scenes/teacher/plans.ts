@@ -18,7 +18,7 @@ export const GOALS: readonly Goal[] = [
   },
   {
     scene: "planes",
-    can: "find x′, d, L_D and L_P in a drawing, and say what σ is for",
+    can: "find x′, d and both likelihoods in a drawing, and say what σ is for",
   },
   {
     scene: "step",
@@ -86,7 +86,7 @@ export const PLANS: readonly Plan[] = [
       {
         minutes: 6,
         scene: "cloud",
-        act: "Let the draws pile up; read the curve of d_G.",
+        act: "Let the draws pile up; read the curve of the Grassmann distance.",
         question: "How many draws for half the error?",
       },
       {
@@ -127,7 +127,7 @@ export const PLANS: readonly Plan[] = [
       {
         minutes: 15,
         scene: "planes",
-        act: "Pairs write down d, L_D and L_P for three points before they look.",
+        act: "Pairs write down d and both likelihoods for three points before they look.",
         question: "What does a sampler return for parallel planes?",
       },
       {
@@ -139,7 +139,7 @@ export const PLANS: readonly Plan[] = [
       {
         minutes: 10,
         scene: "cloud",
-        act: "Each pair another sampler; collect d_G at 2,000 draws on the board.",
+        act: "Each pair another sampler; collect the Grassmann distance at 2,000 draws on the board.",
         question: "R-hat is 1.5. What do you do?",
       },
       {

@@ -40,7 +40,8 @@ export const QUESTIONS: readonly Question[] = [
     answer: (
       <>
         Two: one for the sweep of the common tip, and a small one because a tip that moves on a
-        circle does not move on a straight line.
+        circle does not move on a straight line. What else the method finds is only as large as σ
+        allows.
       </>
     ),
   },
@@ -163,10 +164,10 @@ export const QUESTIONS: readonly Question[] = [
     ask: "Why does the independence sampler win by so much, and when would it lose?",
     answer: (
       <>
-        The target is log-concave and nearly Gaussian, and the sampler proposes from a Gaussian
-        fitted to it: almost every proposal is accepted and owes nothing to the one before. Where
-        the fit misses a tail of the target, a chain that gets there stays for very long; R-hat and
-        the effective draws show it.
+        The target is log-concave and nearly Gaussian, on the stars exactly, and the sampler
+        proposes from a Gaussian fitted to it: almost every proposal is accepted and owes nothing to
+        the one before. Where the fit misses a tail of the target, a chain that gets there stays for
+        very long; R-hat and the effective draws show it.
       </>
     ),
   },

@@ -16,14 +16,14 @@ export function VennStars() {
   return (
     <svg
       class="venn-stars"
-      viewBox="-52 -27 104 54"
+      viewBox="-45 -27 90 54"
       role="img"
       aria-label="Two circles that overlap. In the left one a blue star moves its top and its lower left tip, in the right one an orange star its top and its lower right tip; where they overlap a purple star moves the top tip alone."
     >
-      <circle cx="-22" r="26" class="venn-a" />
-      <circle cx="22" r="26" class="venn-b" />
-      <Star at={-28} whose="a" turned={[24 * swing(0.9), 0, 24 * swing(1.3)]} />
-      <Star at={28} whose="b" turned={[24 * swing(1.1), 0, 0, 24 * swing(0.8)]} />
+      <circle cx="-17" r="26" class="venn-a" />
+      <circle cx="17" r="26" class="venn-b" />
+      <Star at={-26} whose="a" turned={[24 * swing(0.9), 0, 24 * swing(1.3)]} />
+      <Star at={26} whose="b" turned={[24 * swing(1.1), 0, 0, 24 * swing(0.8)]} />
       <Star at={0} whose="ab" turned={[14 * swing(1)]} small />
     </svg>
   );
@@ -37,7 +37,7 @@ interface StarProps {
 }
 
 function Star({ at, whose, turned, small = false }: StarProps) {
-  const scale = small ? 0.36 : 1.05;
+  const scale = small ? 0.72 : 1.3;
   return (
     <path
       d={pathOf(starOf(turned))}

@@ -30,8 +30,8 @@ export const TRY_OUT: readonly TryOut[] = [
     href: "#v=1&demo=heads-expression",
     link: "Identity and expression",
     answer:
-      "Little: the expression model makes about a fifth of the variance of identity. A∩B exists all " +
-      "the same, since whoever asks for the nearest gets an answer: look at how far its shapes lie " +
-      "from both models before you call it common.",
+      "Little: expression makes about a fifth of the variance of identity, and identity not half of " +
+      "that of expression. A∩B exists all the same, since whoever asks for the nearest gets an answer: " +
+      "look at how far its shapes lie from both models before you call it common.",
   },
 ];
