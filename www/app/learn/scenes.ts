@@ -37,7 +37,7 @@ export const SCENE_PARAMS = {
     sigma: number(0.3, 0.01, 3),
     side: choice("a", SIDES),
     coefficients: coefficients([0.8, 0.8]),
-    turn: list([-0.7, 0.38], -7, 7),
+    turn: list([-0.6, 0.36], -7, 7),
   },
   step: {
     pair: choice("planes", PAIRS),

@@ -45,7 +45,7 @@ const TURNS: Record<string, Flat> = {
   k: [0, -KEY_TURN],
 };
 /** How much of the height of the board the sheets fill when they are seen at their largest. */
-const FILLED = 4.4;
+const FILLED = 3.85;
 
 export function sheetOf({ mean, basis }: LessonModel): Sheet {
   const vec = (from: readonly number[], at: number): Vec => [
@@ -218,7 +218,7 @@ function drawPoint(
     const [x = 0, y = 0, z = 0] = point.nearest;
     const near = to([x, y, z]);
     arrow(pen, spot, near, palette.ink, 2.5);
-    handle(pen, palette, near, palette[other], 5);
+    handle(pen, palette, near, palette[other], 4.5);
     const middle: Flat = [(spot[0] + near[0]) / 2 + 10, (spot[1] + near[1]) / 2];
     if (Math.hypot(spot[0] - near[0], spot[1] - near[1]) > 26) {
       write(pen, palette, "d", middle, { ...italic, size: 1.15 });
@@ -227,6 +227,6 @@ function drawPoint(
     const down = near[1] > spot[1] ? 18 : -18;
     write(pen, palette, "x′", [near[0] + 8, near[1] + down], { ...italic, colour: palette[other] });
   }
-  handle(pen, palette, spot, palette[side], 9);
+  handle(pen, palette, spot, palette[side], 8);
   write(pen, palette, "x", [spot[0] + 15, spot[1] - 13], { ...italic, colour: palette[side] });
 }

@@ -3,7 +3,7 @@ import { faded, type Palette } from "../../canvas/palette";
 import { cornersOf, cutAt, type Flat, pointAt, type Sheet, type Vec, type View } from "./space";
 
 /** Standard deviations from the middle of a sheet to its edge, which is that of its density too. */
-export const EXTENT = 3;
+export const EXTENT = 2.6;
 /** The allowable domain: standard deviations from the middle to the rim of the ellipse. */
 export const ALLOWABLE = 2;
 
@@ -68,7 +68,7 @@ function drawGrid(pen: CanvasRenderingContext2D, to: ToBoard, sheet: Sheet, colo
   pen.lineWidth = 1;
   pen.strokeStyle = colour;
   pen.beginPath();
-  for (let at = -EXTENT + 1; at < EXTENT; at += 1) {
+  for (let at = -Math.floor(EXTENT); at < EXTENT; at += 1) {
     pen.moveTo(...to(pointAt(sheet, [at, -EXTENT])));
     pen.lineTo(...to(pointAt(sheet, [at, EXTENT])));
     pen.moveTo(...to(pointAt(sheet, [-EXTENT, at])));
@@ -124,12 +124,4 @@ function drawPicture(
   );
   pen.drawImage(picture, 0, 0);
   pen.restore();
-}
-
-/** A sphere of this radius holds all that there is, for a scale that turning does not change. */
-export function radiusOf(sheets: readonly Sheet[]): number {
-  const far = sheets.flatMap((sheet) =>
-    cornersOf(sheet, EXTENT).map((corner) => Math.hypot(...corner)),
-  );
-  return Math.max(...far);
 }
