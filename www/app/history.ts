@@ -233,7 +233,7 @@ async function follow(state: unknown): Promise<void> {
   const place = steps.arrive(state);
   const link = readLink(location.hash);
   if (link.page !== "compare" || !begun.peek()) {
-    apply(link);
+    batch(() => apply(link));
     return;
   }
   const wanted = place?.shelf ?? shelfOf(link);
