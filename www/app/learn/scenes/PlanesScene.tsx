@@ -1,3 +1,4 @@
+import type { LessonAsk, LessonSide } from "../../../worker/lessons";
 import { degrees, number } from "../../format";
 import { Segments } from "../../views/Segments";
 import { useAsk, useAsked, useDone } from "../asked";
@@ -28,12 +29,12 @@ export function PlanesScene() {
   const ask = useAsk();
   const lesson = useAsked(ask, { ask: "open", pair: "planes", sigma, tilt, shift, lift });
   const models = lesson.answer;
-  const field = (of: "a" | "b") =>
+  const field = (of: LessonSide): Extract<LessonAsk, { ask: "field" }> | null =>
     models && {
-      ask: "field" as const,
-      of: "intersection" as const,
+      ask: "field",
+      of: "intersection",
       side: of,
-      modes: [0, 1] as const,
+      modes: [0, 1],
       at: [0, 0],
       extent: EXTENT,
       size: SIZE,
@@ -42,7 +43,7 @@ export function PlanesScene() {
   const fieldB = useAsked(ask, field("b"), models);
   const [first = 0, second = 0] = coefficients;
   const place: Flat = [first, second];
-  const point = useAsked(ask, models && { ask: "point", side, coefficients: place }, models);
+  const point = useAsked(ask, models && { ask: "point", side, coefficients: [...place] }, models);
   const roam = useRoam({
     chosen: turn,
     standard: SCHEMA.turn.standard,
