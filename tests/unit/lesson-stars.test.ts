@@ -91,9 +91,8 @@ test("a guess is judged kindly, and told why", () => {
   // With a large σ more counts as near.
   assert.equal(
     answerIn([0], { ...tips, both: [0, 2, 3] }),
-    "Partly right. Both can move the top, lower left and lower right tips. Strictly only the top " +
-      "tip; but with so large a σ a star whose lower left and lower right tips have moved still " +
-      "counts as near.",
+    "Right. Both can move the top tip, and no other. But with so large a σ a star whose lower left " +
+      "and lower right tips have moved still counts as near.",
   );
   assert.equal(named([0, 3]), "top and lower right");
 });

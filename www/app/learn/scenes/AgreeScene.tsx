@@ -1,16 +1,15 @@
 import { useSignal } from "@preact/signals";
-import { number } from "../../format";
 import { useAsk, useAsked, useDone } from "../asked";
 import { still, useFrames } from "../clock";
 import { useSceneKeys } from "../keys";
-import { PlayBar, Slider } from "../parts/controls";
-import { STAR_PAIRS } from "../scenes";
+import { PlayBar } from "../parts/controls";
+import { StarPairs } from "../parts/StarPairs";
 import { params, resetScene, setParams } from "../state";
+import { Answer } from "./agree/Answer";
 import { GuessBoard } from "./agree/GuessBoard";
 import { MovingStar } from "./agree/MovingStar";
 import { TELLING } from "./agree/sweep";
-import { TipTable } from "./agree/TipTable";
-import { answerIn, movable, named, verdictOn } from "./agree/tips";
+import { named } from "./agree/tips";
 import "../../../styles/learn-agree.css";
 
 /** Two models side by side: which tips can both move? Guess, then see. */
@@ -35,11 +34,6 @@ export function AgreeScene() {
         ? guess.filter((other) => other !== tip)
         : [...guess, tip].sort((first, second) => first - second),
     });
-  const tips = models && {
-    a: movable(models.a.vertexSd),
-    b: movable(models.b.vertexSd),
-    both: movable(models.intersection.vertexSd),
-  };
   const star = (whose: "a" | "b", label: string) => (
     <MovingStar
       model={models?.[whose] ?? null}
@@ -101,63 +95,13 @@ export function AgreeScene() {
         </span>
         <PlayBar playing={playing.value} onToggle={toggle} onReset={resetScene} />
       </div>
-      {shown && tips && models && (
-        <div class="agree-answer">
-          <p class="agree-verdict" role="status" data-verdict={verdictOn(guess, tips.both)}>
-            {answerIn(guess, tips)}
-          </p>
-          <TipTable models={models} both={tips.both} guess={guess} />
-          <div class="agree-sigma">
-            <Slider
-              label="σ, how near is near"
-              value={sigma}
-              least={0.001}
-              most={1}
-              step={0}
-              logarithmic
-              show={(value) => number(value, 2)}
-              onChange={(value) => setParams("agree", { sigma: Number(value.toPrecision(2)) })}
-            />
-            <p>
-              The two means, dashed, differ as well; hardly any star is made by both to the last
-              digit. So <em>both can make it</em> asks two things of a star: that it is <b>near</b>{" "}
-              some star of the other model (the mean distance of its points within about σ), and
-              that it is <b>plausible</b> in both. Move σ: what happens when almost everything is
-              near?
-            </p>
-          </div>
-        </div>
-      )}
-      {shown && (
-        <details class="ask">
-          <summary>
-            A∩B moves the top tip less than A does, and less than B. Why, if both can do it?
-          </summary>
-          <p>
-            Because what is plausible in both is rarer than what is plausible in one. The method
-            multiplies the two plausibilities, exp(−½‖α‖²) and exp(−½‖α′‖²), and the product of two
-            bells is a narrower bell, between the two. Even a model intersected with itself keeps
-            only half of its variance.
-          </p>
-        </details>
-      )}
+      {shown && models && <Answer models={models} guess={guess} sigma={sigma} />}
       <p class="board-caption agree-pair">
-        <label>
-          The paper has six such pairs; here is{" "}
-          <select
-            value={pair}
-            onChange={({ currentTarget }) => {
-              const chosen = STAR_PAIRS.find((name) => name === currentTarget.value);
-              if (chosen) setParams("agree", { pair: chosen });
-            }}
-          >
-            {STAR_PAIRS.map((name) => (
-              <option key={name} value={name}>
-                pair {name.slice(-1)}
-              </option>
-            ))}
-          </select>
-        </label>{" "}
+        <StarPairs
+          label="The paper has six such pairs; here is"
+          value={pair}
+          onChoose={(chosen) => setParams("agree", { pair: chosen })}
+        />{" "}
         Each star sweeps its modes one after the other, from −2 to +2 standard deviations.
       </p>
     </>

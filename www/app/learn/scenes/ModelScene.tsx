@@ -1,14 +1,13 @@
-import { percent } from "../../format";
-import { Segments } from "../../views/Segments";
 import { useAsk, useAsked, useDone } from "../asked";
 import { useSceneKeys } from "../keys";
-import { LessonNumber, LessonNumbers, PlayBar } from "../parts/controls";
 import { lissajous, padded } from "../paths";
 import { useRoam } from "../roam";
-import { SCENE_PARAMS, STAR_PAIRS } from "../scenes";
+import { SCENE_PARAMS } from "../scenes";
 import { modeCount, shapeAt } from "../shape";
-import { params, resetScene, setParams } from "../state";
+import { params, setParams } from "../state";
 import { Equation } from "./model/Equation";
+import { ModelSide } from "./model/ModelSide";
+import { useOwnShapes } from "./model/ownShapes";
 import { EXTENT, PlaneBoard } from "./model/PlaneBoard";
 import { StarBoard } from "./model/StarBoard";
 import "../../../styles/learn-model.css";
@@ -19,9 +18,6 @@ const SWINGS = [
   { reach: 2, speed: 0.5 },
   { reach: 1.8, speed: 0.32 },
 ];
-/** Some of the model’s own shapes, for the cloud. */
-const OWN_SHAPES = 60;
-const LANE = 0;
 
 /** What a shape model is: a mean, a basis, coefficients, and how probable they are. */
 export function ModelScene() {
@@ -52,30 +48,7 @@ export function ModelScene() {
     },
     lesson.answer,
   );
-  const lane = useAsked(
-    ask,
-    model && {
-      ask: "begin",
-      lane: LANE,
-      target: "prior",
-      side,
-      sampler: "rejection",
-      chains: 1,
-      seed: "1",
-      burnIn: 0,
-    },
-    lesson.answer,
-  );
-  const drawn = useAsked(
-    ask,
-    lane.current ? { ask: "advance", lane: LANE, steps: OWN_SHAPES, watch: false } : null,
-    lane.answer,
-  );
-  const cloud = useAsked(
-    ask,
-    drawn.current ? { ask: "shapes", lane: LANE, side, most: OWN_SHAPES } : null,
-    drawn.answer,
-  );
+  const cloud = useOwnShapes(ask, lesson.answer, side);
   const playing = roam.playing.value;
   useDone(lesson.current && field.current && cloud.current && (playing || point.current));
   useSceneKeys(roam.toggle, null);
@@ -83,7 +56,6 @@ export function ModelScene() {
   const move = (by: readonly [number, number]) =>
     roam.hold([first + by[0], second + by[1], ...roam.now.slice(2)]);
   const to = (place: readonly [number, number]) => roam.hold([...place, ...roam.now.slice(2)]);
-  const found = point.answer;
   return (
     <>
       <p class="lead">
@@ -107,56 +79,13 @@ export function ModelScene() {
           onPlace={to}
           onToggle={roam.toggle}
         />
-        <div class="scene-side">
-          <PlayBar playing={playing} onToggle={roam.toggle} onReset={resetScene} />
-          <p class="board-caption" id="model-help">
-            Drag the point, or press an arrow key on it: by 0.1, with Shift by 0.5. Home goes to the
-            mean.
-          </p>
-          <LessonNumbers label="The shape in numbers">
-            <LessonNumber label="‖α‖, from the mean" metric="point.norm" value={found?.norm} />
-            <LessonNumber
-              label="log p(α) + const = −½‖α‖²"
-              metric="point.logPrior"
-              value={found?.logPrior}
-            />
-          </LessonNumbers>
-          <p class="model-claim">
-            More plausible than{" "}
-            <strong class="num" data-metric="point.plausibility" data-value={found?.plausibility}>
-              {found ? percent(found.plausibility) : "–"}
-            </strong>{" "}
-            of the shapes that this model makes.
-          </p>
-          <div class="model-choice">
-            <label>
-              Stars{" "}
-              <select
-                value={pair}
-                onChange={({ currentTarget }) => {
-                  const chosen = STAR_PAIRS.find((name) => name === currentTarget.value);
-                  if (chosen) setParams("model", { pair: chosen });
-                }}
-              >
-                {STAR_PAIRS.map((name) => (
-                  <option key={name} value={name}>
-                    pair {name.slice(-1)}
-                  </option>
-                ))}
-              </select>
-            </label>
-            <Segments
-              legend="Which model"
-              name="model-side"
-              value={side}
-              options={[
-                ["a", "Model A"],
-                ["b", "Model B"],
-              ]}
-              onChoose={(chosen) => setParams("model", { side: chosen })}
-            />
-          </div>
-        </div>
+        <ModelSide
+          point={point.answer}
+          playing={playing}
+          onToggle={roam.toggle}
+          pair={pair}
+          side={side}
+        />
       </div>
       {model && (
         <Equation model={model} coefficients={now} shape={shapeAt(model, now)} side={side} />

@@ -1,16 +1,17 @@
 import type { LessonAsk, LessonSide } from "../../../worker/lessons";
-import { degrees, number } from "../../format";
+import { degrees } from "../../format";
 import { Segments } from "../../views/Segments";
 import { useAsk, useAsked, useDone } from "../asked";
 import { useSceneKeys } from "../keys";
 import { bounded } from "../params";
-import { LessonNumber, LessonNumbers, PlayBar, Slider } from "../parts/controls";
+import { LessonNumber, LessonNumbers, PlayBar } from "../parts/controls";
 import { swung } from "../paths";
 import { useRoam } from "../roam";
 import { SCENE_PARAMS, type SceneValues } from "../scenes";
 import { params, resetScene, setParams } from "../state";
 import { EXTENT } from "./planes/draw";
 import { Factors } from "./planes/Factors";
+import { Sliders } from "./planes/Sliders";
 import { SpaceBoard } from "./planes/SpaceBoard";
 import type { Flat } from "./planes/space";
 import { angleWords, TRIES, whatToSee } from "./planes/words";
@@ -20,7 +21,6 @@ const SCHEMA = SCENE_PARAMS.planes;
 /** It turns to and fro, since from the side there is little to see. */
 const SWAY = { reach: 0.5, speed: 0.45 };
 const SIZE = 96;
-const placed = (value: number) => `${value < 0 ? "−" : "+"}${Math.abs(value).toFixed(2)}`;
 const set = (part: Partial<SceneValues<"planes">>) => setParams("planes", part);
 
 /** Two planes: the smallest case of two models, with everything the method speaks of in sight. */
@@ -113,47 +113,7 @@ export function PlanesScene() {
             <LessonNumber label="From the mean, ‖α‖" metric="point.norm" value={found?.norm} />
           </LessonNumbers>
           <Factors point={found} side={side} />
-          <div class="planes-sliders">
-            <Slider
-              label="σ (how near)"
-              value={sigma}
-              least={0.03}
-              most={3}
-              step={0}
-              logarithmic
-              show={(value) => number(value, 2)}
-              onChange={(value) =>
-                set({ sigma: bounded(SCHEMA.sigma, Number(value.toPrecision(2))) })
-              }
-            />
-            <Slider
-              label="Angle between"
-              value={tilt}
-              least={0}
-              most={90}
-              step={1}
-              show={(value) => `${value}°`}
-              onChange={(value) => set({ tilt: value })}
-            />
-            <Slider
-              label="B along the line"
-              value={shift}
-              least={-2}
-              most={2}
-              step={0.05}
-              show={placed}
-              onChange={(value) => set({ shift: bounded(SCHEMA.shift, value) })}
-            />
-            <Slider
-              label="B off A’s plane"
-              value={lift}
-              least={-1.5}
-              most={1.5}
-              step={0.05}
-              show={placed}
-              onChange={(value) => set({ lift: bounded(SCHEMA.lift, value) })}
-            />
-          </div>
+          <Sliders {...{ sigma, tilt, shift, lift }} />
           <p class="board-caption">
             Principal angles of the two planes:{" "}
             {models?.angles.map((angle, i) => (

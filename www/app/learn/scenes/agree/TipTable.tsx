@@ -6,7 +6,7 @@ import { TIP_NAMES } from "./tips";
 interface Props {
   models: LessonModels;
   /** Tips that both can move. */
-  both: readonly number[];
+  shared: readonly number[];
   guess: readonly number[];
 }
 
@@ -17,7 +17,7 @@ const COLUMNS = [
 ] as const;
 
 /** How far each tip strays: a bar and its number for A, A∩B and B. */
-export function TipTable({ models, both, guess }: Props) {
+export function TipTable({ models, shared, guess }: Props) {
   const most = Math.max(...COLUMNS.flatMap(([key]) => models[key].vertexSd));
   return (
     <table class="tip-table">
@@ -35,7 +35,7 @@ export function TipTable({ models, both, guess }: Props) {
       </thead>
       <tbody>
         {TIPS.map((point, tip) => (
-          <tr key={point} data-both={both.includes(tip)}>
+          <tr key={point} data-shared={shared.includes(tip)}>
             <th scope="row">{TIP_NAMES[tip]}</th>
             {COLUMNS.map(([key]) => {
               const sd = models[key].vertexSd[point] ?? 0;
@@ -48,7 +48,7 @@ export function TipTable({ models, both, guess }: Props) {
                 </td>
               );
             })}
-            <td>{markOf(guess.includes(tip), both.includes(tip))}</td>
+            <td>{markOf(guess.includes(tip), shared.includes(tip))}</td>
           </tr>
         ))}
       </tbody>

@@ -39,28 +39,31 @@ const OPENINGS: Record<Verdict, string> = {
 
 const tipsOf = (tips: readonly number[]) => `${named(tips)} tip${tips.length > 1 ? "s" : ""}`;
 
+/** Tips that both models can move, however near is near. */
+export function sharedTips({ a, b }: Record<"a" | "b", readonly number[]>): number[] {
+  return a.filter((tip) => b.includes(tip));
+}
+
 /** What there is to say when it is shown: kindly, and with the reason. */
 export function answerIn(
   guess: readonly number[],
   { a, b, both }: Record<"a" | "b" | "both", readonly number[]>,
 ): string {
-  const shared = a.filter((tip) => b.includes(tip));
-  const [onlyA, onlyB] = [a, b].map((tips) => tips.filter((tip) => !shared.includes(tip)));
-  const extra = both.filter((tip) => !shared.includes(tip));
-  const said = [OPENINGS[verdictOn(guess, both)]];
-  said.push(
-    both.length === 1
-      ? `Both can move the ${tipsOf(both)}, and no other.`
-      : `Both can move the ${tipsOf(both)}.`,
-  );
+  const shared = sharedTips({ a, b });
+  const others = (tips: readonly number[]) => tips.filter((tip) => !shared.includes(tip));
+  const [onlyA, onlyB, extra] = [others(a), others(b), others(both)];
+  const said = [OPENINGS[verdictOn(guess, shared)]];
+  said.push(`Both can move the ${tipsOf(shared)}${shared.length === 1 ? ", and no other" : ""}.`);
   if (extra.length > 0) {
     said.push(
-      `Strictly only the ${tipsOf(shared)}; but with so large a σ a star whose ${tipsOf(extra)} ` +
-        `${extra.length > 1 ? "have" : "has"} moved still counts as near.`,
+      `But with so large a σ a star whose ${tipsOf(extra)} ${extra.length > 1 ? "have" : "has"} ` +
+        "moved still counts as near.",
     );
   } else {
-    if (onlyA?.length) said.push(`The ${tipsOf(onlyA)} only A can move: B holds it where it is.`);
-    if (onlyB?.length) said.push(`The ${tipsOf(onlyB)} only B.`);
+    if (onlyA.length > 0) {
+      said.push(`The ${tipsOf(onlyA)} only A can move: B holds it where it is.`);
+    }
+    if (onlyB.length > 0) said.push(`The ${tipsOf(onlyB)} only B.`);
   }
   return said.join(" ");
 }

@@ -96,7 +96,7 @@ function name(
 ): void {
   const [x, y] = pointOf(shape, 0);
   const out = 1 + 1.4 / Math.max(1, Math.hypot(x, y));
-  write(pen, palette, "x", [plane.x(out * x), Math.max(12, plane.y(out * y))], {
+  write(pen, palette, "x", [plane.x(out * x), Math.max(palette.text, plane.y(out * y))], {
     colour: palette[side],
     align: "center",
     italic: true,
