@@ -50,6 +50,15 @@ async function drag(page, [x0, y0], [x1, y1]) {
 /** What the page looks like, in one number. */
 const look = async (page) => (await page.locator(".scene").screenshot()).toString("base64");
 
+/** Resolves once the page looks otherwise. */
+async function untilOther(page, before) {
+  for (let looks = 0; looks < 20; looks += 1) {
+    if ((await look(page)) !== before) return;
+    await page.waitForTimeout(100);
+  }
+  assert.fail("the picture stays as it was");
+}
+
 test("a link opens a scene with its numbers, those of the command line, and the same again", async () => {
   await withPage({}, async ({ url, page }) => {
     for (const scene of ["model", "agree", "planes"]) {
@@ -160,8 +169,10 @@ test("planes are turned, tilted and lifted; the point stays in its plane", async
     await drag(page, [box.x + 30, box.y + 30], [box.x + 132, box.y + 30]);
     await settled(page, /turn=-1.2,0.5/);
     assert.equal(setting(page, "coefficients"), "0.5,0.5", "the point is where it was");
+    const turned = await look(page);
     await page.goBack();
     await settled(page, /turn=-0.6,0.5/);
+    await untilOther(page, turned);
     // x in A, as it is seen: its plane is z = 0, its ellipse 1.5 by 1.
     const seen = ([s, t]) => {
       const [cy, sy, sp] = [Math.cos(-0.6), Math.sin(-0.6), Math.sin(0.5)];

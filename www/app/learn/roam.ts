@@ -3,7 +3,7 @@
  * not in the link; where it is stopped, it is.
  */
 import { type ReadonlySignal, useSignal } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { still, useFrames } from "./clock";
 import { bounded } from "./params";
 
@@ -40,7 +40,8 @@ export function useRoam({ chosen, standard, path, write, limits }: Roaming): Roa
     now.value = values;
     from.current = { start: values, seconds: 0 };
   };
-  useEffect(() => {
+  // At once: whoever takes hold of something right after a step of Back holds what is there then.
+  useLayoutEffect(() => {
     if (text === known.current) return;
     // A link, a step of Back.
     known.current = text;
