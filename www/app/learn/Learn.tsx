@@ -1,3 +1,5 @@
+// Before those of the scenes, which have the last word.
+import "../../styles/learn.css";
 import { useEffect, useRef } from "preact/hooks";
 import { sharedAddress } from "../history";
 import { embedded } from "../state";
@@ -7,7 +9,6 @@ import { SceneList, StepAlong } from "./parts/SceneList";
 import { SCENES, TEACHER, titleOf } from "./scenes";
 import { SCENE_VIEWS } from "./scenes/index";
 import { large, resets, scene } from "./state";
-import "../../styles/learn.css";
 
 /** The lessons: one scene at a time, each a link. */
 export function Learn() {

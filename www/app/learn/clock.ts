@@ -23,9 +23,10 @@ export function useFrames(playing: Signal<boolean>, frame: (elapsed: number) => 
     let handle = requestAnimationFrame(function next(now) {
       const elapsed = Math.min(LONGEST_FRAME_MS, Math.max(0, now - before));
       before = now;
-      latest.current(elapsed);
+      // It may have been stopped since the page was last drawn.
+      if (playing.peek()) latest.current(elapsed);
       handle = requestAnimationFrame(next);
     });
     return () => cancelAnimationFrame(handle);
-  }, [on]);
+  }, [on, playing]);
 }

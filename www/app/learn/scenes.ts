@@ -20,12 +20,12 @@ const coefficients = (standard: readonly number[]) => list(standard, -6, 6);
 /** Keys and defaults; the command line has the same (`shapevenn lesson`). */
 export const SCENE_PARAMS = {
   model: {
-    pair: choice("stars-2", STAR_PAIRS),
+    pair: choice("stars-5", STAR_PAIRS),
     side: choice("a", SIDES),
-    coefficients: coefficients([0, 0]),
+    coefficients: coefficients([1.2, -0.6]),
   },
   agree: {
-    pair: choice("stars-2", STAR_PAIRS),
+    pair: choice("stars-5", STAR_PAIRS),
     sigma: number(0.003, 0.0001, 3, 5),
     guess: list([], 0, 4, 0),
     shown: flag(),
@@ -36,8 +36,8 @@ export const SCENE_PARAMS = {
     lift: number(0, -1.5, 1.5, 2),
     sigma: number(0.3, 0.01, 3),
     side: choice("a", SIDES),
-    coefficients: coefficients([1, 0.5]),
-    turn: list([0.6, 0.5], -7, 7),
+    coefficients: coefficients([0.8, 0.8]),
+    turn: list([-0.6, 0.36], -7, 7),
   },
   step: {
     pair: choice("planes", PAIRS),

@@ -21,12 +21,17 @@ interface Props {
   aspect: number;
   /** Draws everything anew, in pixels of the page; called whenever the board is rendered. */
   draw: Draw;
-  /** Where something is dragged; false from `onGrab` lets the page scroll instead. */
-  onGrab?: (at: Pointer) => boolean;
+  /**
+   * Where something is dragged; false lets the page scroll instead. What is held `sideways` leaves it to
+   * fingers to scroll up and down.
+   */
+  onGrab?: (at: Pointer) => boolean | "sideways";
   onDrag?: (at: Pointer) => void;
   onDrop?: () => void;
   /** Returns whether the key was meant. */
   onKey?: (key: string, event: KeyboardEvent) => boolean;
+  /** The id of what says how it is handled. */
+  help?: string;
   children?: ComponentChildren;
 }
 
@@ -35,8 +40,8 @@ export function Board(props: Props) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const latest = useRef(props);
   latest.current = props;
-  const held = useRef(false);
-  const { label, aspect, onGrab, onKey } = props;
+  const held = useRef<boolean | "sideways">(false);
+  const { label, aspect, onGrab, onKey, help } = props;
   const dark = isDark();
   useLayoutEffect(() => paint(canvas.current, latest.current.draw));
   useEffect(() => {
@@ -44,7 +49,16 @@ export function Board(props: Props) {
     if (!element) return;
     const observer = new ResizeObserver(() => paint(element, latest.current.draw));
     observer.observe(element);
-    return () => observer.disconnect();
+    // A finger that holds something moves it; any other one scrolls the page. Browsers decide that by
+    // `touchstart`, which follows `pointerdown` and which Preact would listen to passively.
+    const hold = (event: TouchEvent) => {
+      if (held.current === true) event.preventDefault();
+    };
+    element.addEventListener("touchstart", hold, { passive: false });
+    return () => {
+      observer.disconnect();
+      element.removeEventListener("touchstart", hold);
+    };
   }, []);
   const at = (event: PointerEvent): Pointer => {
     const box = (event.currentTarget as HTMLElement).getBoundingClientRect();
@@ -52,8 +66,8 @@ export function Board(props: Props) {
     return { x, y, size: { width: box.width, height: box.height } };
   };
   const down = (event: PointerEvent) => {
-    if (event.button !== 0 || !latest.current.onGrab?.(at(event))) return;
-    held.current = true;
+    held.current = event.button === 0 && (latest.current.onGrab?.(at(event)) ?? false);
+    if (!held.current) return;
     (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
     event.preventDefault();
     (event.currentTarget as HTMLElement).focus({ preventScroll: true });
@@ -74,6 +88,7 @@ export function Board(props: Props) {
         role={onKey ? "application" : "img"}
         tabIndex={onKey ? 0 : -1}
         aria-label={label}
+        aria-describedby={help}
         data-drags={onGrab !== undefined}
         onPointerDown={down}
         onPointerMove={move}

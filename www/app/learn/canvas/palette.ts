@@ -12,6 +12,9 @@ export interface Palette {
   good: string;
   bad: string;
   warn: string;
+  /** Of the first and the second mode, or coefficient. */
+  first: string;
+  second: string;
   /** Family and pixels of small letters. */
   font: string;
   text: number;
@@ -30,29 +33,36 @@ const NAMES = [
   "good",
   "bad",
   "warn",
+  "first",
+  "second",
 ] as const;
 
-let probe: HTMLElement | null = null;
+type Colours = Omit<Palette, "font" | "text">;
+
+/** Kept, since a frame has no time to ask for styles again and again. */
+const known = new Map<string, Colours>();
 
 /** As the element has them: a theme, or larger letters, may be on above it. */
 export function paletteOf(element: HTMLElement): Palette {
+  const theme = document.documentElement.dataset.theme ?? "";
+  const colours = known.get(theme) ?? coloursNow();
+  known.set(theme, colours);
+  const { fontFamily, fontSize } = getComputedStyle(element);
+  return { ...colours, font: fontFamily, text: Number.parseFloat(fontSize) };
+}
+
+function coloursNow(): Colours {
   // Custom properties are not resolved to colours: a colour of an element is.
-  if (!probe) {
-    probe = document.createElement("i");
-    probe.hidden = true;
-    document.body.append(probe);
-  }
+  const probe = document.createElement("i");
+  probe.hidden = true;
+  document.body.append(probe);
   const found: Record<string, string> = {};
   for (const name of NAMES) {
     probe.style.color = `var(--${name})`;
     found[name] = getComputedStyle(probe).color;
   }
-  const { fontFamily, fontSize } = getComputedStyle(element);
-  return {
-    ...(found as unknown as Omit<Palette, "font" | "text">),
-    font: fontFamily,
-    text: Number.parseFloat(fontSize),
-  };
+  probe.remove();
+  return found as unknown as Colours;
 }
 
 /** A colour of the palette, let through. */

@@ -42,6 +42,19 @@ export function traceShape(
   }
 }
 
+/** A closed outline through all points, which can be filled too: xyxy… */
+export function traceOutline(
+  pen: CanvasRenderingContext2D,
+  plane: Plane,
+  shape: ArrayLike<number>,
+): void {
+  pen.beginPath();
+  for (let at = 0; at < shape.length; at += 2) {
+    pen.lineTo(plane.x(shape[at] ?? 0), plane.y(shape[at + 1] ?? 0));
+  }
+  pen.closePath();
+}
+
 /** The curve of `radius` standard deviations of a Gaussian, in two of its coefficients. */
 export function traceGaussian(
   pen: CanvasRenderingContext2D,

@@ -1,3 +1,153 @@
+import type { LessonAsk, LessonSide } from "../../../worker/lessons";
+import { degrees } from "../../format";
+import { Segments } from "../../views/Segments";
+import { useAsk, useAsked, useDone } from "../asked";
+import { useSceneKeys } from "../keys";
+import { bounded } from "../params";
+import { LessonNumber, LessonNumbers, PlayBar } from "../parts/controls";
+import { swung } from "../paths";
+import { useRoam } from "../roam";
+import { SCENE_PARAMS, type SceneValues } from "../scenes";
+import { params, resetScene, setParams } from "../state";
+import { EXTENT } from "./planes/draw";
+import { Factors } from "./planes/Factors";
+import { Sliders } from "./planes/Sliders";
+import { SpaceBoard } from "./planes/SpaceBoard";
+import type { Flat } from "./planes/space";
+import { angleWords, TRIES, whatToSee } from "./planes/words";
+import "../../../styles/learn-planes.css";
+
+const SCHEMA = SCENE_PARAMS.planes;
+/** It turns to and fro, since from the side there is little to see. */
+const SWAY = { reach: 0.5, speed: 0.45 };
+const SIZE = 96;
+const set = (part: Partial<SceneValues<"planes">>) => setParams("planes", part);
+
+/** Two planes: the smallest case of two models, with everything the method speaks of in sight. */
 export function PlanesScene() {
-  return <p>To come.</p>;
+  const { tilt, shift, lift, sigma, side, coefficients, turn } = params("planes").value;
+  const ask = useAsk();
+  const lesson = useAsked(ask, { ask: "open", pair: "planes", sigma, tilt, shift, lift });
+  const models = lesson.answer;
+  const field = (of: LessonSide): Extract<LessonAsk, { ask: "field" }> | null =>
+    models && {
+      ask: "field",
+      of: "intersection",
+      side: of,
+      modes: [0, 1],
+      at: [0, 0],
+      extent: EXTENT,
+      size: SIZE,
+    };
+  const fieldA = useAsked(ask, field("a"), models);
+  const fieldB = useAsked(ask, field("b"), models);
+  const [first = 0, second = 0] = coefficients;
+  const place: Flat = [first, second];
+  const point = useAsked(ask, models && { ask: "point", side, coefficients: [...place] }, models);
+  const roam = useRoam({
+    chosen: turn,
+    standard: SCHEMA.turn.standard,
+    limits: SCHEMA.turn,
+    path: ([yaw = 0, pitch = 0], seconds) => [yaw + swung(0, SWAY, seconds), pitch],
+    write: (values) => set({ turn: values }),
+  });
+  useDone(lesson.current && fieldA.current && fieldB.current && point.current);
+  useSceneKeys(roam.toggle, null);
+  const to = (moved: Flat) => {
+    // Whoever moves the point wants to see it stand still.
+    if (roam.playing.peek()) roam.toggle();
+    set({ coefficients: moved.map((value) => bounded(SCHEMA.coefficients, value)) });
+  };
+  const found = point.answer;
+  const [yaw = 0, pitch = 0] = roam.now;
+  const playing = roam.playing.value;
+  return (
+    <>
+      <p class="lead">
+        Make models so small that they fit into space: one point, two modes. All that a model can
+        make is then a <em>plane</em>, and its plausible shapes are an <em>ellipse</em>. Two models,
+        two planes: where is what both can make?
+      </p>
+      <div class="scene-body planes-body">
+        <div class="planes-board">
+          {models ? (
+            <SpaceBoard
+              models={models}
+              fields={{ a: fieldA.answer, b: fieldB.answer }}
+              side={side}
+              place={place}
+              point={found}
+              turn={[yaw, pitch]}
+              onPlace={to}
+              onTurn={roam.hold}
+              onRun={roam.toggle}
+            />
+          ) : (
+            <div class="board planes-wait" />
+          )}
+          <p class="board-caption" id="planes-help">
+            Drag x in its plane, anything else turns the view. Arrow keys move x by 0.1, with Shift
+            by 0.5, Home to the mean; J L I K turn.
+          </p>
+        </div>
+        <div class="scene-side">
+          <div class="planes-top">
+            <PlayBar playing={playing} onToggle={roam.toggle} onReset={resetScene} />
+            <Segments
+              legend="Whose point is x"
+              name="planes-side"
+              value={side}
+              options={[
+                ["a", "x in A"],
+                ["b", "x in B"],
+              ]}
+              onChoose={(chosen) => set({ side: chosen })}
+            />
+          </div>
+          <LessonNumbers label="The point in numbers">
+            <LessonNumber
+              label="Distance d(x′, x)"
+              metric="point.distance"
+              value={found?.distance}
+            />
+            <LessonNumber label="From the mean, ‖α‖" metric="point.norm" value={found?.norm} />
+          </LessonNumbers>
+          <Factors point={found} side={side} />
+          <Sliders {...{ sigma, tilt, shift, lift }} />
+          <p class="board-caption">
+            Principal angles of the two planes:{" "}
+            {models?.angles.map((angle, i) => (
+              <span key={i} class="num" data-metric={`angles.${i}`} data-value={angle}>
+                {i > 0 && ", "}
+                {degrees(angle)}
+              </span>
+            ))}
+            . {models && angleWords(models.angles)}
+          </p>
+        </div>
+        <div class="planes-below">
+          <p class="planes-see">{whatToSee({ tilt, lift, sigma })}</p>
+          <fieldset class="planes-tries">
+            <legend class="unseen">Try</legend>
+            {TRIES.map(([name, lie]) => (
+              <button key={name} type="button" onClick={() => set(lie)}>
+                {name}
+              </button>
+            ))}
+          </fieldset>
+        </div>
+      </div>
+      <details class="ask">
+        <summary>Why is I, the common line, not all that the method looks for?</summary>
+        <p>
+          Two ellipses in different planes meet in a piece of a line, I = Q₁ ∩ Q₂, and in real
+          models, with thousands of points and noise, in nothing at all: the chance that a shape
+          lies exactly in both is zero. So the paper asks for I<sub>ε</sub>: points of one ellipse
+          whose nearest point of the other model is closer than ε. The band that glows is its soft
+          version, with σ for ε: it lies on <em>both</em> planes, and the method draws from both and
+          pools the draws.
+        </p>
+      </details>
+    </>
+  );
 }

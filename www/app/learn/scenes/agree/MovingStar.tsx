@@ -1,0 +1,59 @@
+import { useMemo } from "preact/hooks";
+import type { LessonModel } from "../../../../worker/lessons";
+import { Board, type Size } from "../../canvas/Board";
+import { faded, type Palette } from "../../canvas/palette";
+import { planeOf, traceOutline } from "../../canvas/plane";
+import { shapeAt } from "../../shape";
+import { alone, REACH, seenModes, sweepAt } from "./sweep";
+
+export const EXTENT = 12.4;
+/** Height of a board over its width. */
+export const ASPECT = 0.85;
+/** Faint stars between the two ends of a mode. */
+const FAN = 9;
+
+interface Props {
+  model: LessonModel | null;
+  /** Whose it is: the colour of it. */
+  whose: "a" | "b" | "ab";
+  seconds: number;
+  label: string;
+}
+
+/** A star that goes through its modes, before the faint fan of all places it goes to. */
+export function MovingStar({ model, whose, seconds, label }: Props) {
+  const fan = useMemo(() => (model ? fanOf(model) : []), [model]);
+  const draw = (pen: CanvasRenderingContext2D, size: Size, palette: Palette) => {
+    if (!model) return;
+    const plane = planeOf(size, EXTENT);
+    const colour = palette[whose];
+    pen.lineWidth = 1;
+    pen.strokeStyle = faded(colour, 0.24);
+    for (const shape of fan) {
+      traceOutline(pen, plane, shape);
+      pen.stroke();
+    }
+    const { mode, coefficient } = sweepAt(seconds, seenModes(model.standardDeviations));
+    const shape = shapeAt(model, alone(mode, coefficient));
+    traceOutline(pen, plane, shape);
+    pen.fillStyle = faded(colour, 0.15);
+    pen.fill();
+    traceOutline(pen, plane, model.mean);
+    pen.setLineDash([5, 6]);
+    pen.lineWidth = 1.5;
+    pen.strokeStyle = palette.dim;
+    pen.stroke();
+    pen.setLineDash([]);
+    traceOutline(pen, plane, shape);
+    pen.lineWidth = 3;
+    pen.strokeStyle = colour;
+    pen.stroke();
+  };
+  return <Board label={label} aspect={ASPECT} draw={draw} />;
+}
+
+function fanOf(model: LessonModel): number[][] {
+  const steps = Array.from({ length: FAN }, (_, i) => REACH * ((2 * i) / (FAN - 1) - 1));
+  const modes = Array.from({ length: seenModes(model.standardDeviations) }, (_, mode) => mode);
+  return modes.flatMap((mode) => steps.map((step) => shapeAt(model, alone(mode, step))));
+}

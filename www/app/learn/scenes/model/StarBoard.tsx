@@ -1,0 +1,115 @@
+import type { LessonModel, LessonSide } from "../../../../worker/lessons";
+import { Board, type Size } from "../../canvas/Board";
+import { arrow, write } from "../../canvas/marks";
+import { faded, type Palette } from "../../canvas/palette";
+import { type Plane, planeOf, traceOutline } from "../../canvas/plane";
+import { modeOf, pointOf, shapeAt } from "../../shape";
+
+/** As far as a star of these models goes, in its own units. */
+export const STAR_EXTENT = 13.5;
+
+interface Props {
+  model: LessonModel | null;
+  coefficients: readonly number[];
+  side: LessonSide;
+  /** Shapes of the model, one after the other. */
+  cloud: Float32Array | null;
+}
+
+/** The mean, the shape, and how the one becomes the other at each of its points. */
+export function StarBoard({ model, coefficients, side, cloud }: Props) {
+  const draw = (pen: CanvasRenderingContext2D, size: Size, palette: Palette) => {
+    if (!model) return;
+    const plane = planeOf(size, STAR_EXTENT);
+    const length = model.mean.length;
+    if (cloud) drawCloud(pen, plane, cloud, length, faded(palette[side], 0.13));
+    const shape = shapeAt(model, coefficients);
+    traceOutline(pen, plane, shape);
+    pen.fillStyle = faded(palette[side], 0.16);
+    pen.fill();
+    traceOutline(pen, plane, model.mean);
+    pen.setLineDash([5, 6]);
+    pen.lineWidth = 1.5;
+    pen.strokeStyle = palette.dim;
+    pen.stroke();
+    pen.setLineDash([]);
+    traceOutline(pen, plane, shape);
+    pen.lineWidth = 3;
+    pen.strokeStyle = palette[side];
+    pen.stroke();
+    drawSums(pen, plane, palette, model, coefficients);
+    name(pen, plane, palette, model.mean, shape, side);
+  };
+  return (
+    <Board
+      label="A star: its mean as a dashed line, the shape of the present coefficients as a solid one, and arrows that say how far each mode takes each point."
+      aspect={0.94}
+      draw={draw}
+    />
+  );
+}
+
+function drawCloud(
+  pen: CanvasRenderingContext2D,
+  plane: Plane,
+  cloud: Float32Array,
+  length: number,
+  colour: string,
+): void {
+  pen.strokeStyle = colour;
+  pen.lineWidth = 1;
+  for (let from = 0; from + length <= cloud.length; from += length) {
+    traceOutline(pen, plane, cloud.subarray(from, from + length));
+    pen.stroke();
+  }
+}
+
+/** At each point: from the mean along the first mode, then along the second, and there is the shape. */
+function drawSums(
+  pen: CanvasRenderingContext2D,
+  plane: Plane,
+  palette: Palette,
+  model: LessonModel,
+  [first = 0, second = 0]: readonly number[],
+): void {
+  const [one, two] = [modeOf(model, 0), modeOf(model, 1)];
+  const at = ([x, y]: [number, number]): [number, number] => [plane.x(x), plane.y(y)];
+  for (let point = 0; point < model.mean.length / 2; point += 1) {
+    const [x, y] = pointOf(model.mean, point);
+    const [dx, dy] = pointOf(one, point);
+    const [ex, ey] = pointOf(two, point);
+    const middle: [number, number] = [x + first * dx, y + first * dy];
+    const end: [number, number] = [middle[0] + second * ex, middle[1] + second * ey];
+    arrow(pen, at([x, y]), at(middle), palette.first, 3);
+    arrow(pen, at(middle), at(end), palette.second, 3);
+  }
+}
+
+/** The two lines are called by their names, beside a tip that never moves. */
+function name(
+  pen: CanvasRenderingContext2D,
+  plane: Plane,
+  palette: Palette,
+  mean: readonly number[],
+  shape: readonly number[],
+  side: LessonSide,
+): void {
+  const [x, y] = pointOf(shape, 0);
+  const out = 1 + 1.4 / Math.max(1, Math.hypot(x, y));
+  write(pen, palette, "x", [plane.x(out * x), Math.max(palette.text, plane.y(out * y))], {
+    colour: palette[side],
+    align: "center",
+    italic: true,
+    weight: 700,
+    size: 1.25,
+  });
+  const [u, v] = pointOf(mean, 1);
+  write(pen, palette, "mean x̄", [plane.x(u) - 8, plane.y(v) - 16], {
+    colour: palette.dim,
+    align: "right",
+  });
+  write(pen, palette, "faint: other shapes it makes", [12, plane.y(-STAR_EXTENT) - 16], {
+    colour: palette.dim,
+    size: 0.9,
+  });
+}

@@ -1,0 +1,79 @@
+import type { ComponentChildren } from "preact";
+import type { LessonPoint, LessonSide } from "../../../../worker/lessons";
+import { number } from "../../../format";
+
+interface Props {
+  point: LessonPoint | null;
+  side: LessonSide;
+}
+
+/** What is multiplied: near, plausible there, plausible here. Bars show factors, from 0 to 1. */
+export function Factors({ point, side }: Props) {
+  const [here, there] = side === "a" ? ["A", "B"] : ["B", "A"];
+  return (
+    <dl class="factors" aria-label="What makes x common to both">
+      <Factor
+        name="near"
+        formula={
+          <>
+            L<sub>D</sub> = exp(−½(d/σ)²)
+          </>
+        }
+        share={point?.distanceLikelihood}
+        metric="point.distanceLikelihood"
+        value={point?.distanceLikelihood}
+      />
+      <Factor
+        name={`× plausible in ${there}`}
+        formula={
+          <>
+            L<sub>P</sub> = exp(−½‖α′‖²)
+          </>
+        }
+        share={point?.projectionLikelihood}
+        metric="point.projectionLikelihood"
+        value={point?.projectionLikelihood}
+      />
+      <Factor
+        name={`× plausible in ${here}`}
+        formula="log p(α) = −½‖α‖²"
+        share={point && Math.exp(point.logPrior)}
+        metric="point.logPrior"
+        value={point?.logPrior}
+      />
+      <Factor
+        name="= common to both"
+        formula="log p(α | A∩B) + const"
+        share={point && Math.exp(point.logDensity)}
+        metric="point.logDensity"
+        value={point?.logDensity}
+        whole
+      />
+    </dl>
+  );
+}
+
+interface FactorProps {
+  name: string;
+  formula: ComponentChildren;
+  share: number | null | undefined;
+  metric: string;
+  value: number | null | undefined;
+  whole?: boolean;
+}
+
+function Factor({ name, formula, share, metric, value, whole = false }: FactorProps) {
+  return (
+    <div class="factor" data-whole={whole}>
+      <dt>
+        {name} <span class="small">{formula}</span>
+      </dt>
+      <dd class="factor-bar" aria-hidden="true">
+        <span style={{ width: `${100 * (share ?? 0)}%` }} />
+      </dd>
+      <dd class="num" data-metric={metric} data-value={value ?? undefined}>
+        {value == null ? "–" : number(value)}
+      </dd>
+    </div>
+  );
+}

@@ -1,0 +1,157 @@
+import { useMemo, useRef } from "preact/hooks";
+import type { LessonField, LessonModel, LessonPoint, LessonSide } from "../../../../worker/lessons";
+import { isDark } from "../../../theme";
+import { Board, type Pointer, type Size } from "../../canvas/Board";
+import { REACH, write } from "../../canvas/marks";
+import type { Palette } from "../../canvas/palette";
+import { tintedField } from "../../canvas/tint";
+import { nudge } from "../../roam";
+import { drawSheets, type ToBoard } from "./draw";
+import { cornerOf, drawCommon, drawPoint } from "./drawPoint";
+import {
+  type Flat,
+  pointAt,
+  type Sheet,
+  seen,
+  under,
+  type Vec,
+  type View,
+  viewFrom,
+} from "./space";
+
+interface Props {
+  models: Record<LessonSide, LessonModel>;
+  /** The density of A∩B over the coefficients of each. */
+  fields: Record<LessonSide, LessonField | null>;
+  side: LessonSide;
+  place: Flat;
+  point: LessonPoint | null;
+  turn: Flat;
+  onPlace: (place: Flat) => void;
+  onTurn: (turn: Flat) => void;
+  onRun: () => void;
+}
+
+/** Pixels of a drag for one radian. */
+const PER_RADIAN = 170;
+/** How far keys turn it. */
+const KEY_TURN = 0.1;
+const TURNS: Record<string, Flat> = {
+  j: [-KEY_TURN, 0],
+  l: [KEY_TURN, 0],
+  i: [0, KEY_TURN],
+  k: [0, -KEY_TURN],
+};
+/** How much of the height of the board the sheets fill when they are seen at their largest. */
+const FILLED = 3.85;
+
+export function sheetOf({ mean, basis }: LessonModel): Sheet {
+  const vec = (from: readonly number[], at: number): Vec => [
+    from[at] ?? 0,
+    from[at + 1] ?? 0,
+    from[at + 2] ?? 0,
+  ];
+  return { middle: vec(mean, 0), first: vec(basis, 0), second: vec(basis, 3) };
+}
+
+/** Two planes in space, what is common to them, and a point of one with the nearest of the other. */
+export function SpaceBoard(props: Props) {
+  const { models, fields, side, place, point, turn } = props;
+  const dark = isDark();
+  const sheets = useMemo(() => ({ a: sheetOf(models.a), b: sheetOf(models.b) }), [models]);
+  const pictures = usePictures(fields, dark);
+  const view = viewFrom(...turn);
+  const held = useRef<{ apart: Flat } | { at: Flat; turn: Flat } | null>(null);
+  const draw = (pen: CanvasRenderingContext2D, size: Size, palette: Palette) => {
+    const to = boardOf(view, size);
+    const one = (which: LessonSide) => ({
+      sheet: sheets[which],
+      colour: palette[which],
+      picture: pictures(which, palette),
+    });
+    drawSheets(pen, palette, view, to, { a: one("a"), b: one("b") });
+    drawCommon(pen, palette, to, sheets);
+    const letter = { weight: 700, size: 1.5, align: "center" } as const;
+    write(pen, palette, "A", cornerOf(sheets.a, to, 0), { ...letter, colour: palette.a });
+    write(pen, palette, "B", cornerOf(sheets.b, to, 1), { ...letter, colour: palette.b });
+    drawPoint(pen, palette, to, sheets, side, place, point);
+  };
+  const spot = (size: Size): Flat => boardOf(view, size)(pointAt(sheets[side], place));
+  const grab = ({ x, y, size }: Pointer) => {
+    const [u, v] = spot(size);
+    const near = Math.hypot(u - x, v - y) < REACH;
+    held.current = near ? { apart: [u - x, v - y] } : { at: [x, y], turn };
+    return near || ("sideways" as const);
+  };
+  const drag = ({ x, y, size }: Pointer) => {
+    const { current } = held;
+    if (!current) return;
+    if ("apart" in current) {
+      const [u, v] = fromBoard(size, [x + current.apart[0], y + current.apart[1]]);
+      const found = under(sheets[side], view, [u, v]);
+      if (found) props.onPlace(found);
+    } else {
+      const [yaw, pitch] = current.turn;
+      props.onTurn(
+        upright([yaw - (x - current.at[0]) / PER_RADIAN, pitch + (y - current.at[1]) / PER_RADIAN]),
+      );
+    }
+  };
+  const key = (name: string, event: KeyboardEvent) => {
+    const by = nudge(event);
+    const turned = TURNS[name.toLowerCase()];
+    if (by) props.onPlace([place[0] + by[0], place[1] + by[1]]);
+    else if (turned) props.onTurn(upright([turn[0] + turned[0], turn[1] + turned[1]]));
+    else if (name === "Home") props.onPlace([0, 0]);
+    else if (name === " ") props.onRun();
+    else return false;
+    return true;
+  };
+  return (
+    <Board
+      label="Two planes in space, that of model A and that of model B, each with the ellipse of its plausible shapes. What is common to both glows along the line in which they meet. A point x of one plane and the nearest point of the other are joined by a line. Arrow keys move x; J, L, I and K turn the view."
+      help="planes-help"
+      aspect={0.74}
+      draw={draw}
+      onGrab={grab}
+      onDrag={drag}
+      onKey={key}
+    />
+  );
+}
+
+/** Never over the top. */
+const upright = ([yaw, pitch]: Flat): Flat => [
+  yaw > 2 * Math.PI ? yaw - 2 * Math.PI : yaw < -2 * Math.PI ? yaw + 2 * Math.PI : yaw,
+  Math.min(1.5, Math.max(-1.5, pitch)),
+];
+
+const scaleOf = ({ width, height }: Size) => Math.min(width / 1.25, height) / (2 * FILLED);
+
+function boardOf(view: View, size: Size): ToBoard {
+  const scale = scaleOf(size);
+  return (point) => {
+    const [x, y] = seen(view, point);
+    return [size.width / 2 + scale * x, size.height / 2 - scale * y];
+  };
+}
+
+function fromBoard(size: Size, [x, y]: Flat): Flat {
+  const scale = scaleOf(size);
+  return [(x - size.width / 2) / scale, (size.height / 2 - y) / scale];
+}
+
+/** Pictures of the fields, made once they are first drawn: then the colours are known. */
+function usePictures(fields: Props["fields"], dark: boolean) {
+  const { a, b } = fields;
+  const kept = useMemo(
+    () => ({ dark, fields: { a, b }, made: new Map<LessonSide, HTMLCanvasElement>() }),
+    [a, b, dark],
+  );
+  return (side: LessonSide, palette: Palette) => {
+    const field = kept.fields[side];
+    const made = kept.made.get(side) ?? (field ? tintedField(field, palette.ab, 0.95) : null);
+    if (made) kept.made.set(side, made);
+    return made;
+  };
+}

@@ -1,0 +1,84 @@
+/** What lies on the sheets: the line that they share, the point and the nearest one of the other. */
+import type { LessonPoint, LessonSide } from "../../../../worker/lessons";
+import { arrow, handle, write } from "../../canvas/marks";
+import type { Palette } from "../../canvas/palette";
+import { ALLOWABLE, EXTENT, type ToBoard } from "./draw";
+import { along, commonSegment, type Flat, meeting, pointAt, type Sheet } from "./space";
+
+/** As far as the line is drawn. */
+const FAR = 6;
+
+/** The corner that lies furthest to the right (0) or furthest down (1): there is room for a letter. */
+export function cornerOf(sheet: Sheet, to: ToBoard, axis: 0 | 1): Flat {
+  const far = 0.88 * EXTENT;
+  const corners = [-far, far].flatMap((s) => [-far, far].map((t) => to(pointAt(sheet, [s, t]))));
+  return corners.reduce((most, corner) => (corner[axis] > most[axis] ? corner : most));
+}
+
+/** The line where the planes meet, and the piece of it that lies in both ellipses. */
+export function drawCommon(
+  pen: CanvasRenderingContext2D,
+  palette: Palette,
+  to: ToBoard,
+  { a, b }: Record<LessonSide, Sheet>,
+): void {
+  const line = meeting(a, b);
+  if (!line) return;
+  pen.strokeStyle = palette.ab;
+  pen.lineWidth = 1.25;
+  pen.setLineDash([3, 6]);
+  pen.beginPath();
+  pen.moveTo(...to(along(line.from, line.way, -FAR)));
+  pen.lineTo(...to(along(line.from, line.way, FAR)));
+  pen.stroke();
+  pen.setLineDash([]);
+  const common = commonSegment(a, b, ALLOWABLE);
+  if (!common) return;
+  const [low, high] = [to(common[0]), to(common[1])];
+  pen.lineWidth = 4;
+  pen.beginPath();
+  pen.moveTo(...low);
+  pen.lineTo(...high);
+  pen.stroke();
+  const left = low[0] < high[0] ? low : high;
+  write(pen, palette, "I", [left[0] - 14, left[1] - 8], {
+    colour: palette.ab,
+    italic: true,
+    weight: 700,
+    size: 1.3,
+  });
+}
+
+/** x, x′ and the way from the one to the other. */
+export function drawPoint(
+  pen: CanvasRenderingContext2D,
+  palette: Palette,
+  to: ToBoard,
+  sheets: Record<LessonSide, Sheet>,
+  side: LessonSide,
+  place: Flat,
+  point: LessonPoint | null,
+): void {
+  const other = side === "a" ? "b" : "a";
+  const spot = to(pointAt(sheets[side], place));
+  const italic = { italic: true, weight: 700, size: 1.25 };
+  if (point) {
+    const [x = 0, y = 0, z = 0] = point.nearest;
+    const near = to([x, y, z]);
+    arrow(pen, spot, near, palette.ink, 2.5);
+    handle(pen, palette, near, palette[other], 4.5);
+    const [u, v] = [near[0] - spot[0], near[1] - spot[1]];
+    const length = Math.hypot(u, v);
+    if (length > 26) {
+      // Below the line, where neither point has its name.
+      const down = (u < 0 ? -0.9 : 0.9) * (palette.text / length);
+      const middle: Flat = [(spot[0] + near[0]) / 2 - down * v, (spot[1] + near[1]) / 2 + down * u];
+      write(pen, palette, "d", middle, { ...italic, align: "center", size: 1.15 });
+    }
+    // Its name on the far side of the point.
+    const down = near[1] > spot[1] ? 18 : -18;
+    write(pen, palette, "x′", [near[0] + 8, near[1] + down], { ...italic, colour: palette[other] });
+  }
+  handle(pen, palette, spot, palette[side], 8);
+  write(pen, palette, "x", [spot[0] + 15, spot[1] - 13], { ...italic, colour: palette[side] });
+}

@@ -1,0 +1,49 @@
+const EMBED = `<script type="module" src="shape-venn.js"></script>
+<shape-venn scene="step" seed="7"></shape-venn>`;
+
+/** How the lessons come into a lecture hall: by link, without a network, inside other pages. */
+export function Taking() {
+  return (
+    <section aria-labelledby="teacher-taking">
+      <h3 id="teacher-taking">Links, seeds, no network, other pages</h3>
+      <dl class="teacher-taking">
+        <dt>A link is a state</dt>
+        <dd>
+          Whatever you set is in the address: copy it into slides, and everybody opens the same
+          picture with the same numbers. A link without settings opens a scene as it is at first,
+          already moving. Back undoes.
+        </dd>
+        <dt>The same draws for all, or different ones</dt>
+        <dd>
+          Random numbers follow from <code>seed=1</code> in the address. The same seed gives the
+          same draws, to the last digit, on every computer. Give each student another one, say{" "}
+          <code>seed=</code> and the last digits of their number, and compare.
+        </dd>
+        <dt>Check it elsewhere</dt>
+        <dd>
+          <code>shapevenn lesson "page=learn&amp;scene=step&amp;seed=7&amp;steps=120" --json</code>{" "}
+          prints the numbers that the page shows.
+        </dd>
+        <dt>Without a network</dt>
+        <dd>
+          Unpack <code>shapevenn.zip</code> (made by <code>npm run zip</code>), run{" "}
+          <code>python3 serve.py</code> in it, and open the address that it prints. Nothing is
+          fetched from anywhere else.
+        </dd>
+        <dt>Inside a course page</dt>
+        <dd>
+          <pre>
+            <code>{EMBED}</code>
+          </pre>
+          with the address of <code>shape-venn.js</code> beside this page. Its attributes are the
+          keys of a link.
+        </dd>
+        <dt>On a projector</dt>
+        <dd>
+          Press P for large letters, F for the full screen. Movement stops on Space, and never
+          begins where the system asks for reduced motion.
+        </dd>
+      </dl>
+    </section>
+  );
+}

@@ -1,0 +1,18 @@
+/** On paper nothing unfolds: answers are open while the page is printed. Returns how to stop that. */
+export function openForPrint(within: HTMLElement): () => void {
+  let folded: HTMLDetailsElement[] = [];
+  const before = () => {
+    folded = [...within.querySelectorAll<HTMLDetailsElement>("details:not([open])")];
+    for (const one of folded) one.open = true;
+  };
+  const after = () => {
+    for (const one of folded) one.open = false;
+    folded = [];
+  };
+  addEventListener("beforeprint", before);
+  addEventListener("afterprint", after);
+  return () => {
+    removeEventListener("beforeprint", before);
+    removeEventListener("afterprint", after);
+  };
+}

@@ -1,0 +1,21 @@
+/** A star as somebody would draw it, for pictures that no model is asked for. Pure. */
+
+/** xyxy…, the top tip first, then against the clock; `turned` says by how many degrees each tip is. */
+export function starOf(turned: readonly number[]): number[] {
+  return Array.from({ length: 10 }, (_, point) => {
+    const tip = point % 2 === 0;
+    const deviation = tip ? ((turned[point / 2] ?? 0) * Math.PI) / 180 : 0;
+    const angle = Math.PI / 2 + (point * Math.PI) / 5 + deviation;
+    const radius = tip ? 10 : 3;
+    return [radius * Math.cos(angle), radius * Math.sin(angle)];
+  }).flat();
+}
+
+/** The same as a path of SVG, where down is up. */
+export function pathOf(shape: readonly number[]): string {
+  const points: string[] = [];
+  for (let at = 0; at < shape.length; at += 2) {
+    points.push(`${(shape[at] ?? 0).toFixed(2)} ${(-(shape[at + 1] ?? 0)).toFixed(2)}`);
+  }
+  return `M${points.join("L")}Z`;
+}
