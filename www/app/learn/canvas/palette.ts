@@ -12,6 +12,8 @@ export interface Palette {
   good: string;
   bad: string;
   warn: string;
+  /** Of chains, one after the other. */
+  chains: readonly string[];
   /** Family and pixels of small letters. */
   font: string;
   text: number;
@@ -32,27 +34,35 @@ const NAMES = [
   "warn",
 ] as const;
 
-let probe: HTMLElement | null = null;
+const CHAIN_COLOURS = 8;
 
-/** As the element has them: a theme, or larger letters, may be on above it. */
+type Colours = Omit<Palette, "font" | "text">;
+
+/** To look colours up takes longer than to draw a frame: once a theme. */
+const known = new Map<string, Colours>();
+
+/** As the page has them; letters as large as those of the element. */
 export function paletteOf(element: HTMLElement): Palette {
-  // Custom properties are not resolved to colours: a colour of an element is.
-  if (!probe) {
-    probe = document.createElement("i");
-    probe.hidden = true;
-    document.body.append(probe);
-  }
-  const found: Record<string, string> = {};
-  for (const name of NAMES) {
-    probe.style.color = `var(--${name})`;
-    found[name] = getComputedStyle(probe).color;
-  }
+  const theme = document.documentElement.dataset.theme ?? "";
+  const colours = known.get(theme) ?? lookUp();
+  if (theme) known.set(theme, colours);
   const { fontFamily, fontSize } = getComputedStyle(element);
-  return {
-    ...(found as unknown as Omit<Palette, "font" | "text">),
-    font: fontFamily,
-    text: Number.parseFloat(fontSize),
+  return { ...colours, font: fontFamily, text: Number.parseFloat(fontSize) };
+}
+
+function lookUp(): Colours {
+  // Custom properties are not resolved to colours: a colour of an element is.
+  const probe = document.createElement("i");
+  probe.hidden = true;
+  document.body.append(probe);
+  const colourOf = (name: string) => {
+    probe.style.color = `var(--${name})`;
+    return getComputedStyle(probe).color;
   };
+  const found = Object.fromEntries(NAMES.map((name) => [name, colourOf(name)]));
+  const chains = Array.from({ length: CHAIN_COLOURS }, (_, i) => colourOf(`chain-${i}`));
+  probe.remove();
+  return { ...(found as unknown as Omit<Colours, "chains">), chains };
 }
 
 /** A colour of the palette, let through. */
