@@ -43,9 +43,18 @@ export function drawPrior(
   pen.textBaseline = "top";
   pen.fillText(names[1], plane.x(0) + 6, top + 2);
   pen.textBaseline = "alphabetic";
+  pen.font = `${0.85 * palette.text}px ${palette.font}`;
+  pen.textAlign = "center";
+  pen.textBaseline = "middle";
+  pen.lineWidth = 4;
+  pen.strokeStyle = palette.stage;
+  // Where the dashed circles meet the diagonal: no axis is there.
   for (const radius of [1, 2, 3]) {
-    pen.fillText(`${radius} SD`, plane.x(0) + 3, plane.y(-radius) - 3);
+    const [x, y] = [plane.x(radius * Math.SQRT1_2), plane.y(-radius * Math.SQRT1_2)];
+    pen.strokeText(`${radius} SD`, x, y);
+    pen.fillText(`${radius} SD`, x, y);
   }
+  pen.textBaseline = "alphabetic";
 }
 
 /** The last `most` places of one chain as a line that fades. */

@@ -56,7 +56,10 @@ export function stepVerdict({ logRatio, uniform, accepted }: LessonStep): Verdic
   }
   return accepted
     ? { calm: true, text: `u = ${number(uniform)} is below r = ${ratio}: accepted.` }
-    : { calm: false, text: `u = ${number(uniform)} is not below r = ${ratio}: rejected, it stays.` };
+    : {
+        calm: false,
+        text: `u = ${number(uniform)} is not below r = ${ratio}: rejected, it stays.`,
+      };
 }
 
 /** d_G beside what sampling alone would leave of it. */

@@ -54,46 +54,46 @@ export function CloudScene() {
     <>
       <p class="lead">
         Thousands of steps leave a cloud of stars that both models can make. Principal components of
-        that cloud are the <em>intersection model</em>. Here the true one is known: only the first tip
-        moves.
+        that cloud are the <em>intersection model</em>. Here the true one is known: only the first
+        tip moves.
       </p>
+      <div class="scene-bar">
+        <PlayBar playing={run.playing.value} onToggle={toggle} onReset={resetScene}>
+          <span class="dim">{more(run)}</span>
+        </PlayBar>
+        <SamplerChoice
+          value={sampler}
+          options={LESSON_SAMPLERS}
+          onChange={(next) => change({ sampler: next })}
+        />
+      </div>
       <Pictures run={run} pair={pair} />
       <div class="scene-body">
         <Fall run={run} />
         <div class="scene-side">
-          <PlayBar playing={run.playing.value} onToggle={toggle} onReset={resetScene}>
-            <span class="dim">{more(run)}</span>
-          </PlayBar>
           <Figures run={run} />
-          <SamplerChoice
-            value={sampler}
-            options={LESSON_SAMPLERS}
-            onChange={(next) => change({ sampler: next })}
-          />
-          <Slider
-            label="Draws"
-            least={16}
-            most={MOST_DRAWS}
-            step={0}
-            logarithmic
-            value={draws}
-            show={count}
-            onChange={(next) => change({ draws: Math.round(next) })}
-          />
-          <ChainSlider value={chains} onChange={(next) => change({ chains: next })} />
-          <SigmaSlider
-            value={sigma}
-            least={0.0003}
-            most={1}
-            onChange={(next) => change({ sigma: next })}
-          />
-          <PairChoice
-            value={pair}
-            options={STAR_PAIRS}
-            onChange={(next) => change({ pair: next })}
-          />
-          <SeedField value={seed} onChange={(next) => change({ seed: next })} />
         </div>
+      </div>
+      <div class="scene-settings">
+        <Slider
+          label="Draws"
+          least={16}
+          most={MOST_DRAWS}
+          step={0}
+          logarithmic
+          value={draws}
+          show={count}
+          onChange={(next) => change({ draws: Math.round(next) })}
+        />
+        <ChainSlider value={chains} onChange={(next) => change({ chains: next })} />
+        <SigmaSlider
+          value={sigma}
+          least={0.0003}
+          most={1}
+          onChange={(next) => change({ sigma: next })}
+        />
+        <PairChoice value={pair} options={STAR_PAIRS} onChange={(next) => change({ pair: next })} />
+        <SeedField value={seed} onChange={(next) => change({ seed: next })} />
       </div>
       <Questions />
     </>
@@ -136,7 +136,8 @@ function Pictures({ run, pair }: { run: CloudRun; pair: string }) {
           }
         />
         <figcaption class="board-caption">
-          How far each tip turns, as in the paper. Both were made with tip 1 within −{bound}…{bound}°.
+          How far each tip turns, as in the paper. Both were made with tip 1 within −{bound}…{bound}
+          °.
         </figcaption>
       </figure>
     </div>
@@ -233,23 +234,25 @@ function Questions() {
       <details>
         <summary>Which sampler needs the fewest draws? Change it and compare the dots</summary>
         <p>
-          The independence sampler: its draws are nearly independent, so d_G follows the dashed line from
-          the start. Draws of the walks hang together; as many of them are worth far fewer.
+          The independence sampler: its draws are nearly independent, so d_G follows the dashed line
+          from the start. Draws of the walks hang together; as many of them are worth far fewer.
         </p>
       </details>
       <details>
         <summary>How can a closed form beat any number of draws?</summary>
         <p>
-          For stars the posterior is a Gaussian, as only one point is away from the other model. Its mean
-          and covariance follow from linear algebra, with no noise at all. What is left of d_G is what σ
-          lets through.
+          For stars the posterior is a Gaussian, as only one point is away from the other model. Its
+          mean and covariance follow from linear algebra, with no noise at all. What is left of d_G
+          is what σ lets through.
         </p>
       </details>
       <details>
-        <summary>Why do draws go beyond ±a, although nothing beyond was in the training shapes?</summary>
+        <summary>
+          Why do draws go beyond ±a, although nothing beyond was in the training shapes?
+        </summary>
         <p>
-          A model of a sweep is a Gaussian along it, and a Gaussian has tails: it gives the sweep’s spread
-          back, not its ends.
+          A model of a sweep is a Gaussian along it, and a Gaussian has tails: it gives the sweep’s
+          spread back, not its ends.
         </p>
       </details>
     </div>

@@ -48,53 +48,55 @@ export function DifferenceScene() {
   return (
     <>
       <p class="lead">
-        What can {own} make that {other} <em>cannot</em>? Turn the likelihood upside down: where L
-        <sub>D</sub> was near one, 1 − L<sub>D</sub> is near nought. The ridge becomes a hole.
+        What can {own} make that {other} <em>cannot</em>? Turn the likelihood upside down: where Lᴅ
+        was near one, 1 − Lᴅ is near nought. The ridge becomes a hole.
       </p>
+      <div class="scene-bar">
+        <Segments
+          legend="Likelihood"
+          name="difference-flip"
+          value={run.flipped.value ? "flipped" : "plain"}
+          options={[
+            ["plain", `Lᴅ: ${other} can too`],
+            ["flipped", `1 − Lᴅ: ${other} cannot`],
+          ]}
+          onChoose={(option) => turn(option === "flipped")}
+        />
+        <PlayBar playing={run.raining.value} onToggle={toggle} onReset={resetScene} />
+        <SigmaSlider
+          value={sigma}
+          least={0.003}
+          most={3}
+          onChange={(next) => change({ sigma: next })}
+        />
+      </div>
       <div class="scene-body">
         <Plane run={run} side={side} />
         <div class="scene-side">
-          <Segments
-            legend="Likelihood"
-            name="difference-flip"
-            value={run.flipped.value ? "flipped" : "plain"}
-            options={[
-              ["plain", `L_D: ${other} can`],
-              ["flipped", `1 − L_D: ${other} cannot`],
-            ]}
-            onChoose={(option) => turn(option === "flipped")}
-          />
           <Cut run={run} />
           <Figures run={run} own={own} other={other} side={side} />
-          <PlayBar playing={run.raining.value} onToggle={toggle} onReset={resetScene}>
-            <span class="dim">Run lets the draws rain again</span>
-          </PlayBar>
-          <SigmaSlider
-            value={sigma}
-            least={0.003}
-            most={3}
-            onChange={(next) => change({ sigma: next })}
-          />
-          <Slider
-            label="Draws"
-            least={16}
-            most={5000}
-            step={0}
-            logarithmic
-            value={draws}
-            show={count}
-            onChange={(next) => change({ draws: Math.round(next) })}
-          />
-          <PairChoice
-            value={pair}
-            options={PAIRS}
-            onChange={(next) =>
-              change({ pair: next, sigma: USUAL_SIGMA[next === "planes" ? "planes" : "stars"] })
-            }
-          />
-          <SideChoice value={side} onChange={(next) => change({ side: next })} />
-          <SeedField value={seed} onChange={(next) => change({ seed: next })} />
         </div>
+      </div>
+      <div class="scene-settings">
+        <Slider
+          label="Draws"
+          least={16}
+          most={5000}
+          step={0}
+          logarithmic
+          value={draws}
+          show={count}
+          onChange={(next) => change({ draws: Math.round(next) })}
+        />
+        <PairChoice
+          value={pair}
+          options={PAIRS}
+          onChange={(next) =>
+            change({ pair: next, sigma: USUAL_SIGMA[next === "planes" ? "planes" : "stars"] })
+          }
+        />
+        <SideChoice value={side} onChange={(next) => change({ side: next })} />
+        <SeedField value={seed} onChange={(next) => change({ seed: next })} />
       </div>
       <Questions />
     </>
@@ -120,8 +122,8 @@ function Plane({ run, side }: { run: DifferenceRun; side: "a" | "b" }) {
         }}
       />
       <figcaption class="board-caption">
-        Bright: much of the {what}. Dots: exact draws, by rejection. The dashed ellipse is what a mean and
-        a covariance make of them.
+        Bright: much of the {what}. Dots: exact draws, by rejection. The dashed ellipse is what a
+        mean and a covariance make of them.
       </figcaption>
     </figure>
   );
@@ -133,14 +135,12 @@ function Cut({ run }: { run: DifferenceRun }) {
   return (
     <figure>
       <Board
-        label={`${flip > 0.5 ? "1 − L_D" : "L_D"} along the second coefficient where the first is 0`}
+        label={`${flip > 0.5 ? "1 − Lᴅ" : "Lᴅ"} along the second coefficient where the first is 0`}
         aspect={0.36}
-        draw={(pen, size, palette) =>
-          found && drawCut(pen, size, palette, found.likelihood, flip)
-        }
+        draw={(pen, size, palette) => found && drawCut(pen, size, palette, found.likelihood, flip)}
       />
       <figcaption class="board-caption">
-        A cut along α₂ at α₁ = 0: {flip > 0.5 ? "1 − L_D" : "L_D"}.
+        A cut along α₂ at α₁ = 0: {flip > 0.5 ? "1 − Lᴅ" : "Lᴅ"}.
       </figcaption>
     </figure>
   );
@@ -159,14 +159,18 @@ function Figures({ run, own, other, side }: FiguresProps) {
   const { misled, misledDraws } = found?.principal ?? {};
   return (
     <>
-      <p class="headline">
+      <p class="lesson-headline">
         <strong data-metric="figures.probability" data-value={probability ?? undefined}>
           {probability === null ? "–" : percent(probability)}
         </strong>{" "}
-        <span class="dim" data-metric="figures.standardError" data-value={standardError ?? undefined}>
+        <span
+          class="dim"
+          data-metric="figures.standardError"
+          data-value={standardError ?? undefined}
+        >
           ± {standardError === null ? "–" : plusMinus(0, 100 * standardError).spread}
         </span>{" "}
-        of {own} cannot be made by {other}: E[1 − L<sub>D</sub>].
+        of {own} cannot be made by {other}: E[1 − Lᴅ].
       </p>
       <LessonNumbers label="What principal components would claim">
         <LessonNumber
@@ -186,9 +190,7 @@ function Figures({ run, own, other, side }: FiguresProps) {
         <AdviceLine advice={{ ...differenceVerdict(side, probability, misled), chain: null }} />
       )}
       {found && (
-        <p class="small">
-          Recommended σ of this pair: {number(found.models.recommended)}.
-        </p>
+        <p class="small">Recommended σ of this pair: {number(found.models.recommended)}.</p>
       )}
     </>
   );
@@ -200,24 +202,24 @@ function Questions() {
       <details>
         <summary>Make σ smaller and smaller. What becomes of the difference?</summary>
         <p>
-          The ridge gets thinner: fewer and fewer shapes lie within σ of the other model, until the hole is
-          a scratch and the difference is all of the model. σ says how far apart two shapes may be and still
-          count as the same.
+          The ridge gets thinner: fewer and fewer shapes lie within σ of the other model, until the
+          hole is a scratch and the difference is all of the model. σ says how far apart two shapes
+          may be and still count as the same.
         </p>
       </details>
       <details>
         <summary>Why no principal components of a difference?</summary>
         <p>
-          A Gaussian is highest in the middle, and the middle is the hole. Its mean shape is one that both
-          models make. So the paper gives draws of the difference, and no model.
+          A Gaussian is highest in the middle, and the middle is the hole. Its mean shape is one
+          that both models make. So the paper gives draws of the difference, and no model.
         </p>
       </details>
       <details>
         <summary>Why are these draws independent, unlike those of a chain?</summary>
         <p>
-          1 − L<sub>D</sub> lies between nought and one. Draw a shape of the model and keep it with that
-          probability: what is kept follows the difference exactly. The share that is kept is the headline
-          above.
+          1 − Lᴅ lies between nought and one. Draw a shape of the model and keep it with that
+          probability: what is kept follows the difference exactly. The share that is kept is the
+          headline above.
         </p>
       </details>
     </div>

@@ -5,13 +5,7 @@ import { Board } from "../canvas/Board";
 import { still, useFrames } from "../clock";
 import { useSceneKeys } from "../keys";
 import { LessonNumber, LessonNumbers, PlayBar, Slider } from "../parts/controls";
-import {
-  ChainSlider,
-  PairChoice,
-  SeedField,
-  SideChoice,
-  SigmaSlider,
-} from "../sampling/Controls";
+import { ChainSlider, PairChoice, SeedField, SideChoice, SigmaSlider } from "../sampling/Controls";
 import { SAMPLER_NAMES } from "../sampling/names";
 import { useOwn, useSession } from "../sampling/session";
 import { BREAKS, PAIRS, SCENE_PARAMS } from "../scenes";
@@ -56,8 +50,8 @@ export function RaceScene() {
   return (
     <>
       <p class="lead">
-        The paper’s walk takes many small steps. Others look at the gradient, or propose from a Gaussian fit.
-        Same target, same work: who brings home the most <em>effective</em> draws?
+        The paper’s walk takes many small steps. Others look at the gradient, or propose from a
+        Gaussian fit. Same target, same work: who brings home the most <em>effective</em> draws?
       </p>
       <fieldset class="race-breaks">
         <legend>Break it</legend>
@@ -72,50 +66,56 @@ export function RaceScene() {
           </button>
         ))}
       </fieldset>
-      <p class="dim">{BREAK_WORDS[what].about}</p>
-      <Lanes run={run} />
+      <div class="scene-bar">
+        <PlayBar playing={run.playing.value} onToggle={toggle} onReset={resetScene}>
+          <span class="dim">{BREAK_WORDS[what].about}</span>
+          <span class="num race-step">
+            step {count(run.step.value)} of {count(run.target.value)}
+          </span>
+        </PlayBar>
+      </div>
+      <div class="race-pictures" data-break={what}>
+        <Lanes run={run} />
+        {what === "scaling" && (
+          <SquareChart curve={run.curve.value} most={Math.max(1, run.target.value)} />
+        )}
+      </div>
       <div class="scene-body">
         <div class="race-results">
           <RaceTable runners={run.runners.value} figures={run.figures.value} />
-          {what === "scaling" && (
-            <SquareChart curve={run.curve.value} most={Math.max(1, run.target.value)} />
-          )}
         </div>
         <div class="scene-side">
-          <PlayBar playing={run.playing.value} onToggle={toggle} onReset={resetScene}>
-            <span class="dim">
-              step {count(run.step.value)} of {count(run.target.value)}
-            </span>
-          </PlayBar>
           <AdviceLine advice={{ ...raceVerdict(what, run.figures.value), chain: null }} />
-          <Squares run={run} />
-          <Slider
-            label="Steps"
-            least={16}
-            most={MOST_STEPS}
-            step={0}
-            logarithmic
-            value={steps}
-            show={count}
-            onChange={(next) => change({ steps: Math.round(next) })}
-          />
-          <ChainSlider value={chains} onChange={(next) => change({ chains: next })} />
-          <SigmaSlider
-            value={sigma}
-            least={0.0003}
-            most={3}
-            onChange={(next) => change({ sigma: next })}
-          />
-          <PairChoice
-            value={pair}
-            options={PAIRS}
-            onChange={(next) =>
-              change({ pair: next, sigma: USUAL_SIGMA[next === "planes" ? "planes" : "stars"] })
-            }
-          />
-          <SideChoice value={side} onChange={(next) => change({ side: next })} />
-          <SeedField value={seed} onChange={(next) => change({ seed: next })} />
+          {what === "scaling" && <Squares run={run} />}
         </div>
+      </div>
+      <div class="scene-settings">
+        <Slider
+          label="Steps"
+          least={16}
+          most={MOST_STEPS}
+          step={0}
+          logarithmic
+          value={steps}
+          show={count}
+          onChange={(next) => change({ steps: Math.round(next) })}
+        />
+        <ChainSlider value={chains} onChange={(next) => change({ chains: next })} />
+        <SigmaSlider
+          value={sigma}
+          least={0.0003}
+          most={3}
+          onChange={(next) => change({ sigma: next })}
+        />
+        <PairChoice
+          value={pair}
+          options={PAIRS}
+          onChange={(next) =>
+            change({ pair: next, sigma: USUAL_SIGMA[next === "planes" ? "planes" : "stars"] })
+          }
+        />
+        <SideChoice value={side} onChange={(next) => change({ side: next })} />
+        <SeedField value={seed} onChange={(next) => change({ seed: next })} />
       </div>
       <Questions />
     </>
@@ -183,17 +183,17 @@ function Questions() {
       <details>
         <summary>Which of the four breaks does R-hat notice, and which not?</summary>
         <p>
-          It notices chains that disagree: a σ far too small. It cannot notice that all chains agree on the
-          wrong law (uncorrected scaling), that models were never aligned, or, with one chain, what that chain
-          has not seen.
+          It notices chains that disagree: a σ far too small. It cannot notice that all chains agree
+          on the wrong law (uncorrected scaling), that models were never aligned, or, with one
+          chain, what that chain has not seen.
         </p>
       </details>
       <details>
         <summary>Why does the independence sampler win here, and when would it lose?</summary>
         <p>
-          The intersection posterior is nearly Gaussian, and its fit costs a few iterations. Where a target is
-          far from Gaussian, as the difference is, a fit says nothing of it and nearly all proposals would be
-          rejected.
+          The intersection posterior is nearly Gaussian, and its fit costs a few iterations. Where a
+          target is far from Gaussian, as the difference is, a fit says nothing of it and nearly all
+          proposals would be rejected.
         </p>
       </details>
     </div>

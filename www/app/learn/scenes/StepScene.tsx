@@ -1,6 +1,6 @@
 import { useMemo } from "preact/hooks";
-import { AdviceLine } from "../../views/Chart";
 import { count, number, percent } from "../../format";
+import { AdviceLine } from "../../views/Chart";
 import { Board } from "../canvas/Board";
 import { useFrames } from "../clock";
 import { useSceneKeys } from "../keys";
@@ -19,6 +19,7 @@ import { chainVerdict } from "../sampling/verdicts";
 import { PAIRS, WALKS } from "../scenes";
 import { params, resetScene, setParams } from "../state";
 import { drawNear, drawWalk, type Shown } from "./step/draw";
+import { Mixture } from "./step/Mixture";
 import { EXTENT, StepRun, type StepValues } from "./step/run";
 import { drawTraces } from "./step/traces";
 import { Working } from "./step/Working";
@@ -57,30 +58,28 @@ export function StepScene() {
   return (
     <>
       <p class="lead">
-        How plausible a shape is can only be told <em>compared with another</em>. That is enough: propose
-        a step, compare, decide. The walk then stays longest where shapes of both models are.
+        How plausible a shape is can only be told <em>compared with another</em>. That is enough:
+        propose a step, compare, decide. The walk then stays longest where shapes of both models
+        are.
       </p>
+      <div class="scene-bar">
+        <PlayBar playing={run.playing.value} onToggle={toggle} onStep={one} onReset={resetScene} />
+        <Slider
+          label="Speed"
+          least={SPEEDS.least}
+          most={SPEEDS.most}
+          step={0}
+          logarithmic
+          value={speed}
+          show={(value) => `${number(value, 2)}/s`}
+          onChange={(value) => setParams("step", { speed: value })}
+        />
+      </div>
       <div class="scene-body step-body">
         <div class="step-boards">
           <Pictures run={run} slow={isTold(speed)} chains={chains} />
         </div>
         <div class="scene-side">
-          <PlayBar
-            playing={run.playing.value}
-            onToggle={toggle}
-            onStep={one}
-            onReset={resetScene}
-          />
-          <Slider
-            label="Speed"
-            least={SPEEDS.least}
-            most={SPEEDS.most}
-            step={0}
-            logarithmic
-            value={speed}
-            show={(value) => `${number(value, 2)}/s`}
-            onChange={(value) => setParams("step", { speed: value })}
-          />
           <LastStep run={run} corrected={sampler === "paper-corrected"} />
         </div>
       </div>
@@ -157,6 +156,7 @@ function Pictures({ run, slow, chains }: { run: StepRun; slow: boolean; chains: 
         />
         <figcaption class="board-caption">
           Magnified. Grey: proposal; <b class="good">✓</b> accepted; <b class="bad">✕</b> rejected.
+          <Mixture part={decisions[0]?.part} />
         </figcaption>
       </figure>
     </>
@@ -229,8 +229,8 @@ function Questions() {
         <summary>Why is a worse proposal ever accepted?</summary>
         <p>
           If it never were, the walk would climb to the top and stay there: it would find the most
-          plausible shape, not how much shapes may vary. Accepting a proposal that is half as plausible
-          half of the time makes the time spent at each shape proportional to its density.
+          plausible shape, not how much shapes may vary. Accepting a proposal that is half as
+          plausible half of the time makes the time spent at each shape proportional to its density.
         </p>
       </details>
       <details>
@@ -238,15 +238,15 @@ function Questions() {
         <p>
           The scaling move draws a new length ‖α′‖ for the same direction. A step from long to short
           lands on a smaller sphere, so it is met more often than its way back. The factor
-          (‖α′‖/‖α‖)<sup>q−1</sup> makes up for it. The paper leaves it out: its walk shrinks. Choose
-          “as published” and watch the last line but one, or break it in the race.
+          (‖α′‖/‖α‖)<sup>q−1</sup> makes up for it. The paper leaves it out: its walk shrinks.
+          Choose “as published” and watch the last line but one, or break it in the race.
         </p>
       </details>
       <details>
         <summary>Why so many steps for so few effective draws?</summary>
         <p>
-          Each state is near the one before it, so that a new one says little new. The effective sample
-          size is how many independent draws would know the mean as well.
+          Each state is near the one before it, so that a new one says little new. The effective
+          sample size is how many independent draws would know the mean as well.
         </p>
       </details>
     </div>

@@ -25,13 +25,16 @@ export function drawStars(
 ): void {
   const plane = planeOf(size, EXTENT);
   const count = Math.max(1, stars.a.length / length);
-  for (const side of ["a", "b"] as const) {
-    pen.strokeStyle = faded(palette[side], Math.min(0.5, Math.max(0.05, 6 / count)));
-    pen.lineWidth = 1.25;
-    each(stars[side], length, (star) => {
-      traceShape(pen, plane, star, segments);
+  const opacity = Math.min(0.5, Math.max(0.05, 6 / count));
+  pen.lineWidth = 1.25;
+  // In turn, so that neither side covers the other.
+  for (let at = 0; at < count * length; at += length) {
+    for (const side of ["a", "b"] as const) {
+      if (at + length > stars[side].length) continue;
+      pen.strokeStyle = faded(palette[side], opacity);
+      traceShape(pen, plane, stars[side].subarray(at, at + length), segments);
       pen.stroke();
-    });
+    }
   }
   for (const side of ["a", "b"] as const) {
     pen.fillStyle = faded(palette[side], 0.5);
@@ -103,11 +106,12 @@ function tipTrace(pen: Pen, plane: Plane, model: LessonModel, colour: string, wi
   pen.globalAlpha = 1;
 }
 
-const BIN = 2;
+/** Every bound of the paper’s pairs is at an end of a bin. */
+const BIN = 2.5;
 const HALF = 60;
 /** Radii over half the side of the picture. */
-const RING = 0.52;
-const BARS = 0.4;
+const RING = 0.4;
+const BARS = 0.5;
 
 /** Polar histogram: how often each tip is how far off its place, with what both models can make. */
 export function drawPolar(

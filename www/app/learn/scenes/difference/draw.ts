@@ -79,7 +79,7 @@ function drawRain(
 ): void {
   pen.globalAlpha = alpha;
   const count = values.length / 2;
-  const radius = Math.max(2, Math.min(3.2, size.width / 190));
+  const radius = Math.max(2, Math.min(2.8, size.width / 230));
   const landed = fallen >= count ? count : Math.max(0, fallen - FALLING);
   pen.beginPath();
   for (let i = 0; i < landed; i += 1) {
@@ -89,7 +89,7 @@ function drawRain(
   }
   pen.fillStyle = colour;
   pen.fill();
-  pen.lineWidth = 0.75;
+  pen.lineWidth = 0.6;
   pen.strokeStyle = rim;
   pen.stroke();
   for (let i = landed; i < fallen; i += 1) {
@@ -153,7 +153,12 @@ export function drawCut(
   const rows = Math.round(Math.sqrt(likelihood.values.length));
   const middle = (rows - 1) / 2;
   const letters = palette.text;
-  const box = { left: 1.9 * letters, right: size.width - 12, top: 14, bottom: size.height - 2 * letters };
+  const box = {
+    left: 1.9 * letters,
+    right: size.width - 12,
+    top: 14,
+    bottom: size.height - 2 * letters,
+  };
   const x = (row: number) => box.right - (row / (rows - 1)) * (box.right - box.left);
   const y = (value: number) => box.bottom - value * (box.bottom - box.top);
   pen.font = `${letters}px ${palette.font}`;

@@ -55,9 +55,7 @@ export class DifferenceRun {
   readonly #story = signal(0);
   readonly moving = computed(
     () =>
-      this.raining.value ||
-      this.#story.value > 0 ||
-      this.flip.value !== Number(this.flipped.value),
+      this.raining.value || this.#story.value > 0 || this.flip.value !== Number(this.flipped.value),
   );
 
   async open(ask: Ask, values: DifferenceValues, told: boolean): Promise<void> {

@@ -7,6 +7,8 @@ import type { Runner } from "./run";
 
 /** Effective draws of 1,000 evaluations: from hardly any to independent ones. */
 const [LOW, HIGH] = [0.1, 1000];
+/** Bars so long have their number on them. */
+const INSIDE = 0.8;
 
 interface Props {
   runners: readonly Runner[];
@@ -18,7 +20,8 @@ export function RaceTable({ runners, figures }: Props) {
   return (
     <table class="race-table">
       <caption>
-        Effective draws of 1,000 evaluations of the density (a gradient counts as one more), logarithmic
+        Effective draws of 1,000 evaluations of the density (a gradient counts as one more),
+        logarithmic
       </caption>
       <thead>
         <tr>
@@ -65,7 +68,8 @@ function Row({
         <span class="race-fill" style={{ width: `${100 * share}%` }} />
         <span
           class="race-value"
-          style={{ left: `${100 * Math.min(0.86, share)}%` }}
+          data-inside={share > INSIDE}
+          style={{ left: `${100 * share}%` }}
           data-metric={`${path}.essPerThousand`}
           data-value={essPerThousand ?? undefined}
         >

@@ -30,15 +30,7 @@ export function SquareChart({ curve, most }: { curve: readonly Moment[]; most: n
   );
 }
 
-function Curves({
-  curve,
-  most,
-  width,
-}: {
-  curve: readonly Moment[];
-  most: number;
-  width: number;
-}) {
+function Curves({ curve, most, width }: { curve: readonly Moment[]; most: number; width: number }) {
   const box: Box = { left: 40, right: width - 12, top: 24, bottom: HEIGHT - 40 };
   const x = linear(0, most, box.left, box.right);
   const y = linear(0.4, 1.2, box.bottom, box.top);
@@ -56,7 +48,7 @@ function Curves({
         x={x}
         y={y}
         across={ticks(0, most, 4).filter((value) => value <= most)}
-        up={[0.4, 0.6, 0.8, 1, 1.2]}
+        up={[0.4, 0.6, 0.8, 1]}
         acrossName="steps after burn-in"
         upName="E‖α‖²/q"
         showAcross={count}

@@ -170,9 +170,7 @@ export class RaceRun {
     const ask = this.#ask;
     if (steps <= 0 || !ask) return;
     const answers = await Promise.all(
-      this.runners
-        .peek()
-        .map(({ lane }) => ask({ ask: "advance", lane, steps, watch: false })),
+      this.runners.peek().map(({ lane }) => ask({ ask: "advance", lane, steps, watch: false })),
     );
     this.runners.peek().forEach(({ trail }, i) => {
       const states = answers[i]?.states;

@@ -1,6 +1,5 @@
 import type { LessonStep } from "../../../../worker/lessons";
 import { number, signed } from "../../../format";
-import { MIXTURE, SCALING } from "../../sampling/names";
 import { isSaid } from "../../sampling/pacing";
 import { stepVerdict } from "../../sampling/verdicts";
 
@@ -18,7 +17,6 @@ export function Working({ step, told, corrected }: Props) {
   const at = <T,>(said: boolean, value: T | undefined) => (said ? value : undefined);
   return (
     <section class="step-working" aria-label="The last step, of the first chain">
-      <Mixture part={step?.part} />
       <dl class="step-sum">
         <Line
           label="log p(α′), of the proposal"
@@ -66,25 +64,6 @@ function Line({
   );
 }
 
-/** Which part of the mixture proposed. */
-function Mixture({ part }: { part: number | undefined }) {
-  return (
-    <div class="step-mixture">
-      <ol>
-        {MIXTURE.map(({ name, share }, i) => (
-          <li key={name} data-on={i === part}>
-            {name} <span class="dim">{Math.round(100 * share)}&#8239;%</span>
-          </li>
-        ))}
-      </ol>
-      <p class="small">
-        Proposed by {part === undefined ? "…" : MIXTURE[part]?.about}
-        {part === SCALING ? ": along the ray from the mean." : "."}
-      </p>
-    </div>
-  );
-}
-
 /** The ratio r on 0 … 1, and u as a needle: accepted where it falls on what r covers. */
 function RatioBar({
   step,
@@ -117,7 +96,11 @@ function RatioBar({
         <span class="ratio-words">accepted where u falls on r</span>
         <span>1</span>
       </div>
-      <span class="unseen" data-metric="lastStep.uniform" data-value={decided ? step?.uniform : undefined} />
+      <span
+        class="unseen"
+        data-metric="lastStep.uniform"
+        data-value={decided ? step?.uniform : undefined}
+      />
     </div>
   );
 }

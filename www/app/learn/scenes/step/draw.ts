@@ -4,8 +4,8 @@ import type { Size } from "../../canvas/Board";
 import { chainColour, drawDot, drawOutcome, drawPrior, drawTrail } from "../../canvas/chains";
 import { faded, type Palette } from "../../canvas/palette";
 import { drawField, type Plane, planeOf } from "../../canvas/plane";
-import { eased, isSaid, phaseAt } from "../../sampling/pacing";
 import { MIXTURE, SCALING } from "../../sampling/names";
+import { eased, isSaid, phaseAt } from "../../sampling/pacing";
 import type { Trail } from "../../sampling/trail";
 import { EXTENT, stateAfter } from "./run";
 
@@ -70,7 +70,8 @@ function drawVisited(pen: Pen, plane: Plane, trail: Trail, chains: number, palet
 /** Where a chain is while its step is told: it moves once that is decided. */
 function placeOf({ trail, decisions, told, slow }: Shown, chain: number): readonly number[] {
   const step = decisions[chain];
-  if (!step) return [trail.at(trail.length - 1, 2 * chain), trail.at(trail.length - 1, 2 * chain + 1)];
+  if (!step)
+    return [trail.at(trail.length - 1, 2 * chain), trail.at(trail.length - 1, 2 * chain + 1)];
   if (!slow) return stateAfter(step);
   const { phase, part } = phaseAt(told);
   if (phase !== "decide") return step.from;

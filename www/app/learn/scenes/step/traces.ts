@@ -25,7 +25,8 @@ export function drawTraces(
   const x = (i: number) => left + (i / (TRACED - 1)) * (size.width - left - 10);
   NAMES.forEach((name, coefficient) => {
     const middle = gap + height / 2 + coefficient * (height + gap);
-    const y = (value: number) => middle - (Math.max(-RANGE, Math.min(RANGE, value)) / RANGE) * (height / 2);
+    const y = (value: number) =>
+      middle - (Math.max(-RANGE, Math.min(RANGE, value)) / RANGE) * (height / 2);
     pen.strokeStyle = faded(palette.dim, 0.4);
     pen.lineWidth = 1;
     for (const level of [-2, 0, 2]) {
