@@ -75,3 +75,8 @@ export function countsUpTo(draws: number): number[] {
   }
   return [...found, draws];
 }
+
+/** How many of `count` draws have fallen after a share of the time: one by one at first, then faster. */
+export function rained(share: number, count: number): number {
+  return Math.round(count * Math.min(1, share) ** 2);
+}

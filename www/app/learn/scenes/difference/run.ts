@@ -9,6 +9,7 @@ import type {
 } from "../../../../worker/lessons";
 import { still } from "../../clock";
 import type { Ask } from "../../engine";
+import { rained } from "../../sampling/pacing";
 import type { SceneValues } from "../../scenes";
 import { lessonState } from "../../state";
 
@@ -156,11 +157,6 @@ export class DifferenceRun {
   fallen(count: number): number {
     return rained(this.rain.value / RAIN_MS, count);
   }
-}
-
-/** One by one at first, then faster. */
-export function rained(share: number, count: number): number {
-  return Math.round(count * Math.min(1, share) ** 2);
 }
 
 async function commonDraws(ask: Ask, { side, seed }: DifferenceValues): Promise<Cloud> {
