@@ -26,6 +26,7 @@ pub mod demos;
 pub mod files;
 pub mod formats;
 mod lanes;
+pub mod lessons;
 pub mod measure;
 pub mod model;
 mod parallel;

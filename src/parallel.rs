@@ -9,6 +9,10 @@
 #[cfg(feature = "threads")]
 pub(crate) fn map<T: Send>(count: usize, item: impl Fn(usize) -> T + Sync + Send) -> Vec<T> {
     use rayon::prelude::*;
+    // Handing a single item to the pool costs more than a small model's distance.
+    if count < 2 {
+        return (0..count).map(item).collect();
+    }
     (0..count).into_par_iter().map(item).collect()
 }
 

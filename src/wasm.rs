@@ -7,6 +7,7 @@
 mod blobs;
 mod diagnosing;
 mod exploring;
+mod lessons;
 
 use std::collections::BTreeMap;
 
@@ -20,6 +21,7 @@ use crate::comparison::{
 };
 use crate::files::{self, Described, Download, Error, ShownShape};
 use crate::formats::{self, Options, Origin};
+use crate::lessons::Lesson;
 use crate::model::{Cells, LinearModel};
 use crate::report::{ModelReport, Seconds};
 use crate::roofline::{self, Workload};
@@ -43,6 +45,7 @@ pub struct Engine {
     next_handle: u32,
     comparison: Option<Comparison>,
     seconds: Seconds,
+    lesson: Lesson,
 }
 
 #[derive(Serialize)]

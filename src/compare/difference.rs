@@ -30,7 +30,9 @@ use super::Side;
 use super::targets::Distances;
 use crate::model::{LinearModel, thin_svd};
 use crate::parallel;
-use crate::sampling::{Envelope, RejectionTarget, Stream, Tilted, fill_normal, stream};
+use crate::sampling::{
+    Envelope, Evaluation, RejectionTarget, Stream, Target, Tilted, fill_normal, stream,
+};
 
 /// Shapes whose scores give a quantile, in blocks with their own random stream.
 const PILOT_BLOCKS: usize = 16;
@@ -176,6 +178,15 @@ impl<'a> Difference<'a> {
         Self { distances: Distances::new(side, vec![0.0; side.mode_count()]), criterion }
     }
 
+    /// The same in double precision, one shape after the other: for models of a few points.
+    pub fn exact(side: &'a Side, criterion: &'a Criterion) -> Self {
+        Self { distances: Distances::exact(side), criterion }
+    }
+
+    fn modes(&self) -> usize {
+        self.distances.side.mode_count()
+    }
+
     /// Scores of B points (B × q, row by row) with their distances.
     pub fn scores(&self, points: &[f64]) -> Vec<(f64, f64)> {
         let scored = |(distance, point): (f64, &[f64])| {
@@ -193,14 +204,14 @@ impl<'a> Difference<'a> {
             (score, distance)
         };
         let distances = self.distances.of(points).into_iter();
-        distances.zip(points.chunks_exact(self.dimension())).map(scored).collect()
+        distances.zip(points.chunks_exact(self.modes())).map(scored).collect()
     }
 
     /// Scores of draws of the prior.
     fn pilot(&self, seed: u64, index: usize) -> Vec<f64> {
         let blocks = parallel::map(PILOT_BLOCKS, |block| {
             let mut random = stream(seed, Stream::Quantile, index, block);
-            let mut points = vec![0.0; PILOT_BLOCK * self.dimension()];
+            let mut points = vec![0.0; PILOT_BLOCK * self.modes()];
             fill_normal(&mut random, &mut points);
             points
         });
@@ -220,6 +231,43 @@ impl RejectionTarget for Difference<'_> {
             _ => f64::from(score >= level),
         };
         self.scores(points).into_iter().map(|(score, d)| (share(score), d)).collect()
+    }
+}
+
+/// log p(a) = log g(a) − ½‖a‖², for chains: rejection needs none, but can be compared with them. The
+/// gradient is that of the soft difference, ∇ log g = L_D/(1 − L_D)·(d/σ²)·∇d; a hard one has no slope.
+impl Target for Difference<'_> {
+    fn dimension(&self) -> usize {
+        self.modes()
+    }
+
+    fn evaluate(&self, points: &[f64]) -> Vec<Evaluation> {
+        let shares = self.acceptance(points).into_iter();
+        let density = |((share, statistic), point): ((f64, f64), &[f64])| {
+            let square: f64 = point.iter().map(|value| value * value).sum();
+            Evaluation { log_density: libm::log(share) - 0.5 * square, statistic }
+        };
+        shares.zip(points.chunks_exact(self.modes())).map(density).collect()
+    }
+
+    fn differentiate(&self, points: &[f64]) -> (Vec<Evaluation>, Vec<f64>) {
+        let mut gradients: Vec<f64> = points.iter().map(|value| -value).collect();
+        if self.criterion.definition == DifferenceDefinition::Soft {
+            let (distances, slopes) = self.distances.with_gradients(points);
+            let rows = gradients.chunks_exact_mut(self.modes());
+            let slopes = slopes.chunks_exact(self.modes());
+            for ((gradient, slope), distance) in rows.zip(slopes).zip(distances) {
+                let scaled = distance / self.criterion.level;
+                // L_D/(1 − L_D) = 1/(e^u − 1) with u = ½(d/σ)².
+                let weight = distance
+                    / (self.criterion.level * self.criterion.level)
+                    / libm::expm1(0.5 * scaled * scaled);
+                for (value, slope) in gradient.iter_mut().zip(slope) {
+                    *value += weight * slope;
+                }
+            }
+        }
+        (self.evaluate(points), gradients)
     }
 }
 

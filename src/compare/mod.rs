@@ -30,5 +30,5 @@ pub use pair::{Pair, PairError, Side};
 pub(crate) use placing::sum_of;
 pub use placing::{formed, nearest_coefficients};
 pub use preparation::{PointSelection, Preparation, SelectionError, SidePreparation};
-pub use targets::Intersection;
+pub use targets::{Intersection, distance_likelihood};
 pub use tolerance::{Tolerance, recommended_tolerance};

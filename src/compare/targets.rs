@@ -5,36 +5,68 @@ use nalgebra::DVector;
 use super::Side;
 use crate::sampling::{Evaluation, Target};
 
-/// d(x′, x) of many shapes, with the residual at a centre taken in double precision.
+/// L_D = exp(−½(d/σ)²), the distance likelihood (Weiherer et al. 2024, eq. 11).
+pub fn distance_likelihood(distance: f64, sigma: f64) -> f64 {
+    let scaled = distance / sigma;
+    libm::exp(-0.5 * scaled * scaled)
+}
+
+/// d(x′, x) of many shapes.
 #[derive(Debug)]
 pub(super) struct Distances<'a> {
     pub(super) side: &'a Side,
-    centre: Vec<f64>,
-    offset: Vec<f32>,
+    centre: Option<Centre>,
+}
+
+/// A point about which steps are taken in single precision, and its residual, which is not.
+#[derive(Debug)]
+struct Centre {
+    point: Vec<f64>,
+    residual: Vec<f32>,
 }
 
 impl<'a> Distances<'a> {
+    /// In single precision about a centre, many at once.
     #[allow(clippy::cast_possible_truncation, reason = "single precision is the point")]
     pub(super) fn new(side: &'a Side, centre: Vec<f64>) -> Self {
-        let offset = side.residual_at(&centre).into_iter().map(|value| value as f32).collect();
-        Self { side, centre, offset }
+        let residual = side.residual_at(&centre).into_iter().map(|value| value as f32).collect();
+        Self { side, centre: Some(Centre { point: centre, residual }) }
     }
 
-    /// Steps from the centre.
-    fn steps(&self, points: &[f64]) -> Vec<f64> {
-        points
-            .chunks_exact(self.centre.len())
-            .flat_map(|point| point.iter().zip(&self.centre).map(|(a, c)| a - c))
-            .collect()
+    /// In double precision, one by one: for models of a few points.
+    pub(super) fn exact(side: &'a Side) -> Self {
+        Self { side, centre: None }
     }
 
     pub(super) fn of(&self, points: &[f64]) -> Vec<f64> {
-        self.side.kernel().distances(&self.offset, &self.steps(points))
+        match &self.centre {
+            Some(centre) => self.side.kernel().distances(&centre.residual, &centre.steps(points)),
+            None => points
+                .chunks_exact(self.side.mode_count())
+                .map(|point| self.side.mean_vertex_distance(point))
+                .collect(),
+        }
     }
 
     /// The same, with ∇d of each (B × q).
     pub(super) fn with_gradients(&self, points: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        self.side.kernel().distances_and_gradients(&self.offset, &self.steps(points))
+        if let Some(centre) = &self.centre {
+            let steps = centre.steps(points);
+            return self.side.kernel().distances_and_gradients(&centre.residual, &steps);
+        }
+        let each = points.chunks_exact(self.side.mode_count());
+        let (distances, gradients): (Vec<f64>, Vec<Vec<f64>>) =
+            each.map(|point| self.side.distance_and_gradient(point)).unzip();
+        (distances, gradients.concat())
+    }
+}
+
+impl Centre {
+    fn steps(&self, points: &[f64]) -> Vec<f64> {
+        points
+            .chunks_exact(self.point.len())
+            .flat_map(|point| point.iter().zip(&self.point).map(|(a, c)| a - c))
+            .collect()
     }
 }
 
@@ -50,6 +82,11 @@ impl<'a> Intersection<'a> {
     /// With tolerance σ, accurate to single precision about `centre` (the mean of a fit).
     pub fn new(side: &'a Side, sigma: f64, centre: &DVector<f64>) -> Self {
         Self { distances: Distances::new(side, centre.as_slice().to_vec()), sigma }
+    }
+
+    /// The same in double precision throughout, one shape after the other: for models of a few points.
+    pub fn exact(side: &'a Side, sigma: f64) -> Self {
+        Self { distances: Distances::exact(side), sigma }
     }
 
     fn evaluation(&self, distance: f64, plausibility: f64) -> Evaluation {

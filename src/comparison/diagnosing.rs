@@ -80,7 +80,7 @@ impl Comparison {
         if mode >= draws.dimension {
             return Err(ComparisonError::NoMode { mode: mode + 1, modes: draws.dimension });
         }
-        let chains = summary::of_coefficient(draws, mode, length);
+        let chains = draws.coefficient(mode, length);
         let every = length.div_ceil(MOST_DRAWS);
         let thinned = |chain: &[f64]| single(chain[..length].iter().step_by(every));
         let bins = (length / DRAWS_OF_A_BIN).clamp(1, MOST_BINS);

@@ -22,7 +22,9 @@ use serde::{Deserialize, Serialize};
 
 use super::regions::single;
 use super::{Comparison, ComparisonError};
-use crate::compare::{Joint, formed, least_change, nearest_coefficients, sum_of};
+use crate::compare::{
+    Joint, distance_likelihood, formed, least_change, nearest_coefficients, sum_of,
+};
 use crate::measure::{
     chi_square_above, patterns, principal_angles, principal_vectors, relative_eigenmodes,
     scaled_modes,
@@ -375,14 +377,14 @@ impl Comparison {
             .map(|(x, y)| x.iter().zip(y).map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt())
             .collect();
         let distance = residuals.iter().sum::<f64>() / residuals.len() as f64;
-        let (norm, share) = (coefficients.norm(), distance / self.sigma());
+        let norm = coefficients.norm();
         Nearest {
             shape: single(image),
             residuals: single(&residuals),
             distance,
             norm,
             plausibility: chi_square_above(norm * norm, coefficients.len()),
-            likelihood: libm::exp(-0.5 * share * share),
+            likelihood: distance_likelihood(distance, self.sigma()),
         }
     }
 }

@@ -153,3 +153,18 @@ impl Fitting {
         importance_ess(&log_weights) / PILOT_DRAWS as f64
     }
 }
+
+/// The fit that a run with these settings decides for, at once; `None` when its numbers overflow.
+pub(crate) fn settled_fit(
+    operator: &Side,
+    sigma: f64,
+    settings: &Settings,
+    side: usize,
+) -> Option<Fit> {
+    let mut fitting = Fitting::new(operator, sigma, settings, side)?;
+    loop {
+        if let Some(fit) = fitting.advance(operator) {
+            return Some(fit);
+        }
+    }
+}

@@ -19,7 +19,7 @@ pub(super) const LARGEST_PARETO_K: f64 = 0.7;
 /// Acceptance of independence proposals below which another sampler is chosen.
 const LEAST_ACCEPTANCE: f64 = 0.2;
 /// Leaps of a Hamiltonian step at the most.
-const MOST_LEAPS: usize = 10;
+pub(crate) const MOST_LEAPS: usize = 10;
 /// Draws of a side below which the intersection is described by its fit.
 const LEAST_DRAWS: usize = 32;
 

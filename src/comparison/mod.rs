@@ -27,6 +27,8 @@ mod warnings;
 pub use diagnosing::{ChainFigures, Marginal, PairFigures};
 pub use error::ComparisonError;
 pub use exploring::{Axes, AxesKind, Explored, Nearest, Space};
+pub(crate) use fitting::settled_fit;
+pub(crate) use inference::MOST_LEAPS;
 pub use inspection::{
     Agreement, Inspection, MeanDistance, Problem, Remedy, UnitFound, guessed_unit, inspect,
 };

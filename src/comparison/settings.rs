@@ -88,7 +88,7 @@ pub enum Plausibility {
 
 impl Plausibility {
     /// The share of ‖a′‖² + ‖a‖² in twice the negative log density.
-    pub(super) fn share(self) -> f64 {
+    pub(crate) fn share(self) -> f64 {
         match self {
             Self::Product => 1.0,
             Self::Idempotent => 0.5,

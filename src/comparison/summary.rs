@@ -1,9 +1,8 @@
 //! Diagnostics of draws, as the report states them.
 
 use super::inference::{Inference, LARGEST_PARETO_K};
-use crate::parallel;
 use crate::report::{Diagnostics, ModeDiagnostics};
-use crate::sampling::{ChainSummary, Draws, importance_ess, pareto_k, summarise};
+use crate::sampling::{ChainSummary, Draws, importance_ess, pareto_k};
 
 /// Bounds below which nothing is called converged.
 const LARGEST_R_HAT: f64 = 1.01;
@@ -15,25 +14,13 @@ const LEAST_DRAWS_OF_A_CHAIN: usize = 4;
 
 /// Summaries of the first `most` coefficients.
 pub(super) fn coefficients(draws: &Draws, most: usize) -> Vec<ChainSummary> {
-    let Some(length) = common_length(draws) else { return Vec::new() };
-    parallel::map(draws.dimension.min(most), |coefficient| {
-        summarise(&of_coefficient(draws, coefficient, length))
-    })
+    common_length(draws).map_or_else(Vec::new, |length| draws.summaries(most, length))
 }
 
 /// Draws that every chain has; `None` when they are too few to say anything.
 pub(super) fn common_length(draws: &Draws) -> Option<usize> {
     let length = draws.statistics.iter().map(Vec::len).min().unwrap_or(0);
     (length >= LEAST_DRAWS_OF_A_CHAIN).then_some(length)
-}
-
-/// One coefficient of the first `length` draws, chain by chain.
-pub(super) fn of_coefficient(draws: &Draws, coefficient: usize, length: usize) -> Vec<Vec<f64>> {
-    let chain = |values: &Vec<f64>| {
-        let states = values.chunks_exact(draws.dimension).take(length);
-        states.map(|state| state[coefficient]).collect()
-    };
-    draws.values.iter().map(chain).collect()
 }
 
 /// Diagnostics of one side of the intersection, the worst and each coefficient's.

@@ -6,6 +6,7 @@
 mod planes;
 mod stars;
 
+pub use planes::{PlanesAt, planes_at};
 pub use stars::{
     ROWS as STAR_ROWS, StarRow, exclusive_stars, intersection as star_intersection, star_pair,
 };
@@ -18,8 +19,8 @@ pub const HEADS: [&str; 4] = ["male", "female", "identity", "expression"];
 /// The demo model `name` where it is made by code; `None` for packaged and unknown names.
 pub fn generated(name: &str) -> Option<LinearModel> {
     let model = match name {
-        "planes-a" => planes::planes().0,
-        "planes-b" => planes::planes().1,
+        "planes-a" => planes_at(PlanesAt::default()).0,
+        "planes-b" => planes_at(PlanesAt::default()).1,
         _ => {
             let (row, which) = name.strip_prefix("stars-")?.split_once('-')?;
             let row = *STAR_ROWS.get(row.parse::<usize>().ok()?.checked_sub(1)?)?;

@@ -18,7 +18,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::model::{cross, product, singular_values};
+use crate::model::{LinearModel, cross, product, singular_values};
 
 /// Principal angles between the column spaces of two orthonormal bases (rows alike), smallest first, in
 /// radians; as many as the smaller has columns.
@@ -47,6 +47,13 @@ pub struct AffineSpace {
     pub basis: DMatrix<f64>,
 }
 
+impl AffineSpace {
+    /// Of a model.
+    pub fn of(model: &LinearModel) -> Self {
+        Self { point: model.mean().clone(), basis: model.basis().clone() }
+    }
+}
+
 /// What becomes of the displacement b₀ in the embedding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Displacement {
@@ -69,6 +76,20 @@ pub fn affine_grassmann_distance(
     let embed = |space: &AffineSpace| embedding(space, columns, displacement);
     let angles = principal_angles(&embed(first), &embed(second));
     angles.iter().map(|angle| angle * angle).sum::<f64>().sqrt()
+}
+
+/// The paper's d_G of two models: bases cut to the smaller number of columns, b₀ normalised.
+pub fn paper_distance(first: &LinearModel, second: &LinearModel) -> f64 {
+    let (first, second) = (AffineSpace::of(first), AffineSpace::of(second));
+    affine_grassmann_distance(&first, &second, Displacement::Unit)
+}
+
+/// √(Σ_{i≤k<j} λᵢλⱼ/(λᵢ − λⱼ)²/N): expected d_G of the first k principal components of N independent
+/// draws, where the variances along these k and along the others are given.
+pub fn grassmann_sampling_error(first: &[f64], others: &[f64], draws: f64) -> f64 {
+    let term = |x: f64, y: f64| x * y / ((x - y) * (x - y));
+    let sum: f64 = first.iter().flat_map(|&x| others.iter().map(move |&y| term(x, y))).sum();
+    (sum / draws).sqrt()
 }
 
 /// Stiefel coordinates Y, with the first `columns` columns of the basis.

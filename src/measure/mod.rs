@@ -22,7 +22,10 @@ pub use compactness::compactness;
 pub use evaluation::{Evaluation, EvaluationError, MeanError, Method, evaluate};
 pub use exclusive::{ExclusiveModes, exclusive_modes, relative_exclusive_modes, unexplained_share};
 pub use generalization::{left_out_distances, projection_distances};
-pub use grassmann::{AffineSpace, Displacement, affine_grassmann_distance, principal_angles};
+pub use grassmann::{
+    AffineSpace, Displacement, affine_grassmann_distance, grassmann_sampling_error, paper_distance,
+    principal_angles,
+};
 pub use kullback_leibler::kullback_leibler;
 pub use linear_split::{LinearSplit, linear_split};
 pub use principal_vectors::principal_vectors;

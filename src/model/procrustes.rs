@@ -50,6 +50,16 @@ impl Similarity {
         }
     }
 
+    /// The rotation by an angle (radians, counter-clockwise) in the plane of the first two coordinates, about
+    /// the origin.
+    pub fn turn(dimension: usize, angle: f64) -> Self {
+        let (sine, cosine) = libm::sincos(angle);
+        let mut turn = Self::identity(dimension);
+        let corner = DMatrix::from_row_slice(2, 2, &[cosine, -sine, sine, cosine]);
+        turn.rotation.view_mut((0, 0), (2, 2)).copy_from(&corner);
+        turn
+    }
+
     /// s, positive.
     pub fn scale(&self) -> f64 {
         self.scale

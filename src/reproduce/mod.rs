@@ -31,7 +31,9 @@ use serde::Serialize;
 
 use crate::compare::{Joint, Moments};
 use crate::comparison::{Comparison, ComparisonError, Sampler, Settings, Stage};
-use crate::measure::{AffineSpace, Displacement, affine_grassmann_distance};
+use crate::measure::{
+    AffineSpace, Displacement, affine_grassmann_distance, paper_distance as distance,
+};
 use crate::model::LinearModel;
 use crate::report::{MeanSd, ModelReport, MomentSource, Report, Seconds};
 use printed::{Budget, DRAWS, Printed};
@@ -385,16 +387,6 @@ fn settings_of(budget: Budget, sampler: Sampler) -> Settings {
         thin: (budget.steps - budget.burn_in).div_ceil(kept),
         ..Settings::of(sampler)
     }
-}
-
-/// The affine space of a model.
-fn space(model: &LinearModel) -> AffineSpace {
-    AffineSpace { point: model.mean().clone(), basis: model.basis().clone() }
-}
-
-/// The paper's d_G: bases cut to the smaller number of columns, b₀ normalised.
-fn distance(first: &LinearModel, second: &LinearModel) -> f64 {
-    affine_grassmann_distance(&space(first), &space(second), Displacement::Unit)
 }
 
 /// The same without the cut: b₀ normalised, and all columns compared.

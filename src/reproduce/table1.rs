@@ -9,10 +9,10 @@ use serde::Serialize;
 use super::printed::{Printed, TABLE_1, TABLE_1_A_TO_B, TABLE_1_BUDGET, TABLE_1_SIGMA};
 use super::radial::{RadialCheck, radial_checks};
 use super::{Gathered, Observer, Plan, Row, Table, Task, Trial};
-use super::{distance, seed_of, space, uncut_distance};
+use super::{distance, seed_of, uncut_distance};
 use crate::comparison::ComparisonError;
 use crate::demos::{STAR_ROWS, StarRow, exclusive_stars, star_intersection, star_pair};
-use crate::measure::mean_vertex_distance;
+use crate::measure::{AffineSpace, mean_vertex_distance};
 use crate::model::LinearModel;
 use crate::report::MeanSd;
 
@@ -174,7 +174,7 @@ fn truth(index: usize) -> StarTruth {
     let baselines = |printed: f64, first: &LinearModel, second: &LinearModel| Baselines {
         printed,
         found: distance(first, second),
-        uncut: uncut_distance(&space(first), &space(second)),
+        uncut: uncut_distance(&AffineSpace::of(first), &AffineSpace::of(second)),
     };
     let shapes = exclusive_stars(setting);
     let difference =

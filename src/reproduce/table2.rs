@@ -18,7 +18,9 @@ use super::{Baselines, Gathered, Observer, Plan, Row, Table, Task, Trial};
 use super::{seed_of, uncut_distance};
 use crate::compare::Moments;
 use crate::comparison::ComparisonError;
-use crate::measure::{AffineSpace, Displacement, affine_grassmann_distance};
+use crate::measure::{
+    AffineSpace, Displacement, affine_grassmann_distance, grassmann_sampling_error,
+};
 use crate::model::{LinearModel, Unit};
 use crate::sampling::{Stream, fill_normal, stream, uniform};
 
@@ -267,10 +269,10 @@ impl Split {
         });
         Some(SplitFacts {
             vectors: 5 * count,
-            expected_of_independent_draws: sampling_error(
+            expected_of_independent_draws: grassmann_sampling_error(
                 first.as_slice(),
                 others.as_slice(),
-                DRAWS,
+                DRAWS as f64,
             ),
             eigenvalue_ratio: first.min() / others.max(),
             a_to_known: baselines(printed[0], &a, &known),
@@ -278,14 +280,6 @@ impl Split {
             a_to_b: baselines(printed[2], &a, &b),
         })
     }
-}
-
-/// √(Σ_{i≤k<j} λᵢλⱼ/(λᵢ − λⱼ)²/N): expected d_G of the first k principal components of N draws, where
-/// the variances along these k and along the others are given.
-fn sampling_error(first: &[f64], others: &[f64], draws: usize) -> f64 {
-    let term = |x: f64, y: f64| x * y / ((x - y) * (x - y));
-    let sum: f64 = first.iter().flat_map(|&x| others.iter().map(move |&y| term(x, y))).sum();
-    (sum / draws as f64).sqrt()
 }
 
 impl SplitFacts {

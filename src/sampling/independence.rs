@@ -161,6 +161,19 @@ impl Chains for IndependenceChains {
     fn draws(&self) -> &Draws {
         &self.draws
     }
+
+    fn start_at(&mut self, target: &dyn Target, point: &[f64]) {
+        let (fit, defence) = (self.fit.log_density(point), self.defence.log_density(point));
+        let log_proposal = log_mixture(fit, defence, DEFENSIVE_SHARE);
+        let start = Proposal { point: point.to_vec(), log_proposal, uniform: 0.0 };
+        let found = self.evaluate(target, vec![start]);
+        let states = found.into_iter().map(|(state, _)| state);
+        self.states = states.flat_map(|state| vec![state; self.schedule.chains]).collect();
+    }
+
+    fn states(&self) -> Vec<f64> {
+        self.states.iter().flat_map(|state| state.point.iter().copied()).collect()
+    }
 }
 
 #[cfg(test)]

@@ -27,10 +27,12 @@ pub use independence::IndependenceChains;
 pub use normal_quantile::normal_quantile;
 pub use pareto::{importance_ess, pareto_k, pareto_smooth};
 pub use random::{Stream, fill_normal, stream, uniform};
-pub use random_walk::{RandomWalkChains, Scaling};
+pub use random_walk::{RandomWalkChains, Scaling, Step};
 pub use rejection::{Envelope, Rejection, RejectionTarget};
 pub use tilted::Tilted;
 pub use whitened::WhitenedChains;
+
+use crate::parallel;
 
 /// What a target says of one point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -113,6 +115,21 @@ impl Draws {
         if self.proposed == 0 { 0.0 } else { self.accepted as f64 / self.proposed as f64 }
     }
 
+    /// One coefficient of the first `length` draws of each chain, chain by chain.
+    pub fn coefficient(&self, index: usize, length: usize) -> Vec<Vec<f64>> {
+        let chain = |values: &Vec<f64>| {
+            let states = values.chunks_exact(self.dimension).take(length);
+            states.map(|state| state[index]).collect()
+        };
+        self.values.iter().map(chain).collect()
+    }
+
+    /// Diagnostics of the first `most` coefficients over the first `length` draws of each chain (at least
+    /// four).
+    pub fn summaries(&self, most: usize, length: usize) -> Vec<ChainSummary> {
+        parallel::map(self.dimension.min(most), |index| summarise(&self.coefficient(index, length)))
+    }
+
     /// All draws, chain after chain.
     pub fn iter_slices(&self) -> impl Iterator<Item = &[f64]> + Clone {
         self.values.iter().flat_map(|chain| chain.chunks_exact(self.dimension))
@@ -134,6 +151,14 @@ pub trait Chains: core::fmt::Debug + Send {
 
     /// What was drawn so far.
     fn draws(&self) -> &Draws;
+
+    /// Puts all chains at one point (q) instead of where they would start; only before the first step.
+    fn start_at(&mut self, _target: &dyn Target, _point: &[f64]) {}
+
+    /// Where the chains are (chains × q); empty before they have started, and where they do not move.
+    fn states(&self) -> Vec<f64> {
+        Vec::new()
+    }
 }
 
 /// Chains that have ended, known by their draws.

@@ -29,6 +29,31 @@ pub enum Scaling {
     AsPublished,
 }
 
+/// One decision of one chain, as it was taken.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Step {
+    /// Which chain.
+    pub chain: usize,
+    /// Which part of the mixture proposed: 0 to 2 are Gaussian steps, 3 is the scaling move.
+    pub part: usize,
+    /// Where the chain was (q).
+    pub from: Vec<f64>,
+    /// Where it might go (q).
+    pub proposal: Vec<f64>,
+    /// What the target said of where it was.
+    pub before: Evaluation,
+    /// What the target said of the proposal.
+    pub after: Evaluation,
+    /// Logarithm of the Hastings factor.
+    pub log_hastings: f64,
+    /// log p(a′) − log p(a) + the logarithm of the Hastings factor.
+    pub log_ratio: f64,
+    /// u, uniform on [0, 1): accepted where log u is below that.
+    pub uniform: f64,
+    /// Whether it was.
+    pub accepted: bool,
+}
+
 /// An ensemble of random walks, started from N(0, I).
 #[derive(Debug)]
 pub struct RandomWalkChains {
@@ -39,6 +64,8 @@ pub struct RandomWalkChains {
     points: Vec<f64>,
     current: Vec<Evaluation>,
     draws: Draws,
+    /// Where steps are written down, while they are watched.
+    log: Option<Vec<Step>>,
 }
 
 impl RandomWalkChains {
@@ -53,11 +80,23 @@ impl RandomWalkChains {
         let random: Vec<ChaCha8Rng> =
             (0..schedule.chains).map(|chain| stream(seed, Stream::Chain, side, chain)).collect();
         let draws = Draws::new(dimension, schedule.chains);
-        Self { scaling, schedule, step: 0, random, points: Vec::new(), current: Vec::new(), draws }
+        let (points, current) = (Vec::new(), Vec::new());
+        Self { scaling, schedule, step: 0, random, points, current, draws, log: None }
     }
 
-    /// Writes a proposal of `chain` and returns the logarithm of its Hastings factor.
-    fn propose(&mut self, chain: usize, proposal: &mut [f64]) -> f64 {
+    /// From now on writes every step down, or none. What is drawn does not depend on it.
+    pub fn watch(&mut self, on: bool) {
+        self.log = on.then(Vec::new);
+    }
+
+    /// The steps that were written down since they were last taken, step after step, chain by chain.
+    pub fn take_steps(&mut self) -> Vec<Step> {
+        self.log.as_mut().map(core::mem::take).unwrap_or_default()
+    }
+
+    /// Writes a proposal of `chain`; returns the part of the mixture that made it and the logarithm of its
+    /// Hastings factor.
+    fn propose(&mut self, chain: usize, proposal: &mut [f64]) -> (usize, f64) {
         let dimension = self.draws.dimension;
         let state = &self.points[chain * dimension..(chain + 1) * dimension];
         let random = &mut self.random[chain];
@@ -73,7 +112,7 @@ impl RandomWalkChains {
             for (value, current) in proposal.iter_mut().zip(state) {
                 *value = current + deviation * *value;
             }
-            return 0.0;
+            return (part, 0.0);
         }
         let mut normal = [0.0];
         fill_normal(random, &mut normal);
@@ -82,10 +121,11 @@ impl RandomWalkChains {
         for (value, current) in proposal.iter_mut().zip(state) {
             *value = ratio * current;
         }
-        match self.scaling {
+        let log_factor = match self.scaling {
             Scaling::Corrected => (dimension as f64 - 1.0) * libm::log(ratio.abs()),
             Scaling::AsPublished => 0.0,
-        }
+        };
+        (part, log_factor)
     }
 
     fn start(&mut self, target: &dyn Target) {
@@ -94,13 +134,17 @@ impl RandomWalkChains {
         for (random, point) in self.random.iter_mut().zip(self.points.chunks_exact_mut(dimension)) {
             fill_normal(random, point);
         }
+        self.evaluate_start(target);
+    }
+
+    fn evaluate_start(&mut self, target: &dyn Target) {
         self.current = target.evaluate(&self.points);
         self.draws.evaluations += self.schedule.chains as u64;
     }
 
     fn one_step(&mut self, target: &dyn Target, proposals: &mut [f64]) {
         let dimension = self.draws.dimension;
-        let log_factors: Vec<f64> = proposals
+        let moves: Vec<(usize, f64)> = proposals
             .chunks_exact_mut(dimension)
             .enumerate()
             .map(|(chain, proposal)| self.propose(chain, proposal))
@@ -110,10 +154,25 @@ impl RandomWalkChains {
         let counted = self.step >= self.schedule.burn_in;
         let kept = self.schedule.keeps(self.step);
         for (chain, evaluation) in evaluations.into_iter().enumerate() {
-            let log_ratio =
-                evaluation.log_density - self.current[chain].log_density + log_factors[chain];
-            let accepted = libm::log(uniform(&mut self.random[chain])) < log_ratio;
+            let (part, log_hastings) = moves[chain];
+            let log_ratio = evaluation.log_density - self.current[chain].log_density + log_hastings;
+            let uniform = uniform(&mut self.random[chain]);
+            let accepted = libm::log(uniform) < log_ratio;
             let range = chain * dimension..(chain + 1) * dimension;
+            if let Some(log) = &mut self.log {
+                log.push(Step {
+                    chain,
+                    part,
+                    from: self.points[range.clone()].to_vec(),
+                    proposal: proposals[range.clone()].to_vec(),
+                    before: self.current[chain],
+                    after: evaluation,
+                    log_hastings,
+                    log_ratio,
+                    uniform,
+                    accepted,
+                });
+            }
             if accepted {
                 self.points[range.clone()].copy_from_slice(&proposals[range.clone()]);
                 self.current[chain] = evaluation;
@@ -146,6 +205,15 @@ impl Chains for RandomWalkChains {
 
     fn draws(&self) -> &Draws {
         &self.draws
+    }
+
+    fn start_at(&mut self, target: &dyn Target, point: &[f64]) {
+        self.points = point.repeat(self.schedule.chains);
+        self.evaluate_start(target);
+    }
+
+    fn states(&self) -> Vec<f64> {
+        self.points.clone()
     }
 }
 

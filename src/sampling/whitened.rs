@@ -144,6 +144,10 @@ impl WhitenedChains {
         for (random, z) in self.random.iter_mut().zip(z.chunks_exact_mut(self.fit.dimension())) {
             fill_normal(random, z);
         }
+        self.look_at_start(target, z);
+    }
+
+    fn look_at_start(&mut self, target: &dyn Target, z: Vec<f64>) {
         let gradient = self.proposing.needs_gradient();
         self.states = look(&self.fit, target, gradient, &mut self.draws.evaluations, z);
     }
@@ -257,6 +261,15 @@ impl Chains for WhitenedChains {
 
     fn draws(&self) -> &Draws {
         &self.draws
+    }
+
+    fn start_at(&mut self, target: &dyn Target, point: &[f64]) {
+        let z = self.fit.whiten(point).as_slice().repeat(self.schedule.chains);
+        self.look_at_start(target, z);
+    }
+
+    fn states(&self) -> Vec<f64> {
+        self.states.points.clone()
     }
 }
 

@@ -9,7 +9,7 @@ import {
 } from "../../www/app/learn/sampling/verdicts";
 import { BREAKS, SCENE_PARAMS } from "../../www/app/learn/scenes";
 import { broken, RACERS, raceVerdict } from "../../www/app/learn/scenes/race/broken";
-import type { LessonFigures, LessonStep } from "../../www/worker/lessons";
+import type { LaneFigures, LessonStep } from "../../www/worker/lessons";
 
 const quality = (
   chains: number,
@@ -84,7 +84,7 @@ test("a difference is all, next to nothing, or has a hole", () => {
   assert.ok(differenceVerdict("a", 0.6, 0.001).calm);
 });
 
-const figures = (changes: Partial<LessonFigures>): LessonFigures => ({
+const figures = (changes: Partial<LaneFigures>): LaneFigures => ({
   chains: 4,
   draws: 2000,
   evaluations: 2800,

@@ -5,6 +5,7 @@
  * starts, and `onRestart` lets the page open its models again.
  */
 import { EngineFailure } from "./engine-errors";
+import type { LessonAnswers, LessonAsk } from "./lessons";
 import type {
   Axes,
   AxesKind,
@@ -279,6 +280,15 @@ export class EngineClient {
 
   async runFile(signal: AbortSignal, sources: BothSides<string | null>): Promise<string> {
     return (await this.#ask(signal, { t: "runFile", sources }, "runFile")).text;
+  }
+
+  /** One question of the lesson, and the answer of its kind. */
+  async lesson<K extends LessonAsk["ask"]>(
+    signal: AbortSignal,
+    ask: Extract<LessonAsk, { ask: K }>,
+  ): Promise<LessonAnswers[K]> {
+    const { answer } = await this.#ask(signal, { t: "lesson", ask }, "lesson");
+    return answer as LessonAnswers[K];
   }
 
   async export(signal: AbortSignal, what: ExportKind): Promise<Reply<"exported">> {

@@ -60,6 +60,7 @@ const BUSY_WITH: Record<Question["t"], string> = {
   evaluate: "reading the shapes",
   readRun: "reading the run file",
   runFile: "writing the run file",
+  lesson: "preparing the lesson",
 };
 
 const POST_EVERY_MS = 250;
@@ -202,6 +203,8 @@ export class Coordinator {
         return { t: "run", id, run: engine.readRun(message.text) };
       case "runFile":
         return { t: "runFile", id, text: engine.runFile(message.sources) };
+      case "lesson":
+        return { t: "lesson", id, answer: engine.lesson(message.ask) };
       case "export": {
         const { name, mime, bytes } = engine.export(message.what);
         // A copy of its own: what the engine hands out may be a view of its memory.

@@ -15,6 +15,7 @@ type Exploring = Pick<
   | "evaluate"
   | "readRun"
   | "runFile"
+  | "lesson"
 >;
 
 function refuse(): never {
@@ -38,4 +39,5 @@ export const mockExploring: Exploring = {
   evaluate: refuse,
   readRun: refuse,
   runFile: refuse,
+  lesson: refuse,
 };

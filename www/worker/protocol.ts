@@ -2,8 +2,9 @@
  * What the page and the engine's worker say to one another. One discriminated union each way;
  * a change of meaning raises PROTOCOL. Bulk data is typed arrays, transferred, never JSON.
  */
+import type { LessonAnswer, LessonAsk } from "./lessons";
 
-export const PROTOCOL = 4;
+export const PROTOCOL = 5;
 
 /** A model that the engine holds, until `close`. */
 export type Handle = number;
@@ -636,6 +637,8 @@ export type ToEngine =
   | { t: "readRun"; id: number; text: string }
   | { t: "runFile"; id: number; sources: BothSides<string | null> }
   | { t: "export"; id: number; what: ExportKind }
+  /** Of the lesson, which is beside the comparison. */
+  | { t: "lesson"; id: number; ask: LessonAsk }
   | { t: "close"; model: Handle };
 
 export interface EngineError {
@@ -677,6 +680,7 @@ export type FromEngine =
   | { t: "evaluated"; id: number; evaluation: Evaluation }
   | { t: "run"; id: number; run: RunFile }
   | { t: "runFile"; id: number; text: string }
+  | { t: "lesson"; id: number; answer: LessonAnswer }
   | { t: "exported"; id: number; name: string; mime: string; bytes: ArrayBuffer }
   | ({ t: "error"; id: number } & EngineError)
   | { t: "fatal"; message: string };
@@ -731,6 +735,7 @@ export interface Engine {
   evaluate(model: Handle, files: DroppedFile[], training: boolean): Evaluation;
   readRun(text: string): RunFile;
   runFile(sources: BothSides<string | null>): string;
+  lesson(ask: LessonAsk): LessonAnswer;
   export(what: ExportKind): { name: string; mime: string; bytes: Uint8Array };
   close(model: Handle): void;
 }

@@ -1,10 +1,11 @@
-//! The command line: `shapevenn info | compare | inspect | matrix | convert | sweep | evaluate | reproduce`.
+//! The command line: `shapevenn info | compare | inspect | matrix | convert | sweep | evaluate | lesson | reproduce`.
 //!
 //! Exit status 0: done. 2: a bad input, with the error on standard error. 1: anything else.
 #![allow(clippy::print_stdout, reason = "a command prints its result")]
 
 mod document;
 mod evaluate;
+mod lesson;
 mod matrix;
 mod overlap_document;
 mod prepare;
@@ -88,6 +89,8 @@ enum Command {
     },
     /// Generalization and specificity of a model (Davies), by shapes of its kind
     Evaluate(evaluate::Arguments),
+    /// The figures of a scene of the page's lessons, from its link
+    Lesson(lesson::Arguments),
     /// Run the paper's experiments again, beside its printed figures
     Reproduce(reproduce::Arguments),
 }
@@ -237,6 +240,7 @@ fn main() -> ExitCode {
         Command::Sweep { a, b, sigma, prepare, json } => sweep([&a, &b], sigma, &prepare, json),
         Command::Convert { input, output } => convert(&input, &output),
         Command::Evaluate(arguments) => evaluate::evaluate(&arguments),
+        Command::Lesson(arguments) => lesson::lesson(&arguments),
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
     };
     match done {

@@ -1,5 +1,5 @@
 /** A plane of two numbers on a canvas: where things are, ellipses, clouds, fields, shapes. */
-import type { LessonField, LessonGaussian } from "../../../worker/lessons";
+import type { LessonField, LessonLaw } from "../../../worker/lessons";
 import { viridis } from "../../colormap";
 import type { Size } from "./Board";
 
@@ -46,7 +46,7 @@ export function traceShape(
 export function traceGaussian(
   pen: CanvasRenderingContext2D,
   plane: Plane,
-  { mean, covariance }: LessonGaussian,
+  { mean, covariance }: LessonLaw,
   radius: number,
   modes: readonly [number, number] = [0, 1],
 ): void {

@@ -1,5 +1,5 @@
 /** What numbers mean, in a sentence, for both outcomes. Pure. */
-import type { LessonFigures, LessonSide, LessonStep } from "../../../worker/lessons";
+import type { LaneFigures, LessonSide, LessonStep } from "../../../worker/lessons";
 import { count, number, percent } from "../../format";
 
 export interface Verdict {
@@ -12,7 +12,7 @@ export interface Verdict {
 export const R_HAT_LIMIT = 1.01;
 export const ESS_EACH = 100;
 
-type Quality = Pick<LessonFigures, "chains" | "draws" | "rHatMax" | "essBulkMin">;
+type Quality = Pick<LaneFigures, "chains" | "draws" | "rHatMax" | "essBulkMin">;
 
 /** Draws of a chain before which its figures mean nothing. */
 const TOO_EARLY = 20;

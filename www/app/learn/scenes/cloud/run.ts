@@ -1,7 +1,7 @@
 /** Draws of both sides that pile up, and the model that is made of them. */
 import { batch, computed, signal } from "@preact/signals";
 import type {
-  LessonFigures,
+  LaneFigures,
   LessonIntersection,
   LessonModels,
   LessonSide,
@@ -34,7 +34,7 @@ export class CloudRun {
   readonly models = signal<LessonModels | null>(null);
   readonly stars = signal<BothSides<Float32Array> | null>(null);
   readonly found = signal<LessonIntersection | null>(null);
-  readonly figures = signal<BothSides<LessonFigures> | null>(null);
+  readonly figures = signal<BothSides<LaneFigures> | null>(null);
   /** Draws of each side so far. */
   readonly draws = signal(0);
   readonly playing = signal(false);

@@ -2,8 +2,8 @@
 import { batch, computed, signal } from "@preact/signals";
 import type {
   LessonField,
-  LessonFigures,
-  LessonGaussian,
+  LaneFigures,
+  LessonLaw,
   LessonModels,
   LessonPrincipal,
 } from "../../../../worker/lessons";
@@ -30,7 +30,7 @@ const STORY_MS = 3200;
 export interface Cloud {
   /** Two coefficients each. */
   values: Float32Array;
-  law: LessonGaussian;
+  law: LessonLaw;
 }
 
 export interface Found {
@@ -40,7 +40,7 @@ export interface Found {
   likelihood: LessonField;
   common: Cloud;
   exclusive: Cloud;
-  figures: LessonFigures;
+  figures: LaneFigures;
   principal: LessonPrincipal;
 }
 

@@ -1,4 +1,4 @@
-import type { LessonFigures } from "../../../../worker/lessons";
+import type { LaneFigures } from "../../../../worker/lessons";
 import { number, percent } from "../../../format";
 import { logShare, logTicks } from "../../sampling/axes";
 import { SAMPLER_NAMES } from "../../sampling/names";
@@ -12,7 +12,7 @@ const INSIDE = 0.8;
 
 interface Props {
   runners: readonly Runner[];
-  figures: readonly LessonFigures[];
+  figures: readonly LaneFigures[];
 }
 
 /** What each sampler yields for the same work, over the logarithm, and whether its chains agree. */
@@ -55,7 +55,7 @@ function Row({
   place,
 }: {
   name: string;
-  figures: LessonFigures | undefined;
+  figures: LaneFigures | undefined;
   place: number;
 }) {
   const { essPerThousand = null, rHatMax = null, acceptance = null } = figures ?? {};

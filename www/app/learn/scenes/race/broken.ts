@@ -1,8 +1,8 @@
 /** What is broken in a race, and where its pictures look. Pure. */
 import type {
   LessonAsk,
-  LessonFigures,
-  LessonGaussian,
+  LaneFigures,
+  LessonLaw,
   LessonSampler,
 } from "../../../../worker/lessons";
 import { count, number, percent } from "../../../format";
@@ -54,7 +54,7 @@ export interface View {
 
 const REACH_SD = 3.4;
 
-export function viewOf({ mean, covariance }: LessonGaussian, target: string): View {
+export function viewOf({ mean, covariance }: LessonLaw, target: string): View {
   if (target === "normal") return { centre: [0, 0], extent: REACH_SD, fieldExtent: REACH_SD };
   const q = mean.length;
   const [x = 0, y = 0] = mean;
@@ -85,7 +85,7 @@ export const BREAK_WORDS: Record<Break, BreakWords> = {
 };
 
 /** What went wrong, and how one notices. */
-export function raceVerdict(what: Break, figures: readonly LessonFigures[]): Verdict {
+export function raceVerdict(what: Break, figures: readonly LaneFigures[]): Verdict {
   const [published, corrected] = figures;
   const last = figures.at(-1);
   if (!published || !corrected || !last) return { calm: true, text: "They are on their way." };
@@ -112,14 +112,14 @@ export function raceVerdict(what: Break, figures: readonly LessonFigures[]): Ver
   }
 }
 
-function scalingVerdict(published: LessonFigures, corrected: LessonFigures): Verdict {
+function scalingVerdict(published: LaneFigures, corrected: LaneFigures): Verdict {
   return {
     calm: false,
     text: `As published the walk shrinks: E‖α‖²/q is ${number(published.meanSquare)} instead of 1; with the Hastings factor it is ${number(corrected.meanSquare)}. R-hat is silent about it (${rHat(published)} and ${rHat(corrected)}): the chains agree on the wrong law. One notices on a target whose answer is known.`,
   };
 }
 
-function wholeVerdict(walk: LessonFigures, best: LessonFigures): Verdict {
+function wholeVerdict(walk: LaneFigures, best: LaneFigures): Verdict {
   const [slow, fast] = [walk.essPerThousand, best.essPerThousand];
   if (slow === null || fast === null) return { calm: true, text: "They are on their way." };
   const times = fast / slow;
@@ -138,6 +138,6 @@ function wholeVerdict(walk: LessonFigures, best: LessonFigures): Verdict {
       };
 }
 
-const rHat = ({ rHatMax }: LessonFigures) => (rHatMax === null ? "unknown" : number(rHatMax, 3));
-const draws = ({ essPerThousand }: LessonFigures) =>
+const rHat = ({ rHatMax }: LaneFigures) => (rHatMax === null ? "unknown" : number(rHatMax, 3));
+const draws = ({ essPerThousand }: LaneFigures) =>
   essPerThousand === null ? "no" : number(essPerThousand, 2);

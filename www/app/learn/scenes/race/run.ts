@@ -1,6 +1,6 @@
 /** Samplers side by side on one target, whole and broken. */
 import { batch, signal } from "@preact/signals";
-import type { LessonFigures, LessonModels, LessonSampler } from "../../../../worker/lessons";
+import type { LaneFigures, LessonModels, LessonSampler } from "../../../../worker/lessons";
 import { fieldImage } from "../../canvas/plane";
 import type { Ask } from "../../engine";
 import { due } from "../../sampling/pacing";
@@ -44,7 +44,7 @@ export class RaceRun {
   readonly image = signal<HTMLCanvasElement | null>(null);
   readonly view = signal<View | null>(null);
   readonly runners = signal<readonly Runner[]>([]);
-  readonly figures = signal<readonly LessonFigures[]>([]);
+  readonly figures = signal<readonly LaneFigures[]>([]);
   readonly curve = signal<readonly Moment[]>([]);
   readonly playing = signal(false);
   /** Steps after the burn-in. */

@@ -1,9 +1,9 @@
 /** The walk of the scene: its chains in the engine, and what of them is shown. */
 import { batch, computed, signal } from "@preact/signals";
 import type {
-  LessonFigures,
+  LaneFigures,
   LessonModels,
-  LessonProgress,
+  LaneProgress,
   LessonStep,
 } from "../../../../worker/lessons";
 import { fieldImage } from "../../canvas/plane";
@@ -36,8 +36,8 @@ const MODES = 2;
 export class StepRun {
   readonly models = signal<LessonModels | null>(null);
   readonly image = signal<HTMLCanvasElement | null>(null);
-  readonly progress = signal<LessonProgress | null>(null);
-  readonly figures = signal<LessonFigures | null>(null);
+  readonly progress = signal<LaneProgress | null>(null);
+  readonly figures = signal<LaneFigures | null>(null);
   /** The last decision of every chain. */
   readonly decisions = signal<readonly LessonStep[]>([]);
   readonly playing = signal(false);

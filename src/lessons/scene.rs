@@ -1,0 +1,293 @@
+//! The scenes of the page's lessons and their links: `page=learn&scene=step&seed=7&steps=120`.
+//!
+//! | scene | its keys and what they are when left out |
+//! |---|---|
+//! | model | pair=stars-2 side=a coefficients=0,0 |
+//! | agree | pair=stars-2 sigma=0.003 |
+//! | planes | tilt=50 shift=0.4 lift=0 sigma=0.3 side=a coefficients=1,0.5 |
+//! | step | pair=planes modes=2 sigma=0.3 side=a sampler=paper-corrected chains=1 seed=1 steps=0 |
+//! | cloud | pair=stars-5 sigma=0.003 sampler=paper-corrected chains=8 seed=1 draws=2000 |
+//! | difference | pair=planes modes=2 sigma=0.3 side=a seed=1 draws=1000 |
+//! | race | pair=stars-5 modes=all sigma=0.003 side=a chains=4 seed=1 steps=500 break=none |
+//!
+//! Every scene also heeds `plausibility`, `turned`, `tilt`, `shift`, `lift`, `burnin`, as far as they mean
+//! something to it. Other keys are those of the page's picture and are passed over, by name.
+
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::LessonError;
+use super::ask::{LessonSampler, LessonSide, Opening};
+
+/// The scenes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum SceneName {
+    /// What a model is: a shape, its coefficients, its plausibility.
+    Model,
+    /// Where two models agree, tip by tip.
+    Agree,
+    /// Projection, distance and likelihood on two planes.
+    Planes,
+    /// The paper's walk, one step after the other.
+    Step,
+    /// Draws of both sides, and the intersection made of them.
+    Cloud,
+    /// Draws of the difference, and why they make no model.
+    Difference,
+    /// Samplers beside one another, whole and broken.
+    Race,
+}
+
+/// What is broken in a race.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Break {
+    /// Nothing.
+    #[default]
+    None,
+    /// The Hastings factor of the walk's scaling move, on N(0, I₅₀).
+    Scaling,
+    /// All chains but one are gone.
+    OneChain,
+    /// σ is a thirtieth of what it should be.
+    Sigma,
+    /// B is turned by 8° before it is compared.
+    Misaligned,
+}
+
+/// A scene with all that makes its figures.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct Scene {
+    /// Which one.
+    pub scene: SceneName,
+    /// What is compared, and how.
+    #[serde(flatten)]
+    pub opening: Opening,
+    /// Whose shapes.
+    pub side: LessonSide,
+    /// The shape that is looked at.
+    pub coefficients: Vec<f64>,
+    /// How draws are made.
+    pub sampler: LessonSampler,
+    /// Chains, of each side or sampler.
+    pub chains: usize,
+    /// Seed of every random number.
+    pub seed: String,
+    /// Steps of each chain that are thrown away at its start; as the sampler asks where left out.
+    pub burn_in: Option<usize>,
+    /// Steps of each chain after that.
+    pub steps: usize,
+    /// Draws, of each side.
+    pub draws: usize,
+    /// What is broken.
+    #[serde(rename = "break")]
+    pub broken: Break,
+}
+
+impl Scene {
+    /// A scene as it opens.
+    pub fn of(scene: SceneName) -> Self {
+        let opening = |pair: &str, modes, sigma| Opening {
+            pair: pair.to_owned(),
+            modes,
+            sigma: Some(sigma),
+            ..Opening::default()
+        };
+        let plain = Self {
+            scene,
+            opening: opening("planes", None, 0.3),
+            side: LessonSide::A,
+            coefficients: Vec::new(),
+            sampler: LessonSampler::PaperCorrected,
+            chains: 1,
+            seed: "1".to_owned(),
+            burn_in: None,
+            steps: 0,
+            draws: 0,
+            broken: Break::None,
+        };
+        match scene {
+            SceneName::Model => {
+                let opening = opening("stars-2", None, 0.003);
+                Self { opening, coefficients: vec![0.0, 0.0], ..plain }
+            }
+            SceneName::Agree => Self { opening: opening("stars-2", None, 0.003), ..plain },
+            SceneName::Planes => Self { coefficients: vec![1.0, 0.5], ..plain },
+            SceneName::Step => Self { opening: opening("planes", Some(2), 0.3), ..plain },
+            SceneName::Cloud => {
+                let opening = opening("stars-5", None, 0.003);
+                Self { opening, chains: 8, draws: 2000, ..plain }
+            }
+            SceneName::Difference => {
+                let opening = opening("planes", Some(2), 0.3);
+                Self { opening, sampler: LessonSampler::Rejection, draws: 1000, ..plain }
+            }
+            SceneName::Race => {
+                let opening = opening("stars-5", None, 0.003);
+                Self { opening, chains: 4, steps: 500, burn_in: Some(200), ..plain }
+            }
+        }
+    }
+
+    /// The scene of a link, a whole address or its fragment, and the keys that say nothing of its figures.
+    ///
+    /// # Errors
+    /// [`LessonError`] when it names no scene, or a value cannot be read.
+    pub fn parse(link: &str) -> Result<(Self, Vec<String>), LessonError> {
+        let fragment = link.rsplit_once('#').map_or(link, |(_, fragment)| fragment);
+        let pairs: Vec<(&str, String)> = fragment
+            .split('&')
+            .filter(|part| !part.is_empty())
+            .map(|part| part.split_once('=').unwrap_or((part, "")))
+            .map(|(key, value)| (key, decoded(value)))
+            .collect();
+        let Some((_, name)) = pairs.iter().find(|(key, _)| *key == "scene") else {
+            let message = format!("“{link}” names no scene: scene=… was expected among its keys");
+            return Err(LessonError::Unreadable { message });
+        };
+        let scenes = "one of model, agree, planes, step, cloud, difference, race";
+        let mut scene = Self::of(word("The scene", name, scenes)?);
+        let mut others = Vec::new();
+        for (key, value) in &pairs {
+            if !scene.set(key, value)? {
+                others.push((*key).to_owned());
+            }
+        }
+        Ok((scene, others))
+    }
+
+    /// Takes a key; whether it is one.
+    fn set(&mut self, key: &str, value: &str) -> Result<bool, LessonError> {
+        match key {
+            "page" | "v" | "scene" => {}
+            "pair" => value.clone_into(&mut self.opening.pair),
+            "modes" => {
+                let modes = (value != "all").then(|| count("The number of modes", value));
+                self.opening.modes = modes.transpose()?;
+            }
+            "sigma" => self.opening.sigma = Some(number("σ", value)?),
+            "plausibility" => {
+                let expected = "product or idempotent";
+                self.opening.plausibility = word("The plausibility", value, expected)?;
+            }
+            "turned" => self.opening.turned = number("The turn", value)?,
+            "tilt" => self.opening.tilt = number("The tilt", value)?,
+            "shift" => self.opening.shift = number("The shift", value)?,
+            "lift" => self.opening.lift = number("The lift", value)?,
+            "side" => self.side = word("The side", value, "a or b")?,
+            "coefficients" => {
+                let each = value.split(',').filter(|part| !part.is_empty());
+                let numbers = each.map(|part| number("A coefficient", part));
+                self.coefficients = numbers.collect::<Result<_, _>>()?;
+            }
+            "sampler" => {
+                let expected =
+                    "one of paper, paper-corrected, mala, hmc, independence, pcn, rejection";
+                self.sampler = word("The sampler", value, expected)?;
+            }
+            "chains" => self.chains = count("The number of chains", value)?,
+            "seed" => value.clone_into(&mut self.seed),
+            "burnin" => self.burn_in = Some(count("The burn-in", value)?),
+            "steps" => self.steps = count("The number of steps", value)?,
+            "draws" => self.draws = count("The number of draws", value)?,
+            "break" => {
+                let expected = "one of none, scaling, one-chain, sigma, misaligned";
+                self.broken = word("What is broken", value, expected)?;
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+}
+
+fn unexpected(what: &'static str, expected: &str, found: &str) -> LessonError {
+    LessonError::Value { what, expected: expected.to_owned(), found: found.to_owned() }
+}
+
+fn word<T: DeserializeOwned>(
+    what: &'static str,
+    found: &str,
+    expected: &str,
+) -> Result<T, LessonError> {
+    serde_json::from_value(Value::String(found.to_owned()))
+        .map_err(|_| unexpected(what, expected, found))
+}
+
+fn number(what: &'static str, found: &str) -> Result<f64, LessonError> {
+    found.parse().map_err(|_| unexpected(what, "a number", found))
+}
+
+fn count(what: &'static str, found: &str) -> Result<usize, LessonError> {
+    found.parse().map_err(|_| unexpected(what, "a whole number", found))
+}
+
+/// A value of a link without its escapes: %2C is a comma, + a space.
+fn decoded(value: &str) -> String {
+    let mut bytes = Vec::new();
+    let mut rest = value.as_bytes();
+    while let [first, tail @ ..] = rest {
+        let digits = tail.get(..2).and_then(|digits| core::str::from_utf8(digits).ok());
+        let escaped = digits.and_then(|digits| u8::from_str_radix(digits, 16).ok());
+        match (first, escaped) {
+            (b'%', Some(byte)) => {
+                bytes.push(byte);
+                rest = &tail[2..];
+                continue;
+            }
+            (b'+', _) => bytes.push(b' '),
+            (byte, _) => bytes.push(*byte),
+        }
+        rest = tail;
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_address_and_its_fragment_are_the_same_scene() {
+        let fragment = "page=learn&scene=step&seed=7&steps=120&camera=1,2&coefficients=1%2C-0.5";
+        let (scene, others) = Scene::parse(fragment).unwrap();
+        let expected = Scene {
+            seed: "7".to_owned(),
+            steps: 120,
+            coefficients: vec![1.0, -0.5],
+            ..Scene::of(SceneName::Step)
+        };
+        assert_eq!(scene, expected, "what is left out has its default");
+        assert_eq!(others, ["camera"], "the picture's own keys are told");
+        let address = format!("https://example.org/shapevenn/?serial#{fragment}");
+        assert_eq!(Scene::parse(&address).unwrap(), (scene, others), "with the address before it");
+    }
+
+    #[test]
+    fn every_scene_opens_by_its_name_and_all_modes_can_be_asked_for() {
+        for name in ["model", "agree", "planes", "step", "cloud", "difference", "race"] {
+            assert!(Scene::parse(&format!("scene={name}")).is_ok(), "{name}");
+        }
+        let (scene, _) = Scene::parse("scene=step&modes=all&sampler=paper").unwrap();
+        assert_eq!((scene.opening.modes, scene.sampler), (None, LessonSampler::Paper), "set");
+    }
+
+    #[test]
+    fn faults_name_what_was_expected_and_what_was_found() {
+        for (link, expected) in [
+            ("page=learn", "“page=learn” names no scene: scene=… was expected among its keys."),
+            ("scene=step&steps=-1", "The number of steps is a whole number, not “-1”."),
+            ("scene=step&side=c", "The side is a or b, not “c”."),
+            ("scene=agree&sigma=small", "σ is a number, not “small”."),
+            (
+                "scene=race&break=all",
+                "What is broken is one of none, scaling, one-chain, sigma, misaligned, not “all”.",
+            ),
+        ] {
+            let error = Scene::parse(link).unwrap_err();
+            assert_eq!(error.to_string(), expected, "{link}");
+        }
+    }
+}

@@ -1,0 +1,322 @@
+//! The figures of a scene, by the same asks that the page makes.
+
+use serde::Serialize;
+
+use super::answer::{
+    LaneFigures, LessonAnswer, LessonIntersection, LessonModels, LessonPoint, LessonPrincipal,
+    LessonStep,
+};
+use super::ask::{
+    Beginning, LessonAsk, LessonSampler, LessonSide, LessonTarget, MOST_STEPS, Opening, within,
+};
+use super::scene::{Break, Scene, SceneName};
+use super::{Lesson, LessonError};
+use crate::report::BothSides;
+
+/// Points of a star that are tips.
+const TIPS: [usize; 5] = [0, 2, 4, 6, 8];
+/// Burn-in of the cloud: walks start anywhere, the others at draws of the fit.
+const BURN_IN_OF_WALKS: usize = 500;
+const BURN_IN_OF_OTHERS: usize = 50;
+/// Burn-in of the race.
+const BURN_IN_OF_RACE: usize = 200;
+/// Dimension on which the scaling move goes wrong for all to see.
+const DIMENSION: usize = 50;
+/// By how much σ is too small, and by how many degrees B is turned, where they are broken.
+const SIGMA_OVER: f64 = 30.0;
+const TURNED: f64 = 8.0;
+/// Samplers that race.
+const RACERS: [LessonSampler; 5] = [
+    LessonSampler::Paper,
+    LessonSampler::PaperCorrected,
+    LessonSampler::Mala,
+    LessonSampler::Hmc,
+    LessonSampler::Independence,
+];
+
+/// What a scene says of a shape.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+#[allow(missing_docs, reason = "as in LessonPoint")]
+pub struct PointFigures {
+    pub log_prior: f64,
+    pub plausibility: f64,
+    pub norm: f64,
+    pub distance: f64,
+    pub distance_likelihood: f64,
+    pub projection_likelihood: f64,
+    pub log_density: f64,
+    pub log_difference: Option<f64>,
+}
+
+/// How far a tip strays in A, in B and in A∩B: the root of the sum of its coordinates' variances.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Tip {
+    /// Which point.
+    pub point: usize,
+    /// In A.
+    pub a: f64,
+    /// In B.
+    pub b: f64,
+    /// In A∩B.
+    pub intersection: f64,
+    /// In the known intersection.
+    pub truth: Option<f64>,
+}
+
+/// One sampler of a race.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RaceFigures {
+    /// Which one.
+    pub sampler: LessonSampler,
+    /// What its draws say.
+    pub figures: LaneFigures,
+}
+
+/// What a scene shows in numbers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+#[allow(missing_docs, reason = "one for each kind of answer")]
+pub struct SceneFigures {
+    /// All that made them.
+    pub settings: Scene,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub point: Option<PointFigures>,
+    /// Principal angles in degrees.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub angles: Vec<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub tips: Vec<Tip>,
+    /// The variance of A∩B as a share of that of A and of B.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub variance_share: Option<BothSides<f64>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub figures: Option<LaneFigures>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub last_step: Option<LessonStep>,
+    /// The lanes of both sides.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sides: Option<BothSides<LaneFigures>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub intersection: Option<LessonIntersection>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub principal: Option<LessonPrincipal>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub race: Vec<RaceFigures>,
+}
+
+/// Asks, and takes the answer that such an ask has.
+macro_rules! asked {
+    ($lesson:expr, $ask:expr, $kind:path) => {
+        match $lesson.answer($ask)? {
+            $kind(answer) => answer,
+            other => unreachable!("an answer of its own kind, not {other:?}"),
+        }
+    };
+}
+
+impl Scene {
+    /// The figures of the scene.
+    ///
+    /// # Errors
+    /// As [`Lesson::answer`].
+    pub fn figures(&self) -> Result<SceneFigures, LessonError> {
+        let lesson = &mut Lesson::new();
+        let mut found = SceneFigures {
+            settings: self.clone(),
+            point: None,
+            angles: Vec::new(),
+            tips: Vec::new(),
+            variance_share: None,
+            figures: None,
+            last_step: None,
+            sides: None,
+            intersection: None,
+            principal: None,
+            race: Vec::new(),
+        };
+        match self.scene {
+            SceneName::Model => {
+                self.open(lesson)?;
+                found.point = Some(self.point(lesson)?);
+            }
+            SceneName::Planes => {
+                found.angles = self.open(lesson)?.angles;
+                found.point = Some(self.point(lesson)?);
+            }
+            SceneName::Agree => {
+                let models = self.open(lesson)?;
+                found.tips = tips(&models);
+                found.variance_share = Some(shares(&models));
+            }
+            SceneName::Step => {
+                self.open(lesson)?;
+                self.begin(lesson, 0, self.side, self.burn_in.unwrap_or(0))?;
+                let last = self.steps.min(1);
+                advance(lesson, 0, self.steps - last)?;
+                let ask = LessonAsk::Advance { lane: 0, steps: last, watch: true };
+                let mut steps = asked!(lesson, ask, LessonAnswer::Progress).steps;
+                found.last_step = steps.pop();
+                found.figures = Some(figures(lesson, 0)?);
+            }
+            SceneName::Cloud => {
+                self.open(lesson)?;
+                let walks = self.sampler.is_walk();
+                let usual = if walks { BURN_IN_OF_WALKS } else { BURN_IN_OF_OTHERS };
+                let burn_in = self.burn_in.unwrap_or(usual);
+                within("The number of draws", self.draws, 1, super::MOST_DRAWS)?;
+                for (lane, side) in [(0, LessonSide::A), (1, LessonSide::B)] {
+                    let chains = self.begin(lesson, lane, side, burn_in)?;
+                    let burn_in = if chains == 1 && self.is_rejection() { 0 } else { burn_in };
+                    advance(lesson, lane, burn_in + self.draws.div_ceil(chains))?;
+                }
+                let ask = LessonAsk::Intersection { lanes: [0, 1], counts: counts(self.draws) };
+                found.intersection = Some(asked!(lesson, ask, LessonAnswer::Intersection));
+                found.sides = Some(BothSides { a: figures(lesson, 0)?, b: figures(lesson, 1)? });
+            }
+            SceneName::Difference => {
+                self.open(lesson)?;
+                let chains = self.begin(lesson, 0, self.side, self.burn_in.unwrap_or(0))?;
+                let burn_in = if self.is_rejection() { 0 } else { self.burn_in.unwrap_or(0) };
+                advance(lesson, 0, burn_in + self.draws.div_ceil(chains))?;
+                found.figures = Some(figures(lesson, 0)?);
+                let ask = LessonAsk::Principal { lane: 0 };
+                found.principal = Some(asked!(lesson, ask, LessonAnswer::Principal));
+            }
+            SceneName::Race => found.race = self.race(lesson)?,
+        }
+        Ok(found)
+    }
+
+    fn is_rejection(&self) -> bool {
+        self.sampler == LessonSampler::Rejection
+    }
+
+    fn open(&self, lesson: &mut Lesson) -> Result<Box<LessonModels>, LessonError> {
+        Ok(asked!(lesson, LessonAsk::Open(self.opening.clone()), LessonAnswer::Models))
+    }
+
+    fn point(&self, lesson: &mut Lesson) -> Result<PointFigures, LessonError> {
+        let ask = LessonAsk::Point { side: self.side, coefficients: self.coefficients.clone() };
+        let point: LessonPoint = asked!(lesson, ask, LessonAnswer::Point);
+        Ok(PointFigures {
+            log_prior: point.log_prior,
+            plausibility: point.plausibility,
+            norm: point.norm,
+            distance: point.distance,
+            distance_likelihood: point.distance_likelihood,
+            projection_likelihood: point.projection_likelihood,
+            log_density: point.log_density,
+            log_difference: point.log_difference,
+        })
+    }
+
+    /// What a lane of the scene begins with.
+    fn beginning(&self, side: LessonSide, burn_in: usize) -> Beginning {
+        let difference = self.scene == SceneName::Difference;
+        Beginning {
+            target: if difference { LessonTarget::Difference } else { LessonTarget::Intersection },
+            side,
+            sampler: self.sampler,
+            chains: self.chains,
+            seed: self.seed.clone(),
+            burn_in,
+            dimension: None,
+            start: None,
+        }
+    }
+
+    /// Begins a lane; the number of its chains.
+    fn begin(
+        &self,
+        lesson: &mut Lesson,
+        lane: u32,
+        side: LessonSide,
+        burn_in: usize,
+    ) -> Result<usize, LessonError> {
+        let ask = LessonAsk::Begin { lane, how: self.beginning(side, burn_in) };
+        Ok(asked!(lesson, ask, LessonAnswer::Begun).chains)
+    }
+
+    fn race(&self, lesson: &mut Lesson) -> Result<Vec<RaceFigures>, LessonError> {
+        let scaling = self.broken == Break::Scaling;
+        if !scaling {
+            let opening = self.opening.clone();
+            let models = asked!(lesson, LessonAsk::Open(opening.clone()), LessonAnswer::Models);
+            let broken = match self.broken {
+                Break::Sigma => Some(Opening { sigma: Some(models.sigma / SIGMA_OVER), ..opening }),
+                Break::Misaligned => Some(Opening { turned: TURNED, ..opening }),
+                _ => None,
+            };
+            if let Some(opening) = broken {
+                asked!(lesson, LessonAsk::Open(opening), LessonAnswer::Models);
+            }
+        }
+        let burn_in = self.burn_in.unwrap_or(BURN_IN_OF_RACE);
+        let racers = RACERS.into_iter().filter(|sampler| sampler.is_walk() || !scaling);
+        racers
+            .zip(0..)
+            .map(|(sampler, lane)| {
+                let how = Beginning {
+                    sampler,
+                    chains: if self.broken == Break::OneChain { 1 } else { self.chains },
+                    target: match scaling {
+                        true => LessonTarget::Normal,
+                        false => LessonTarget::Intersection,
+                    },
+                    dimension: scaling.then_some(DIMENSION),
+                    ..self.beginning(self.side, burn_in)
+                };
+                asked!(lesson, LessonAsk::Begin { lane, how }, LessonAnswer::Begun);
+                advance(lesson, lane, burn_in + self.steps)?;
+                Ok(RaceFigures { sampler, figures: figures(lesson, lane)? })
+            })
+            .collect()
+    }
+}
+
+/// Steps, in as many asks as they take.
+fn advance(lesson: &mut Lesson, lane: u32, steps: usize) -> Result<(), LessonError> {
+    within("The number of steps", steps, 0, 10 * MOST_STEPS)?;
+    let mut left = steps;
+    while left > 0 {
+        let steps = left.min(MOST_STEPS);
+        asked!(lesson, LessonAsk::Advance { lane, steps, watch: false }, LessonAnswer::Progress);
+        left -= steps;
+    }
+    Ok(())
+}
+
+fn figures(lesson: &mut Lesson, lane: u32) -> Result<LaneFigures, LessonError> {
+    Ok(asked!(lesson, LessonAsk::Figures { lane }, LessonAnswer::Figures))
+}
+
+/// 20, 50, 100, 200 … below `draws`, and all of them.
+fn counts(draws: usize) -> Vec<usize> {
+    let decades = core::iter::successors(Some(10), |decade| Some(decade * 10));
+    let rounds = decades.flat_map(|decade| [2 * decade, 5 * decade, 10 * decade]);
+    rounds.take_while(|count| *count < draws).chain([draws]).collect()
+}
+
+fn tips(models: &LessonModels) -> Vec<Tip> {
+    let tip = |point: usize| {
+        let at = |sd: &[f64]| sd.get(point).copied();
+        Some(Tip {
+            point,
+            a: at(&models.a.vertex_sd)?,
+            b: at(&models.b.vertex_sd)?,
+            intersection: at(&models.intersection.vertex_sd)?,
+            truth: models.truth.as_ref().and_then(|truth| at(&truth.vertex_sd)),
+        })
+    };
+    TIPS.into_iter().filter_map(tip).collect()
+}
+
+fn shares(models: &LessonModels) -> BothSides<f64> {
+    let variance = |sd: &[f64]| sd.iter().map(|value| value * value).sum::<f64>();
+    let common = variance(&models.intersection.standard_deviations);
+    BothSides {
+        a: common / variance(&models.a.standard_deviations),
+        b: common / variance(&models.b.standard_deviations),
+    }
+}
