@@ -26,13 +26,13 @@ const quality = (
 test("chains agree where R-hat is small and there are enough effective draws, and not before", () => {
   const agree = chainVerdict(quality(4, 40_000, 1.004, 400));
   assert.ok(agree.calm);
-  assert.match(agree.text, /These 4 chains agree: R-hat 1.004 is below 1.01.*400/);
+  assert.match(agree.text, /These 4 chains agree: R-hat 1.0040 is below 1.01.*400/);
   const few = chainVerdict(quality(4, 40_000, 1.004, 399));
   assert.ok(!few.calm);
   assert.match(few.text, /Not converged yet: run longer.*only 399.*400 are wanted/);
   const apart = chainVerdict(quality(4, 40_000, 1.01, 4000));
   assert.ok(!apart.calm);
-  assert.match(apart.text, /R-hat 1.010 is not below 1.01: the chains differ/);
+  assert.match(apart.text, /R-hat 1.0100 is not below 1.01: the chains differ/);
 });
 
 test("one chain is never calm, and a few draws say nothing", () => {
@@ -67,12 +67,15 @@ test("a step is said as it was decided", () => {
 });
 
 test("d_G is told from noise, from the closed form, and from chains that are not there yet", () => {
-  assert.match(cloudVerdict(2000, 0.004, 0.0024, 0.003).text, /as near to the truth/);
-  assert.match(cloudVerdict(2000, 0.02, 0.0024, 0.018).text, /sampling noise/);
-  const lost = cloudVerdict(2000, 1.2, 0.0024, 0.018);
+  assert.match(cloudVerdict(2000, 0.004, 0.0024, 0.003, 1.004).text, /as near to the truth/);
+  assert.match(cloudVerdict(2000, 0.02, 0.0024, 0.018, 1.004).text, /sampling noise/);
+  const lost = cloudVerdict(2000, 1.2, 0.0024, 0.018, 1.004);
   assert.ok(!lost.calm);
   assert.match(lost.text, /far above/);
-  assert.match(cloudVerdict(2000, null, null, null).text, /not known/);
+  const apart = cloudVerdict(2000, 0.004, 0.0024, 0.003, 3.1);
+  assert.ok(!apart.calm);
+  assert.match(apart.text, /not converged: R-hat is 3.10/);
+  assert.match(cloudVerdict(2000, null, null, null, 1.004).text, /not known/);
 });
 
 test("a difference is all, next to nothing, or has a hole", () => {
@@ -95,6 +98,7 @@ const figures = (changes: Partial<LaneFigures>): LaneFigures => ({
   meanSquare: 1,
   mean: [],
   covariance: [],
+  meanDistance: 0.1,
   probability: null,
   standardError: null,
   ...changes,
@@ -104,16 +108,17 @@ test("every break says what went wrong with its own numbers", () => {
   const lanes = RACERS.map((_, i) =>
     figures({ essPerThousand: 2 + 150 * i, meanSquare: i === 0 ? 0.55 : 1.01, acceptance: 0.04 }),
   );
-  const said = BREAKS.map((what) => raceVerdict(what, lanes));
+  const said = BREAKS.map((what) => raceVerdict(what, lanes, 0.01));
   assert.equal(new Set(said.map(({ text }) => text)).size, BREAKS.length);
   assert.ok(said[0]?.calm);
   assert.match(said[0]?.text ?? "", /times as many effective draws/);
   assert.ok(said.slice(1).every(({ calm }) => !calm));
-  assert.match(raceVerdict("scaling", lanes).text, /0.550 instead of 1.*1.01/);
-  assert.match(raceVerdict("sigma", lanes).text, /4.0.%/);
+  assert.match(raceVerdict("scaling", lanes, 0.01).text, /0.550 instead of 1.*1.01/);
+  assert.match(raceVerdict("sigma", lanes, 0.01).text, /4.0.%/);
+  assert.match(raceVerdict("misaligned", lanes, 0.01).text, /0.100: 10 times σ/);
   const even = lanes.map((lane) => ({ ...lane, essPerThousand: 5 }));
-  assert.ok(!raceVerdict("none", even).calm, "where a fit gains nothing that is said");
-  assert.match(raceVerdict("none", []).text, /on their way/);
+  assert.ok(!raceVerdict("none", even, 0.01).calm, "where a fit gains nothing that is said");
+  assert.match(raceVerdict("none", [], 0.01).text, /on their way/);
 });
 
 test("a break changes one thing", () => {

@@ -10,9 +10,7 @@ export type Ask = <K extends LessonAsk["ask"]>(
 
 /** How a scene asks, until `signal` says that it is over. */
 export function asker(signal: AbortSignal): Ask {
-  const client = engineClient() as unknown as {
-    lesson: (...of: [AbortSignal, LessonAsk]) => never;
-  };
+  const client = engineClient();
   return (question) => client.lesson(signal, question);
 }
 

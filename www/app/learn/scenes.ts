@@ -53,7 +53,7 @@ export const SCENE_PARAMS = {
   cloud: {
     pair: choice("stars-5", STAR_PAIRS),
     sigma: number(0.003, 0.0001, 3, 5),
-    sampler: choice("paper-corrected", LESSON_SAMPLERS),
+    sampler: choice("independence", LESSON_SAMPLERS),
     chains: count(8, 1, 16),
     seed: seed(),
     draws: count(2000, 16, 20_000),

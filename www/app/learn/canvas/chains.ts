@@ -49,7 +49,7 @@ export function drawPrior(
   pen.lineWidth = 4;
   pen.strokeStyle = palette.stage;
   // Where the dashed circles meet the diagonal: no axis is there.
-  for (const radius of [1, 2, 3]) {
+  for (const radius of [2, 3]) {
     const [x, y] = [plane.x(radius * Math.SQRT1_2), plane.y(-radius * Math.SQRT1_2)];
     pen.strokeText(`${radius} SD`, x, y);
     pen.fillText(`${radius} SD`, x, y);

@@ -22,7 +22,7 @@ export function chainVerdict({ chains, draws, rHatMax, essBulkMin }: Quality): V
   if (rHatMax === null || essBulkMin === null || draws < TOO_EARLY * chains) {
     return { calm: false, text: "Too early to say: let it run." };
   }
-  const [rHat, ess] = [number(rHatMax, 4), count(essBulkMin)];
+  const [rHat, ess] = [number(rHatMax, 5), count(essBulkMin)];
   const wanted = ESS_EACH * chains;
   if (rHatMax < R_HAT_LIMIT && essBulkMin >= wanted) {
     return chains === 1
@@ -62,13 +62,23 @@ export function stepVerdict({ logRatio, uniform, accepted }: LessonStep): Verdic
       };
 }
 
+/** Chains with such an R-hat are plainly in different places. */
+const R_HAT_APART = 1.1;
+
 /** d_G beside what sampling alone would leave of it. */
 export function cloudVerdict(
   draws: number,
   found: number | null,
   closedForm: number | null,
   predicted: number | null,
+  rHat: number | null,
 ): Verdict {
+  if (rHat !== null && rHat >= R_HAT_APART) {
+    return {
+      calm: false,
+      text: `These chains have not converged: R-hat is ${number(rHat)}, and blue and orange lie apart. d_G may be small all the same: it compares the directions of the modes, not how far they reach.`,
+    };
+  }
   if (found === null) return { calm: false, text: "The intersection of this pair is not known." };
   const said = `After ${count(draws)} draws of each side d_G is ${number(found)}`;
   if (closedForm !== null && found <= 2 * closedForm) {

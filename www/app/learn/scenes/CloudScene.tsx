@@ -219,7 +219,13 @@ function Figures({ run }: { run: CloudRun }) {
       {found && (
         <AdviceLine
           advice={{
-            ...cloudVerdict(run.draws.value, found.grassmann, found.closedForm, predicted),
+            ...cloudVerdict(
+              run.draws.value,
+              found.grassmann,
+              found.closedForm,
+              predicted,
+              worst(sides?.a.rHatMax, sides?.b.rHatMax),
+            ),
             chain: null,
           }}
         />
@@ -228,14 +234,20 @@ function Figures({ run }: { run: CloudRun }) {
   );
 }
 
+function worst(...found: readonly (number | null | undefined)[]): number | null {
+  const known = found.filter((value): value is number => value != null);
+  return known.length === 0 ? null : Math.max(...known);
+}
+
 function Questions() {
   return (
     <div class="scene-questions">
       <details>
         <summary>Which sampler needs the fewest draws? Change it and compare the dots</summary>
         <p>
-          The independence sampler: its draws are nearly independent, so d_G follows the dashed line
-          from the start. Draws of the walks hang together; as many of them are worth far fewer.
+          The independence sampler: its draws are nearly independent, so d<sub>G</sub> follows the
+          dashed line from the start. Draws of the walks hang together; as many of them are worth
+          far fewer.
         </p>
       </details>
       <details>

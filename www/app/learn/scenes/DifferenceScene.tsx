@@ -13,6 +13,7 @@ import { PAIRS } from "../scenes";
 import { params, resetScene, setParams } from "../state";
 import { drawCut, drawDifference, Morph } from "./difference/draw";
 import { DifferenceRun, type DifferenceValues } from "./difference/run";
+import { ShareChart } from "./difference/ShareChart";
 import "../../../styles/learn-samplers.css";
 
 const USUAL_SIGMA = { planes: 0.3, stars: 0.03 };
@@ -44,7 +45,7 @@ export function DifferenceScene() {
   };
   const toggle = () => run.toggleRain();
   useSceneKeys(toggle, () => turn(!run.flipped.peek()));
-  const [own, other] = side === "a" ? ["A", "B"] : ["B", "A"];
+  const [own, other] = side === "a" ? (["A", "B"] as const) : (["B", "A"] as const);
   return (
     <>
       <p class="lead">
@@ -75,6 +76,7 @@ export function DifferenceScene() {
         <div class="scene-side">
           <Cut run={run} />
           <Figures run={run} own={own} other={other} side={side} />
+          <ShareChart shares={run.shares.value} sigma={sigma} own={own} other={other} />
         </div>
       </div>
       <div class="scene-settings">
@@ -148,8 +150,8 @@ function Cut({ run }: { run: DifferenceRun }) {
 
 interface FiguresProps {
   run: DifferenceRun;
-  own: string | undefined;
-  other: string | undefined;
+  own: string;
+  other: string;
   side: "a" | "b";
 }
 

@@ -11,7 +11,7 @@ import { useOwn, useSession } from "../sampling/session";
 import { BREAKS, PAIRS, SCENE_PARAMS } from "../scenes";
 import { params, resetScene, setParams } from "../state";
 import { BREAK_WORDS, raceVerdict } from "./race/broken";
-import { drawRunner } from "./race/draw";
+import { drawRunner, type Scenery } from "./race/draw";
 import { RaceTable } from "./race/RaceTable";
 import { MOST_STEPS, RaceRun, type RaceValues, type Runner } from "./race/run";
 import { SquareChart } from "./race/SquareChart";
@@ -85,8 +85,13 @@ export function RaceScene() {
           <RaceTable runners={run.runners.value} figures={run.figures.value} />
         </div>
         <div class="scene-side">
-          <AdviceLine advice={{ ...raceVerdict(what, run.figures.value), chain: null }} />
-          {what === "scaling" && <Squares run={run} />}
+          <AdviceLine
+            advice={{
+              ...raceVerdict(what, run.figures.value, run.models.value?.sigma ?? sigma),
+              chain: null,
+            }}
+          />
+          {what === "scaling" ? <Squares run={run} /> : <Distance run={run} />}
         </div>
       </div>
       <div class="scene-settings">
@@ -125,11 +130,14 @@ export function RaceScene() {
 function Lanes({ run }: { run: RaceRun }) {
   // Where they are now.
   run.step.value;
-  const [image, view] = [run.image.value, run.view.value];
+  const [image, view, models] = [run.image.value, run.view.value, run.models.value];
+  const { side, break: what } = params("race").value;
+  const fit = models && what !== "scaling" ? models.fits[side] : null;
+  const scenery = image && view && { image, view, fit };
   return (
     <div class="race-lanes" data-count={run.runners.value.length}>
       {run.runners.value.map((runner) => (
-        <Lane key={runner.sampler} runner={runner} image={image} view={view} />
+        <Lane key={runner.sampler} runner={runner} scenery={scenery} />
       ))}
     </div>
   );
@@ -137,18 +145,17 @@ function Lanes({ run }: { run: RaceRun }) {
 
 interface LaneProps {
   runner: Runner;
-  image: HTMLCanvasElement | null;
-  view: ReturnType<RaceRun["view"]["peek"]>;
+  scenery: Scenery | null;
 }
 
-function Lane({ runner, image, view }: LaneProps) {
+function Lane({ runner, scenery }: LaneProps) {
   return (
     <figure>
       <Board
         label={`${SAMPLER_NAMES[runner.sampler]}: its chains over the first two coefficients`}
         aspect={1}
         draw={(pen, size, palette) => {
-          if (image && view) drawRunner(pen, size, palette, runner, view, image);
+          if (scenery) drawRunner(pen, size, palette, runner, scenery);
         }}
       />
       <figcaption>{SAMPLER_NAMES[runner.sampler]}</figcaption>
@@ -172,6 +179,26 @@ function Squares({ run }: { run: RaceRun }) {
         metric="race.1.figures.meanSquare"
         value={corrected?.meanSquare}
         show={(value) => number(value)}
+      />
+    </LessonNumbers>
+  );
+}
+
+/** How far the draws of the last runner are from the other model, beside what σ allows. */
+function Distance({ run }: { run: RaceRun }) {
+  const lane = run.figures.value.length - 1;
+  return (
+    <LessonNumbers label="Distance of the draws to the other model">
+      <LessonNumber
+        label="mean d, independence"
+        metric={`race.${lane}.figures.meanDistance`}
+        value={run.figures.value[lane]?.meanDistance}
+      />
+      <LessonNumber
+        label="σ in use"
+        metric="settings.sigma"
+        value={run.models.value?.sigma}
+        note="d of a few σ is as it should be"
       />
     </LessonNumbers>
   );

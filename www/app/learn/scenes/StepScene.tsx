@@ -26,7 +26,7 @@ import { Working } from "./step/Working";
 import "../../../styles/learn-samplers.css";
 
 /** As many chains, and as fast, as it takes to see whether they agree. */
-const MANY = { chains: 8, speed: 300 };
+const MANY = { chains: 8, speed: 1000 };
 /** What may differ by so much is called near, on stars of ten points and on planes of one. */
 const USUAL_SIGMA = { planes: 0.3, stars: 0.03 };
 
@@ -37,7 +37,7 @@ export function StepScene() {
   const { revision, own } = useOwn(values.steps);
   const { pair, sigma, side, sampler, chains, seed, speed } = values;
   useSession([pair, sigma, side, sampler, chains, seed, revision].join(), (ask) =>
-    run.open(ask, params("step").peek()),
+    run.open(ask, params("step").peek(), write),
   );
   useFrames(run.moving, (elapsed) => run.frame(elapsed, params("step").peek().speed));
   const write = (steps: number) => {
@@ -50,7 +50,7 @@ export function StepScene() {
   };
   const toggle = () => {
     if (run.playing.peek()) void run.pause().then(write);
-    else run.run();
+    else run.run(write);
   };
   const one = () => void run.one().then(write);
   useSceneKeys(toggle, one);
@@ -87,7 +87,7 @@ export function StepScene() {
         <header class="step-chains-head">
           <h3 id="chains-title">Can it be trusted? Let several chains run</h3>
           <button type="button" onClick={many}>
-            {MANY.chains} chains, {MANY.speed} steps a second
+            {MANY.chains} chains, {count(MANY.speed)} steps a second
           </button>
         </header>
         <div class="scene-body">

@@ -106,9 +106,9 @@ function tipTrace(pen: Pen, plane: Plane, model: LessonModel, colour: string, wi
   pen.globalAlpha = 1;
 }
 
-/** Every bound of the paper’s pairs is at an end of a bin. */
+/** Degrees; a bin in the middle for tips that stay in their place. */
 const BIN = 2.5;
-const HALF = 60;
+const HALF = 61.25;
 /** Radii over half the side of the picture. */
 const RING = 0.4;
 const BARS = 0.5;

@@ -1,11 +1,12 @@
 /** The difference of a side: fields, exact draws, and what PCA makes of them. */
 import { batch, computed, signal } from "@preact/signals";
 import type {
-  LessonField,
   LaneFigures,
+  LessonField,
   LessonLaw,
   LessonModels,
   LessonPrincipal,
+  LessonSide,
 } from "../../../../worker/lessons";
 import { still } from "../../clock";
 import type { Ask } from "../../engine";
@@ -19,6 +20,7 @@ export const EXTENT = 3.4;
 /** Odd: one column of the grid is at 0, for the cut. */
 const FIELD_SIZE = 161;
 const MODES = 2;
+const FIRST_TWO: [number, number] = [0, 1];
 const LANES = { difference: 0, intersection: 1 };
 /** Draws of the intersection, to compare with. */
 const OTHERS = { chains: 4, burnIn: 50, steps: 150 };
@@ -26,6 +28,9 @@ const FLIP_MS = 1100;
 const RAIN_MS = 6000;
 /** The likelihood flips by itself once it has been seen as it was. */
 const STORY_MS = 3200;
+/** As far as the slider goes. */
+const SIGMAS = [0.003, 0.01, 0.03, 0.06, 0.1, 0.17, 0.3, 0.5, 0.8, 1.3, 2, 3];
+const SHARE_DRAWS = 1500;
 
 export interface Cloud {
   /** Two coefficients each. */
@@ -44,8 +49,16 @@ export interface Found {
   principal: LessonPrincipal;
 }
 
+export interface Share {
+  sigma: number;
+  share: number;
+}
+
 export class DifferenceRun {
   readonly found = signal<Found | null>(null);
+  /** The share that the other model cannot make, over σ. */
+  readonly shares = signal<readonly Share[]>([]);
+  #sharesOf = "";
   /** 0: L_D; 1: 1 − L_D; between them while it flips. */
   readonly flip = signal(0);
   /** Which of them it goes to. */
@@ -62,7 +75,7 @@ export class DifferenceRun {
   async open(ask: Ask, values: DifferenceValues, told: boolean): Promise<void> {
     const { pair, sigma, side, seed, draws } = values;
     const models = await ask({ ask: "open", pair, sigma, modes: MODES });
-    const grid = { side, modes: [0, 1] as const, at: [], extent: EXTENT, size: FIELD_SIZE };
+    const grid = { side, modes: FIRST_TWO, at: [], extent: EXTENT, size: FIELD_SIZE };
     const intersection = await ask({ ask: "field", of: "intersection", ...grid });
     const difference = await ask({ ask: "field", of: "difference", ...grid });
     const likelihood = await ask({ ask: "field", of: "likelihood", ...grid });
@@ -79,7 +92,7 @@ export class DifferenceRun {
     });
     await ask({ ask: "advance", lane, steps: draws, watch: false });
     const figures = await ask({ ask: "figures", lane });
-    const principal = await ask({ ask: "principal", lane, side });
+    const principal = await ask({ ask: "principal", lane });
     const { values: exclusive } = await ask({ ask: "draws", lane, most: draws });
     const common = await commonDraws(ask, values);
     batch(() => {
@@ -96,6 +109,21 @@ export class DifferenceRun {
       lessonState.value = "done";
       if (told) this.#tell();
     });
+    await this.#sweep(ask, values);
+  }
+
+  /** Other models are opened for it: after everything else. */
+  async #sweep(ask: Ask, { pair, side, seed }: DifferenceValues): Promise<void> {
+    const what = [pair, side, seed].join();
+    if (this.#sharesOf === what) return;
+    const shares: Share[] = [];
+    for (const sigma of SIGMAS) {
+      await ask({ ask: "open", pair, sigma, modes: MODES });
+      const share = await exclusiveShare(ask, side, seed);
+      if (share !== null) shares.push({ sigma, share });
+    }
+    this.shares.value = shares;
+    this.#sharesOf = what;
   }
 
   /** From the start: rain on the likelihood as it was, then the flip. */
@@ -157,6 +185,23 @@ export class DifferenceRun {
   fallen(count: number): number {
     return rained(this.rain.value / RAIN_MS, count);
   }
+}
+
+async function exclusiveShare(ask: Ask, side: LessonSide, seed: string): Promise<number | null> {
+  const lane = LANES.difference;
+  const sampler = "rejection" as const;
+  await ask({
+    ask: "begin",
+    lane,
+    target: "difference",
+    side,
+    sampler,
+    chains: 1,
+    seed,
+    burnIn: 0,
+  });
+  await ask({ ask: "advance", lane, steps: SHARE_DRAWS, watch: false });
+  return (await ask({ ask: "figures", lane })).probability;
 }
 
 async function commonDraws(ask: Ask, { side, seed }: DifferenceValues): Promise<Cloud> {

@@ -1,10 +1,5 @@
 /** What is broken in a race, and where its pictures look. Pure. */
-import type {
-  LessonAsk,
-  LaneFigures,
-  LessonLaw,
-  LessonSampler,
-} from "../../../../worker/lessons";
+import type { LaneFigures, LessonAsk, LessonLaw, LessonSampler } from "../../../../worker/lessons";
 import { count, number, percent } from "../../../format";
 import { R_HAT_LIMIT, type Verdict } from "../../sampling/verdicts";
 import type { BREAKS, SceneValues } from "../../scenes";
@@ -85,7 +80,7 @@ export const BREAK_WORDS: Record<Break, BreakWords> = {
 };
 
 /** What went wrong, and how one notices. */
-export function raceVerdict(what: Break, figures: readonly LaneFigures[]): Verdict {
+export function raceVerdict(what: Break, figures: readonly LaneFigures[], sigma: number): Verdict {
   const [published, corrected] = figures;
   const last = figures.at(-1);
   if (!published || !corrected || !last) return { calm: true, text: "They are on their way." };
@@ -105,7 +100,7 @@ export function raceVerdict(what: Break, figures: readonly LaneFigures[]): Verdi
     case "misaligned":
       return {
         calm: false,
-        text: `The chains converge all the same (R-hat ${rHat(last)}, independence sampler): to shapes that are nobody’s. No diagnostic of chains tells. One notices by the distance d of the draws, by ‖α‖²/q = ${number(last.meanSquare)}, and by looking at the shapes.`,
+        text: `The chains converge all the same (R-hat ${rHat(last)}, independence sampler): to shapes that B cannot make at all. No diagnostic of chains tells. One notices by the draws’ distance to B, ${number(last.meanDistance ?? Number.NaN)}: ${count((last.meanDistance ?? 0) / sigma)} times σ.`,
       };
     case "none":
       return wholeVerdict(corrected, last);
@@ -115,7 +110,7 @@ export function raceVerdict(what: Break, figures: readonly LaneFigures[]): Verdi
 function scalingVerdict(published: LaneFigures, corrected: LaneFigures): Verdict {
   return {
     calm: false,
-    text: `As published the walk shrinks: E‖α‖²/q is ${number(published.meanSquare)} instead of 1; with the Hastings factor it is ${number(corrected.meanSquare)}. R-hat is silent about it (${rHat(published)} and ${rHat(corrected)}): the chains agree on the wrong law. One notices on a target whose answer is known.`,
+    text: `As published the walk shrinks: E‖α‖²/q is ${number(published.meanSquare)} instead of 1; with the Hastings factor it is ${number(corrected.meanSquare)}. R-hat does not tell right from wrong here (${rHat(corrected)} and ${rHat(published)}): chains can agree on the wrong law. One notices on a target whose answer is known, like this one.`,
   };
 }
 

@@ -2,8 +2,8 @@
 import { batch, computed, signal } from "@preact/signals";
 import type {
   LaneFigures,
-  LessonModels,
   LaneProgress,
+  LessonModels,
   LessonStep,
 } from "../../../../worker/lessons";
 import { fieldImage } from "../../canvas/plane";
@@ -32,6 +32,7 @@ export const MOST_STEPS = 20_000;
 const LANE = 0;
 /** Models of two modes: what is drawn is all there is. */
 const MODES = 2;
+const FIRST_TWO: [number, number] = [0, 1];
 
 export class StepRun {
   readonly models = signal<LessonModels | null>(null);
@@ -49,13 +50,14 @@ export class StepRun {
   #turns = new Turns();
   #carry = 0;
   #sinceFigures = 0;
+  #over: ((step: number) => void) | null = null;
 
   /** Opens the models, and goes to the step of a link; without one the walk begins by itself. */
-  async open(ask: Ask, values: StepValues): Promise<void> {
+  async open(ask: Ask, values: StepValues, over: (step: number) => void): Promise<void> {
     const { pair, sigma, side, sampler, chains, seed, steps } = values;
     this.playing.value = false;
     const models = await ask({ ask: "open", pair, sigma, modes: MODES });
-    const grid = { side, modes: [0, 1] as const, at: [], extent: EXTENT, size: FIELD_SIZE };
+    const grid = { side, modes: FIRST_TWO, at: [], extent: EXTENT, size: FIELD_SIZE };
     const field = await ask({ ask: "field", of: "intersection", ...grid });
     const target = "intersection" as const;
     const lane = { lane: LANE, target, side, sampler, chains, seed, burnIn: 0 };
@@ -64,6 +66,7 @@ export class StepRun {
     this.trail.push(states);
     batch(() => {
       this.#ask = ask;
+      this.#over = over;
       this.models.value = models;
       this.image.value = fieldImage(field);
       this.progress.value = null;
@@ -116,7 +119,9 @@ export class StepRun {
     return this.step;
   }
 
-  run(): void {
+  /** Goes on; `over` is told of the last step that there is. */
+  run(over: (step: number) => void): void {
+    this.#over = over;
     if (this.step < MOST_STEPS) this.playing.value = true;
   }
 
@@ -169,8 +174,14 @@ export class StepRun {
     batch(() => {
       this.progress.value = { ...progress, steps: [] };
       if (decided.length > 0) this.decisions.value = decided.slice(-chains);
-      if (progress.step >= MOST_STEPS || decided.length === 0) this.playing.value = false;
+      if (progress.ended || progress.step >= MOST_STEPS) this.#end();
     });
+  }
+
+  #end(): void {
+    if (!this.playing.peek()) return;
+    this.playing.value = false;
+    void this.pause().then((step) => this.#over?.(step));
   }
 
   async #look(): Promise<void> {
