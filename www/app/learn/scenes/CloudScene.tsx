@@ -259,12 +259,11 @@ function Questions() {
         </p>
       </details>
       <details>
-        <summary>
-          Why do draws go beyond ±a, although nothing beyond was in the training shapes?
-        </summary>
+        <summary>Why is the model of the draws narrower than the truth?</summary>
         <p>
-          A model of a sweep is a Gaussian along it, and a Gaussian has tails: it gives the sweep’s
-          spread back, not its ends.
+          A draw must be plausible in A <em>and</em> in B: the paper multiplies both plausibilities.
+          Even the intersection of a model with itself would come out with half its variance. d
+          <sub>G</sub> does not mind: it compares directions, not lengths.
         </p>
       </details>
     </div>

@@ -8,7 +8,7 @@ import type { Runner } from "./run";
 /** Effective draws of 1,000 evaluations: from hardly any to independent ones. */
 const [LOW, HIGH] = [0.1, 1000];
 /** Bars so long have their number on them. */
-const INSIDE = 0.8;
+const INSIDE = 0.62;
 
 interface Props {
   runners: readonly Runner[];

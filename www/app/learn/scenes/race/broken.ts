@@ -100,7 +100,7 @@ export function raceVerdict(what: Break, figures: readonly LaneFigures[], sigma:
     case "misaligned":
       return {
         calm: false,
-        text: `The chains converge all the same (R-hat ${rHat(last)}, independence sampler): to shapes that B cannot make at all. No diagnostic of chains tells. One notices by the draws’ distance to B, ${number(last.meanDistance ?? Number.NaN)}: ${count((last.meanDistance ?? 0) / sigma)} times σ.`,
+        text: `Good samplers converge all the same (R-hat ${rHat(last)}, independence): to shapes that B cannot make at all. No diagnostic of chains tells that. One notices by the draws’ distance to B, ${number(last.meanDistance ?? Number.NaN)}: ${count((last.meanDistance ?? 0) / sigma)} times σ.`,
       };
     case "none":
       return wholeVerdict(corrected, last);

@@ -38,10 +38,12 @@ export function drawRunner(
   for (let chain = 0; chain < chains; chain += 1) {
     drawWay(pen, plane, palette, runner, chain);
   }
+  let outside = 0;
   for (let chain = 0; chain < chains; chain += 1) {
     const [last, column] = [trail.length - 1, chain * dimension];
     const [x, y] = [plane.x(trail.at(last, column)), plane.y(trail.at(last, column + 1))];
-    drawChain(pen, size, x, y, chainColour(palette, chain), palette.raised);
+    const colour = chainColour(palette, chain);
+    if (!drawChain(pen, size, { x, y, outside }, colour, palette.raised)) outside += 1;
   }
 }
 
@@ -67,15 +69,30 @@ function drawWay(pen: Pen, plane: Plane, palette: Palette, runner: Runner, chain
 
 const MARGIN = 9;
 
-/** A dot, or at the edge an arrow to where the chain is: out of sight is not gone. */
-function drawChain(pen: Pen, size: Size, x: number, y: number, colour: string, rim: string): void {
+interface Place {
+  x: number;
+  y: number;
+  /** How many chains have been pointed to before: arrows stand in a row. */
+  outside: number;
+}
+
+/** A dot, or at the edge an arrow to where the chain is: out of sight is not gone. Whether it is in sight. */
+function drawChain(
+  pen: Pen,
+  size: Size,
+  { x, y, outside }: Place,
+  colour: string,
+  rim: string,
+): boolean {
   const inside = (value: number, most: number) => Math.min(most - MARGIN, Math.max(MARGIN, value));
-  const [nearX, nearY] = [inside(x, size.width), inside(y, size.height)];
-  if (nearX === x && nearY === y) {
+  const [edgeX, edgeY] = [inside(x, size.width), inside(y, size.height)];
+  if (edgeX === x && edgeY === y) {
     drawDot(pen, x, y, 4.5, colour, rim);
-    return;
+    return true;
   }
-  const angle = Math.atan2(y - nearY, x - nearX);
+  const angle = Math.atan2(y - edgeY, x - edgeX);
+  const back = 11 * outside;
+  const [nearX, nearY] = [edgeX - back * Math.cos(angle), edgeY - back * Math.sin(angle)];
   const corner = (turn: number, radius: number) => {
     pen.lineTo(nearX + radius * Math.cos(angle + turn), nearY + radius * Math.sin(angle + turn));
   };
@@ -89,4 +106,5 @@ function drawChain(pen: Pen, size: Size, x: number, y: number, colour: string, r
   pen.strokeStyle = rim;
   pen.lineWidth = 1.25;
   pen.stroke();
+  return false;
 }
