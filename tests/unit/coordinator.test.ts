@@ -131,6 +131,28 @@ test("previews and sweeps are answered, but not while a run goes on", () => {
   }
 });
 
+test("a question of the lesson is answered, also while a run goes on, and its arrays are given away", () => {
+  const posted: [FromEngine, Transferable[] | undefined][] = [];
+  const values = new Float32Array(4);
+  const engine = {
+    start() {},
+    lesson: (ask) => ({ ...ask, values, highest: 0, lowest: 0 }),
+  } as Partial<Engine> as Engine;
+  const coordinator = new Coordinator(
+    engine,
+    (message, transfer) => posted.push([message, transfer]),
+    () => {},
+  );
+  coordinator.receive(run);
+  const ask = { ask: "field", of: "prior", modes: [0, 1], extent: 3, size: 2 } as const;
+  coordinator.receive({ t: "lesson", id: 9, ask: { ...ask, modes: [0, 1] } });
+  assert.deepEqual(posted.at(-2), [{ t: "busy", what: "preparing the lesson" }, undefined]);
+  const [message, transfer] = posted.at(-1) ?? [];
+  assert.ok(message?.t === "lesson" && message.id === 9);
+  assert.ok("values" in message.answer && message.answer.values === values);
+  assert.deepEqual(transfer, [values.buffer]);
+});
+
 const files = [{ name: "set/1.ply", blob: new Blob(["x"]) }];
 
 test("while a file is read the page hears how far, ten times a second and at the end", () => {
