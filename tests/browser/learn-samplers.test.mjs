@@ -104,8 +104,9 @@ test("many chains come to agree, and Back takes them away again", async () => {
     await page.locator(".advice", { hasText: /R-hat/ }).waitFor();
     await page.goBack();
     await untilAddress(page, /^#v=1&page=learn&scene=step&steps=20$/);
-    await untilState(page, "done");
-    assert.equal(await metric(page, "settings.steps"), 20, "at the step where it was");
+    await page.waitForFunction(
+      () => document.querySelector('[data-metric="settings.steps"]').dataset.value === "20",
+    );
   });
   await withPage({}, async ({ url, page }) => {
     await follow(page, url, "scene=step&chains=8&steps=20000");
@@ -204,7 +205,7 @@ test("every way to break a race shows its failure", async () => {
     const misaligned = await race("misaligned");
     assert.ok(misaligned["race.4.figures.rHatMax"] < 1.05, "the chains do not notice");
     const apart = misaligned["race.4.figures.meanDistance"];
-    assert.ok(apart > 50 * misaligned["settings.sigma"], `d is ${apart}`);
+    assert.ok(apart > 50 * 0.003, `d is ${apart}`);
   });
 });
 

@@ -1,5 +1,5 @@
 /** A lesson that a scene has open, begun anew whenever what it is of changes. */
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { type Ask, asker, sceneFailed } from "../engine";
 import { lessonState } from "../state";
 
@@ -11,7 +11,8 @@ export function useSession(key: string, open: (ask: Ask) => Promise<void>): void
   const latest = useRef(open);
   latest.current = open;
   const isFirst = useRef(true);
-  useEffect(() => {
+  // Before anybody looks: what is shown from now on is not yet of this key.
+  useLayoutEffect(() => {
     const control = new AbortController();
     lessonState.value = "loading";
     const begin = () => latest.current(guarded(control.signal)).catch(sceneFailed);

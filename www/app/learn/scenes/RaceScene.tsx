@@ -187,18 +187,18 @@ function Squares({ run }: { run: RaceRun }) {
 /** How far the draws of the last runner are from the other model, beside what σ allows. */
 function Distance({ run }: { run: RaceRun }) {
   const lane = run.figures.value.length - 1;
+  const sigma = run.models.value?.sigma;
   return (
     <LessonNumbers label="Distance of the draws to the other model">
       <LessonNumber
         label="mean d, independence"
         metric={`race.${lane}.figures.meanDistance`}
         value={run.figures.value[lane]?.meanDistance}
-      />
-      <LessonNumber
-        label="σ in use"
-        metric="settings.sigma"
-        value={run.models.value?.sigma}
-        note="d of a few σ is as it should be"
+        note={
+          sigma === undefined
+            ? undefined
+            : `σ is ${number(sigma)}: about as much is as it should be`
+        }
       />
     </LessonNumbers>
   );

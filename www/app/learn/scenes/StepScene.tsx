@@ -156,7 +156,7 @@ function Pictures({ run, slow, chains }: { run: StepRun; slow: boolean; chains: 
         />
         <figcaption class="board-caption">
           Magnified. Grey: proposal; <b class="good">✓</b> accepted; <b class="bad">✕</b> rejected.
-          <Mixture part={decisions[0]?.part} />
+          <Mixture part={decisions.at(-1)?.part} />
         </figcaption>
       </figure>
     </>
@@ -164,7 +164,7 @@ function Pictures({ run, slow, chains }: { run: StepRun; slow: boolean; chains: 
 }
 
 function LastStep({ run, corrected }: { run: StepRun; corrected: boolean }) {
-  return <Working step={run.decisions.value[0]} told={run.told.value} corrected={corrected} />;
+  return <Working step={run.decisions.value.at(-1)} told={run.told.value} corrected={corrected} />;
 }
 
 function Traces({ run, chains }: { run: StepRun; chains: number }) {

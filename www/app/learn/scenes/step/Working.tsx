@@ -16,7 +16,7 @@ export function Working({ step, told, corrected }: Props) {
   const decided = step !== undefined && isSaid("decide", told);
   const at = <T,>(said: boolean, value: T | undefined) => (said ? value : undefined);
   return (
-    <section class="step-working" aria-label="The last step, of the first chain">
+    <section class="step-working" aria-label="The last step, worked through">
       <dl class="step-sum">
         <Line
           label="log p(α′), of the proposal"

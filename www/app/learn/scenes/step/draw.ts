@@ -48,7 +48,7 @@ export function drawWalk(pen: Pen, size: Size, palette: Palette, shown: Shown): 
     const [x = 0, y = 0] = placeOf(shown, chain);
     drawDot(pen, plane.x(x), plane.y(y), radius, chainColour(palette, chain), palette.raised);
   }
-  if (shown.slow) drawLoupe(pen, plane, palette, placeOf(shown, 0));
+  if (shown.slow) drawLoupe(pen, plane, palette, placeOf(shown, followedOf(shown)));
 }
 
 /** Every state of late as a dot: where the walk stays longer they lie closer. */
@@ -114,19 +114,23 @@ function drawLoupe(pen: Pen, plane: Plane, palette: Palette, at: readonly number
   pen.strokeRect(plane.x(at[0] ?? 0) - half, plane.y(at[1] ?? 0) - half, 2 * half, 2 * half);
 }
 
-/** The first chain’s step from near by: what proposes, what is proposed, what is decided. */
+/** The chain under the magnifier: the last one, whose last step the command line tells too. */
+const followedOf = ({ decisions }: Shown) => Math.max(0, decisions.length - 1);
+
+/** That chain’s step from near by: what proposes, what is proposed, what is decided. */
 export function drawNear(pen: Pen, size: Size, palette: Palette, shown: Shown): void {
-  const at = placeOf(shown, 0);
+  const followed = followedOf(shown);
+  const at = placeOf(shown, followed);
   const plane = planeOf(size, NEAR, [at[0] ?? 0, at[1] ?? 0]);
   drawField(pen, plane, shown.image, EXTENT);
   pen.strokeStyle = palette.raised;
   pen.lineWidth = 3;
-  drawTrail(pen, plane, shown.trail, 0, 40);
-  pen.strokeStyle = faded(chainColour(palette, 0), 0.8);
+  drawTrail(pen, plane, shown.trail, 2 * followed, 40);
+  pen.strokeStyle = faded(chainColour(palette, followed), 0.8);
   pen.lineWidth = 1.5;
-  drawTrail(pen, plane, shown.trail, 0, 40);
-  const step = shown.decisions[0];
-  const colour = chainColour(palette, 0);
+  drawTrail(pen, plane, shown.trail, 2 * followed, 40);
+  const step = shown.decisions[followed];
+  const colour = chainColour(palette, followed);
   if (step) {
     drawMixture(pen, plane, palette, step);
     drawProposal(pen, plane, palette, step, shown.told, 11);
