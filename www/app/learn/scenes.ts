@@ -9,7 +9,7 @@ export const STAR_PAIRS = [
   "stars-5",
   "stars-6",
 ] as const;
-const PAIRS = [...STAR_PAIRS, "planes"] as const;
+export const PAIRS = [...STAR_PAIRS, "planes"] as const;
 const SIDES = ["a", "b"] as const;
 export const WALKS = ["paper-corrected", "paper"] as const;
 export const LESSON_SAMPLERS = [...WALKS, "mala", "hmc", "independence"] as const;
@@ -46,12 +46,14 @@ export const SCENE_PARAMS = {
     sampler: choice("paper-corrected", WALKS),
     chains: count(1, 1, 16),
     seed: seed(),
-    steps: count(0, 0, 5000),
+    steps: count(0, 0, 20_000),
+    /** Steps a second: how it is told, not what. */
+    speed: number(0.8, 0.5, 1000, 2),
   },
   cloud: {
     pair: choice("stars-5", STAR_PAIRS),
     sigma: number(0.003, 0.0001, 3, 5),
-    sampler: choice("paper-corrected", LESSON_SAMPLERS),
+    sampler: choice("independence", LESSON_SAMPLERS),
     chains: count(8, 1, 16),
     seed: seed(),
     draws: count(2000, 16, 20_000),

@@ -15,6 +15,8 @@ export interface Palette {
   /** Of the first and the second mode, or coefficient. */
   first: string;
   second: string;
+  /** Of chains, one after the other. */
+  chains: readonly string[];
   /** Family and pixels of small letters. */
   font: string;
   text: number;
@@ -37,32 +39,35 @@ const NAMES = [
   "second",
 ] as const;
 
+const CHAIN_COLOURS = 8;
+
 type Colours = Omit<Palette, "font" | "text">;
 
-/** Kept, since a frame has no time to ask for styles again and again. */
+/** To look colours up takes longer than to draw a frame: once a theme. */
 const known = new Map<string, Colours>();
 
-/** As the element has them: a theme, or larger letters, may be on above it. */
+/** As the page has them; letters as large as those of the element. */
 export function paletteOf(element: HTMLElement): Palette {
   const theme = document.documentElement.dataset.theme ?? "";
-  const colours = known.get(theme) ?? coloursNow();
-  known.set(theme, colours);
+  const colours = known.get(theme) ?? lookUp();
+  if (theme) known.set(theme, colours);
   const { fontFamily, fontSize } = getComputedStyle(element);
   return { ...colours, font: fontFamily, text: Number.parseFloat(fontSize) };
 }
 
-function coloursNow(): Colours {
+function lookUp(): Colours {
   // Custom properties are not resolved to colours: a colour of an element is.
   const probe = document.createElement("i");
   probe.hidden = true;
   document.body.append(probe);
-  const found: Record<string, string> = {};
-  for (const name of NAMES) {
+  const colourOf = (name: string) => {
     probe.style.color = `var(--${name})`;
-    found[name] = getComputedStyle(probe).color;
-  }
+    return getComputedStyle(probe).color;
+  };
+  const found = Object.fromEntries(NAMES.map((name) => [name, colourOf(name)]));
+  const chains = Array.from({ length: CHAIN_COLOURS }, (_, i) => colourOf(`chain-${i}`));
   probe.remove();
-  return found as unknown as Colours;
+  return { ...(found as unknown as Omit<Colours, "chains">), chains };
 }
 
 /** A colour of the palette, let through. */

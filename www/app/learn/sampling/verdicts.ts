@@ -1,0 +1,121 @@
+/** What numbers mean, in a sentence, for both outcomes. Pure. */
+import type { LaneFigures, LessonSide, LessonStep } from "../../../worker/lessons";
+import { count, number, percent } from "../../format";
+
+export interface Verdict {
+  /** Whether all is well. */
+  calm: boolean;
+  text: string;
+}
+
+/** Vehtari et al. 2021: R-hat below this, and so many effective draws for each chain. */
+export const R_HAT_LIMIT = 1.01;
+export const ESS_EACH = 100;
+
+type Quality = Pick<LaneFigures, "chains" | "draws" | "rHatMax" | "essBulkMin">;
+
+/** Draws of a chain before which its figures mean nothing. */
+const TOO_EARLY = 20;
+
+/** Whether chains have found what they are after. */
+export function chainVerdict({ chains, draws, rHatMax, essBulkMin }: Quality): Verdict {
+  if (rHatMax === null || essBulkMin === null || draws < TOO_EARLY * chains) {
+    return { calm: false, text: "Too early to say: let it run." };
+  }
+  const [rHat, ess] = [number(rHatMax, 5), count(essBulkMin)];
+  const wanted = ESS_EACH * chains;
+  if (rHatMax < R_HAT_LIMIT && essBulkMin >= wanted) {
+    return chains === 1
+      ? {
+          calm: false,
+          text: `R-hat ${rHat} and ${ess} effective draws look well, but a single chain agrees with itself even where it has missed a part: run several.`,
+        }
+      : {
+          calm: true,
+          text: `These ${chains} chains agree: R-hat ${rHat} is below ${R_HAT_LIMIT}, and they are worth ${ess} independent draws, at least ${wanted}.`,
+        };
+  }
+  if (rHatMax >= R_HAT_LIMIT) {
+    const whose = chains === 1 ? "the halves of this chain differ" : "the chains differ";
+    return {
+      calm: false,
+      text: `Not converged yet: run longer. R-hat ${rHat} is not below ${R_HAT_LIMIT}: ${whose} by more than chance.`,
+    };
+  }
+  return {
+    calm: false,
+    text: `Not converged yet: run longer. R-hat ${rHat} is fine, but the draws are worth only ${ess} independent ones; ${wanted} are wanted.`,
+  };
+}
+
+/** Why a step was taken or not, as one would say it aloud. */
+export function stepVerdict({ logRatio, uniform, accepted }: LessonStep): Verdict {
+  const ratio = number(Math.exp(logRatio));
+  if (logRatio >= 0) {
+    return { calm: true, text: `r = ${ratio} is at least 1: always accepted.` };
+  }
+  return accepted
+    ? { calm: true, text: `u = ${number(uniform)} is below r = ${ratio}: accepted.` }
+    : {
+        calm: false,
+        text: `u = ${number(uniform)} is not below r = ${ratio}: rejected, it stays.`,
+      };
+}
+
+/** Chains with such an R-hat are plainly in different places. */
+const R_HAT_APART = 1.1;
+
+/** d_G beside what sampling alone would leave of it. */
+export function cloudVerdict(
+  draws: number,
+  found: number | null,
+  closedForm: number | null,
+  predicted: number | null,
+  rHat: number | null,
+): Verdict {
+  if (rHat !== null && rHat >= R_HAT_APART) {
+    return {
+      calm: false,
+      text: `These chains have not converged: R-hat is ${number(rHat)}, and blue and orange lie apart. d_G may be small all the same: it compares the directions of the modes, not how far they reach.`,
+    };
+  }
+  if (found === null) return { calm: false, text: "The intersection of this pair is not known." };
+  const said = `After ${count(draws)} draws of each side d_G is ${number(found)}`;
+  if (closedForm !== null && found <= 2 * closedForm) {
+    return {
+      calm: true,
+      text: `${said}: as near to the truth as the closed form (${number(closedForm)}). More draws would gain nothing.`,
+    };
+  }
+  if (predicted !== null && found > 4 * predicted) {
+    return {
+      calm: false,
+      text: `${said}, far above the ${number(predicted)} that so many effective draws should leave: the chains have not found everything yet, or σ is too large.`,
+    };
+  }
+  return {
+    calm: true,
+    text: `${said}: sampling noise, which falls as one over the root of the effective draws. Ten times less takes a hundred times as many.`,
+  };
+}
+
+/** How much of a model the other cannot make. */
+export function differenceVerdict(side: LessonSide, share: number, misled: number): Verdict {
+  const [own, other] = side === "a" ? ["A", "B"] : ["B", "A"];
+  if (share > 0.95) {
+    return {
+      calm: false,
+      text: `At this σ nearly everything of ${own} counts as different (${percent(share)}): hardly any shape lies within σ of ${other}. The difference is then simply ${own}.`,
+    };
+  }
+  if (share < 0.05) {
+    return {
+      calm: false,
+      text: `At this σ ${other} can make nearly everything of ${own}: only ${percent(share)} is left, far out.`,
+    };
+  }
+  return {
+    calm: misled < 0.02,
+    text: `${percent(misled)} of the shapes that PCA of these draws would make are shapes that ${other} makes too: not in the difference at all. A hole cannot be told from a hill by a mean and a covariance.`,
+  };
+}

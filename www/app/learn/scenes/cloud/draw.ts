@@ -1,0 +1,197 @@
+/** Stars of draws, the model made of them beside the truth, and how far each tip turned. */
+import type { LessonModel } from "../../../../worker/lessons";
+import type { Size } from "../../canvas/Board";
+import { faded, type Palette } from "../../canvas/palette";
+import { type Plane, planeOf, traceShape } from "../../canvas/plane";
+import { placeOf, polarHistogram } from "../../sampling/polar";
+import type { BothSides } from "./run";
+
+type Pen = CanvasRenderingContext2D;
+type Segments = readonly (readonly [number, number])[];
+
+/** Half of the side of a picture; tips are at 10. */
+const EXTENT = 12;
+/** Standard deviations that the model is shown to sway. */
+const REACH = 2;
+
+/** Both sides of the draws, faint, one above the other; the tip that moves is marked. */
+export function drawStars(
+  pen: Pen,
+  size: Size,
+  palette: Palette,
+  stars: BothSides<Float32Array>,
+  segments: Segments,
+  length: number,
+): void {
+  const plane = planeOf(size, EXTENT);
+  const count = Math.max(1, stars.a.length / length);
+  const opacity = Math.min(0.5, Math.max(0.05, 6 / count));
+  pen.lineWidth = 1.25;
+  // In turn, so that neither side covers the other.
+  for (let at = 0; at < count * length; at += length) {
+    for (const side of ["a", "b"] as const) {
+      if (at + length > stars[side].length) continue;
+      pen.strokeStyle = faded(palette[side], opacity);
+      traceShape(pen, plane, stars[side].subarray(at, at + length), segments);
+      pen.stroke();
+    }
+  }
+  for (const side of ["a", "b"] as const) {
+    pen.fillStyle = faded(palette[side], 0.5);
+    pen.beginPath();
+    each(stars[side], length, (star) => {
+      const [x, y] = [plane.x(star[0] ?? 0), plane.y(star[1] ?? 0)];
+      pen.moveTo(x + 2, y);
+      pen.arc(x, y, 2, 0, 2 * Math.PI);
+    });
+    pen.fill();
+  }
+}
+
+function each(stars: Float32Array, length: number, act: (star: Float32Array) => void): void {
+  for (let at = 0; at + length <= stars.length; at += length) act(stars.subarray(at, at + length));
+}
+
+/** The shape that is `along` standard deviations out on the first mode. */
+function swayed({ mean, basis }: LessonModel, along: number): number[] {
+  return mean.map((value, i) => value + along * (basis[i] ?? 0));
+}
+
+/** Modes have no sign of their own: 1 or −1, so that two of them go the same way. */
+function sameWay(one: LessonModel, other: LessonModel): number {
+  const dot = one.mean.reduce((sum, _, i) => sum + (one.basis[i] ?? 0) * (other.basis[i] ?? 0), 0);
+  return dot < 0 ? -1 : 1;
+}
+
+/** The model of the draws (solid) and the truth (dashed), swaying along their first mode. */
+export function drawModel(
+  pen: Pen,
+  size: Size,
+  palette: Palette,
+  model: LessonModel,
+  truth: LessonModel | null,
+  segments: Segments,
+  sway: number,
+): void {
+  const plane = planeOf(size, EXTENT);
+  const way = truth ? sameWay(truth, model) : 1;
+  const outline = (shape: readonly number[], colour: string, width: number, dash: number[]) => {
+    pen.setLineDash(dash);
+    pen.strokeStyle = colour;
+    pen.lineWidth = width;
+    traceShape(pen, plane, shape, segments);
+    pen.stroke();
+    pen.setLineDash([]);
+  };
+  for (const end of [-REACH, REACH]) {
+    outline(swayed(model, end), faded(palette.ab, 0.28), 1.5, []);
+    if (truth) outline(swayed(truth, end), faded(palette.ink, 0.35), 1, [3, 4]);
+  }
+  outline(swayed(model, way * REACH * sway), palette.ab, 3, []);
+  if (truth) outline(swayed(truth, REACH * sway), palette.ink, 1.5, [5, 5]);
+  tipTrace(pen, plane, model, palette.ab, 4);
+  if (truth) tipTrace(pen, plane, truth, palette.ink, 1.25);
+}
+
+/** The way of the first tip, from one end of the mode to the other. */
+function tipTrace(pen: Pen, plane: Plane, model: LessonModel, colour: string, width: number): void {
+  const [from, to] = [swayed(model, -REACH), swayed(model, REACH)];
+  pen.strokeStyle = colour;
+  pen.lineWidth = width;
+  pen.globalAlpha = 0.6;
+  pen.beginPath();
+  pen.moveTo(plane.x(from[0] ?? 0), plane.y(from[1] ?? 0));
+  pen.lineTo(plane.x(to[0] ?? 0), plane.y(to[1] ?? 0));
+  pen.stroke();
+  pen.globalAlpha = 1;
+}
+
+/** Degrees; a bin in the middle for tips that stay in their place. */
+const BIN = 2.5;
+const HALF = 61.25;
+/** Radii over half the side of the picture. */
+const RING = 0.4;
+const BARS = 0.5;
+
+/** Polar histogram: how often each tip is how far off its place, with what both models can make. */
+export function drawPolar(
+  pen: Pen,
+  size: Size,
+  palette: Palette,
+  stars: BothSides<Float32Array>,
+  length: number,
+  bound: number | null,
+): void {
+  const half = Math.min(size.width, size.height) / 2;
+  const [cx, cy, ring] = [size.width / 2, size.height / 2, RING * half];
+  const at = (degrees: number, radius: number): [number, number] => {
+    const angle = (degrees * Math.PI) / 180;
+    return [cx + radius * Math.cos(angle), cy - radius * Math.sin(angle)];
+  };
+  if (bound !== null) {
+    sector(pen, at, 90 - bound, 90 + bound, ring, ring + BARS * half);
+    pen.fillStyle = faded(palette.ab, 0.14);
+    pen.fill();
+  }
+  pen.strokeStyle = palette.line;
+  pen.lineWidth = 1;
+  pen.beginPath();
+  pen.arc(cx, cy, ring, 0, 2 * Math.PI);
+  pen.stroke();
+  const together = new Float32Array(stars.a.length + stars.b.length);
+  together.set(stars.a);
+  together.set(stars.b, stars.a.length);
+  polarHistogram(together, length, BIN, HALF).forEach((bins, tip) => {
+    pen.fillStyle = tip === 0 ? palette.ab : faded(palette.dim, 0.75);
+    bins.forEach((share, bin) => {
+      if (share === 0) return;
+      const from = placeOf(tip) - HALF + bin * BIN;
+      // As much area as there are stars: lengths go with the root.
+      sector(pen, at, from + 0.2, from + BIN - 0.2, ring, ring + BARS * half * Math.sqrt(share));
+      pen.fill();
+    });
+  });
+  pen.fillStyle = palette.dim;
+  pen.font = `${palette.text}px ${palette.font}`;
+  pen.textAlign = "center";
+  pen.textBaseline = "middle";
+  for (let tip = 0; tip < 5; tip += 1) {
+    const [x, y] = at(placeOf(tip), ring - 16 * (palette.text / 14));
+    pen.fillText(String(tip + 1), x, y);
+  }
+  if (bound === null) return;
+  pen.strokeStyle = palette.ab;
+  pen.lineWidth = 1.5;
+  pen.setLineDash([4, 3]);
+  for (const sign of [-1, 1]) {
+    const degrees = 90 - sign * bound;
+    pen.beginPath();
+    pen.moveTo(...at(degrees, ring - 6));
+    pen.lineTo(...at(degrees, ring + BARS * half));
+    pen.stroke();
+    pen.fillStyle = palette.ink;
+    pen.textAlign = sign > 0 ? "left" : "right";
+    const [x, y] = at(degrees, ring + BARS * half);
+    pen.fillText(`${sign > 0 ? "−" : "+"}${bound}°`, x + sign * 5, y + 4);
+  }
+  pen.setLineDash([]);
+}
+
+function sector(
+  pen: Pen,
+  at: (degrees: number, radius: number) => [number, number],
+  from: number,
+  to: number,
+  inner: number,
+  outer: number,
+): void {
+  pen.beginPath();
+  const parts = Math.max(1, Math.ceil((to - from) / 4));
+  for (let i = 0; i <= parts; i += 1) {
+    pen.lineTo(...at(from + (i / parts) * (to - from), outer));
+  }
+  for (let i = parts; i >= 0; i -= 1) {
+    pen.lineTo(...at(from + (i / parts) * (to - from), inner));
+  }
+  pen.closePath();
+}

@@ -1,0 +1,66 @@
+import { number, percent } from "../../../format";
+import { linear, logarithmic } from "../../../plots";
+import { Chart } from "../../../views/Chart";
+import { DataTable } from "../../../views/DataTable";
+import { type Box, PlotAxes } from "../../../views/PlotAxes";
+import type { Share } from "./run";
+
+const HEIGHT = 190;
+
+interface Props {
+  shares: readonly Share[];
+  sigma: number;
+  own: string;
+  other: string;
+}
+
+/** How much of a model counts as different, over σ, with the σ in use. */
+export function ShareChart({ shares, sigma, own, other }: Props) {
+  const [first, last] = [shares[0], shares.at(-1)];
+  if (!first || !last) return null;
+  return (
+    <Chart
+      name="shares"
+      title="What counts as different depends on σ"
+      about={`Share of ${own} that ${other} cannot make. At small σ that is all of it.`}
+      label={`Share of ${own} that ${other} cannot make: ${percent(first.share)} at σ = ${number(first.sigma)}, ${percent(last.share)} at σ = ${number(last.sigma)}.`}
+      height={() => HEIGHT}
+      draw={(width) => <Line shares={shares} sigma={sigma} width={width} />}
+      table={() => (
+        <DataTable
+          file="difference-over-sigma"
+          caption={`Share of ${own} that ${other} cannot make`}
+          corner="σ"
+          columns={[{ title: "share", show: percent }]}
+          rows={shares.map(({ sigma, share }) => ({ head: number(sigma), values: [share] }))}
+        />
+      )}
+    />
+  );
+}
+
+function Line({ shares, sigma, width }: Pick<Props, "shares" | "sigma"> & { width: number }) {
+  const box: Box = { left: 44, right: width - 10, top: 14, bottom: HEIGHT - 36 };
+  const [first, last] = [shares[0]?.sigma ?? 0.01, shares.at(-1)?.sigma ?? 1];
+  const x = logarithmic(first, last, box.left, box.right);
+  const y = linear(0, 1, box.bottom, box.top);
+  return (
+    <g class="shares">
+      <PlotAxes
+        box={box}
+        x={x}
+        y={y}
+        across={[0.01, 0.1, 1]}
+        up={[0, 0.5, 1]}
+        acrossName="σ"
+        upName=""
+        showUp={percent}
+      />
+      <polyline
+        class="share"
+        points={shares.map((one) => `${x(one.sigma)},${y(one.share)}`).join(" ")}
+      />
+      <line class="used" x1={x(sigma)} x2={x(sigma)} y1={box.top} y2={box.bottom} />
+    </g>
+  );
+}

@@ -1,0 +1,197 @@
+/** The plane of the difference: two densities that turn into one another, rain, and an ellipse. */
+import type { LessonField, LessonSide } from "../../../../worker/lessons";
+import { viridis } from "../../../colormap";
+import type { Size } from "../../canvas/Board";
+import { drawPrior } from "../../canvas/chains";
+import { faded, type Palette } from "../../canvas/palette";
+import { drawField, type Plane, planeOf, traceGaussian } from "../../canvas/plane";
+import { eased } from "../../sampling/pacing";
+import { type Cloud, EXTENT, type Found } from "./run";
+
+type Pen = CanvasRenderingContext2D;
+
+/** How far below its maximum a density is still coloured, in units of log. */
+const DEPTH = 8;
+const RADIUS_SD = 2;
+/** The last so many drops are still on their way. */
+const FALLING = 14;
+
+/** A picture between two fields, drawn anew into the same canvas. */
+export class Morph {
+  readonly canvas = document.createElement("canvas");
+  #shown: { from: LessonField; to: LessonField; way: number } | null = null;
+
+  at(from: LessonField, to: LessonField, way: number): HTMLCanvasElement {
+    const before = this.#shown;
+    if (before?.from === from && before.to === to && before.way === way) return this.canvas;
+    this.#shown = { from, to, way };
+    const size = Math.round(Math.sqrt(from.values.length));
+    if (this.canvas.width !== size) this.canvas.width = this.canvas.height = size;
+    const pen = this.canvas.getContext("2d");
+    if (!pen) return this.canvas;
+    const image = pen.createImageData(size, size);
+    for (let i = 0; i < from.values.length; i += 1) {
+      const [one, other] = [(from.values[i] ?? 0) - from.highest, (to.values[i] ?? 0) - to.highest];
+      const share = (1 - way) * Math.exp(one) + way * Math.exp(other);
+      const shown = (1 - way) * visible(one) + way * visible(other);
+      const [red, green, blue] = viridis(share);
+      image.data.set([red, green, blue, Math.round(255 * Math.min(1, shown))], 4 * i);
+    }
+    pen.putImageData(image, 0, 0);
+    return this.canvas;
+  }
+}
+
+const visible = (below: number) => Math.max(0, 1 + below / DEPTH);
+
+interface Shown {
+  found: Found;
+  morph: Morph;
+  flip: number;
+  side: LessonSide;
+  /** How many draws have fallen, of those that belong to the side that is up. */
+  fallen: (count: number) => number;
+}
+
+export function drawDifference(pen: Pen, size: Size, palette: Palette, shown: Shown): void {
+  const { found, morph, flip, side } = shown;
+  const plane = planeOf(size, EXTENT);
+  const way = eased(flip);
+  drawField(pen, plane, morph.at(found.intersection, found.difference, way), EXTENT);
+  drawPrior(pen, plane, palette, ["α₁", "α₂"]);
+  const up = flip > 0.5 ? found.exclusive : found.common;
+  const colour = flip > 0.5 ? palette[side] : palette.ab;
+  // What belongs to the other side leaves before it comes.
+  const alpha = Math.abs(2 * flip - 1);
+  drawRain(pen, plane, size, up, shown.fallen(up.values.length / 2), colour, palette.raised, alpha);
+  drawLaw(pen, plane, palette, up, alpha, flip > 0.5 ? "PCA of the difference, 2 SD" : "PCA, 2 SD");
+}
+
+function drawRain(
+  pen: Pen,
+  plane: Plane,
+  size: Size,
+  { values }: Cloud,
+  fallen: number,
+  colour: string,
+  rim: string,
+  alpha: number,
+): void {
+  pen.globalAlpha = alpha;
+  const count = values.length / 2;
+  const radius = Math.max(2, Math.min(2.8, size.width / 230));
+  const landed = fallen >= count ? count : Math.max(0, fallen - FALLING);
+  pen.beginPath();
+  for (let i = 0; i < landed; i += 1) {
+    const [x, y] = [plane.x(values[2 * i] ?? 0), plane.y(values[2 * i + 1] ?? 0)];
+    pen.moveTo(x + radius, y);
+    pen.arc(x, y, radius, 0, 2 * Math.PI);
+  }
+  pen.fillStyle = colour;
+  pen.fill();
+  pen.lineWidth = 0.6;
+  pen.strokeStyle = rim;
+  pen.stroke();
+  for (let i = landed; i < fallen; i += 1) {
+    const way = eased((fallen - i) / FALLING);
+    const [x, y] = [plane.x(values[2 * i] ?? 0), plane.y(values[2 * i + 1] ?? 0)];
+    const above = y - (1 - way) * 70;
+    pen.strokeStyle = faded(colour, 0.7);
+    pen.lineWidth = 1.5;
+    pen.beginPath();
+    pen.moveTo(x, above - 9 * (1 - way));
+    pen.lineTo(x, above);
+    pen.stroke();
+    pen.beginPath();
+    pen.arc(x, above, radius, 0, 2 * Math.PI);
+    pen.fillStyle = colour;
+    pen.fill();
+  }
+  pen.globalAlpha = 1;
+}
+
+/** What a mean and a covariance say of the draws. */
+function drawLaw(
+  pen: Pen,
+  plane: Plane,
+  palette: Palette,
+  { law }: Cloud,
+  alpha: number,
+  name: string,
+): void {
+  pen.globalAlpha = alpha;
+  traceGaussian(pen, plane, law, RADIUS_SD);
+  pen.lineWidth = 4;
+  pen.strokeStyle = palette.raised;
+  pen.stroke();
+  pen.lineWidth = 2;
+  pen.setLineDash([7, 5]);
+  pen.strokeStyle = palette.ink;
+  pen.stroke();
+  pen.setLineDash([]);
+  const [x = 0, y = 0] = law.mean;
+  const top = RADIUS_SD * Math.sqrt(Math.max(0, law.covariance[3] ?? 0));
+  pen.font = `600 ${palette.text}px ${palette.font}`;
+  pen.textAlign = "center";
+  pen.textBaseline = "bottom";
+  pen.lineWidth = 4;
+  pen.strokeStyle = palette.stage;
+  pen.strokeText(name, plane.x(x), plane.y(y + top) - 5);
+  pen.fillStyle = palette.ink;
+  pen.fillText(name, plane.x(x), plane.y(y + top) - 5);
+  pen.globalAlpha = 1;
+}
+
+/** L_D along α₂ where α₁ = 0, which turns upside down. */
+export function drawCut(
+  pen: Pen,
+  size: Size,
+  palette: Palette,
+  likelihood: LessonField,
+  flip: number,
+): void {
+  const rows = Math.round(Math.sqrt(likelihood.values.length));
+  const middle = (rows - 1) / 2;
+  const letters = palette.text;
+  const box = {
+    left: 1.9 * letters,
+    right: size.width - 12,
+    top: 14,
+    bottom: size.height - 2 * letters,
+  };
+  const x = (row: number) => box.right - (row / (rows - 1)) * (box.right - box.left);
+  const y = (value: number) => box.bottom - value * (box.bottom - box.top);
+  pen.font = `${letters}px ${palette.font}`;
+  pen.fillStyle = palette.dim;
+  pen.strokeStyle = palette.line;
+  pen.lineWidth = 1;
+  for (const level of [0, 0.5, 1]) {
+    pen.setLineDash(level === 0.5 ? [2, 4] : []);
+    pen.beginPath();
+    pen.moveTo(box.left, y(level));
+    pen.lineTo(box.right, y(level));
+    pen.stroke();
+    if (level === 0.5) continue;
+    pen.textAlign = "right";
+    pen.textBaseline = "middle";
+    pen.fillText(String(level), box.left - 6, y(level));
+  }
+  pen.setLineDash([]);
+  pen.textAlign = "center";
+  pen.textBaseline = "top";
+  for (const value of [-3, -2, -1, 0, 1, 2, 3]) {
+    const place = x(((EXTENT - value) / (2 * EXTENT)) * (rows - 1));
+    pen.fillText(String(value).replace("-", "−"), place, box.bottom + 5);
+  }
+  pen.textAlign = "right";
+  pen.fillText("α₂", box.right, box.bottom + 5);
+  const way = eased(flip);
+  pen.beginPath();
+  for (let row = 0; row < rows; row += 1) {
+    const value = likelihood.values[row * rows + middle] ?? 0;
+    pen.lineTo(x(row), y(value + way * (1 - 2 * value)));
+  }
+  pen.strokeStyle = way > 0.5 ? palette.a : palette.ab;
+  pen.lineWidth = 2.5;
+  pen.stroke();
+}

@@ -1,0 +1,110 @@
+/** A runner’s board: the target, where its chains were, where they are. */
+import type { LessonLaw } from "../../../../worker/lessons";
+import type { Size } from "../../canvas/Board";
+import { chainColour, drawDot } from "../../canvas/chains";
+import { faded, type Palette } from "../../canvas/palette";
+import { drawField, type Plane, planeOf, traceGaussian } from "../../canvas/plane";
+import type { View } from "./broken";
+import type { Runner } from "./run";
+
+type Pen = CanvasRenderingContext2D;
+
+export interface Scenery {
+  view: View;
+  image: HTMLCanvasElement;
+  /** The Gaussian fit: seen where the target is too thin for a picture of it. */
+  fit: LessonLaw | null;
+}
+
+export function drawRunner(
+  pen: Pen,
+  size: Size,
+  palette: Palette,
+  runner: Runner,
+  { view, image, fit }: Scenery,
+): void {
+  const plane = planeOf(size, view.extent, view.centre);
+  drawField(pen, plane, image, view.fieldExtent);
+  if (fit) {
+    traceGaussian(pen, plane, fit, 2);
+    pen.strokeStyle = faded(palette.ink, 0.55);
+    pen.lineWidth = 1;
+    pen.setLineDash([3, 4]);
+    pen.stroke();
+    pen.setLineDash([]);
+  }
+  const { trail, dimension, width } = runner;
+  const chains = trail.length === 0 ? 0 : Math.round(width / dimension);
+  for (let chain = 0; chain < chains; chain += 1) {
+    drawWay(pen, plane, palette, runner, chain);
+  }
+  let outside = 0;
+  for (let chain = 0; chain < chains; chain += 1) {
+    const [last, column] = [trail.length - 1, chain * dimension];
+    const [x, y] = [plane.x(trail.at(last, column)), plane.y(trail.at(last, column + 1))];
+    const colour = chainColour(palette, chain);
+    if (!drawChain(pen, size, { x, y, outside }, colour, palette.raised)) outside += 1;
+  }
+}
+
+function drawWay(pen: Pen, plane: Plane, palette: Palette, runner: Runner, chain: number): void {
+  const { trail, dimension } = runner;
+  const column = chain * dimension;
+  pen.strokeStyle = faded(chainColour(palette, chain), 0.3);
+  pen.lineWidth = 1;
+  pen.beginPath();
+  for (let i = 0; i < trail.length; i += 1) {
+    pen.lineTo(plane.x(trail.at(i, column)), plane.y(trail.at(i, column + 1)));
+  }
+  pen.stroke();
+  pen.fillStyle = chainColour(palette, chain);
+  pen.beginPath();
+  for (let i = 0; i < trail.length; i += 1) {
+    const [x, y] = [plane.x(trail.at(i, column)), plane.y(trail.at(i, column + 1))];
+    pen.moveTo(x + 1.2, y);
+    pen.arc(x, y, 1.2, 0, 2 * Math.PI);
+  }
+  pen.fill();
+}
+
+const MARGIN = 9;
+
+interface Place {
+  x: number;
+  y: number;
+  /** How many chains have been pointed to before: arrows stand in a row. */
+  outside: number;
+}
+
+/** A dot, or at the edge an arrow to where the chain is: out of sight is not gone. Whether it is in sight. */
+function drawChain(
+  pen: Pen,
+  size: Size,
+  { x, y, outside }: Place,
+  colour: string,
+  rim: string,
+): boolean {
+  const inside = (value: number, most: number) => Math.min(most - MARGIN, Math.max(MARGIN, value));
+  const [edgeX, edgeY] = [inside(x, size.width), inside(y, size.height)];
+  if (edgeX === x && edgeY === y) {
+    drawDot(pen, x, y, 4.5, colour, rim);
+    return true;
+  }
+  const angle = Math.atan2(y - edgeY, x - edgeX);
+  const back = 11 * outside;
+  const [nearX, nearY] = [edgeX - back * Math.cos(angle), edgeY - back * Math.sin(angle)];
+  const corner = (turn: number, radius: number) => {
+    pen.lineTo(nearX + radius * Math.cos(angle + turn), nearY + radius * Math.sin(angle + turn));
+  };
+  pen.beginPath();
+  corner(0, 7);
+  corner(2.4, 7);
+  corner(-2.4, 7);
+  pen.closePath();
+  pen.fillStyle = colour;
+  pen.fill();
+  pen.strokeStyle = rim;
+  pen.lineWidth = 1.25;
+  pen.stroke();
+  return false;
+}

@@ -1,0 +1,208 @@
+/** Samplers side by side on one target, whole and broken. */
+import { batch, signal } from "@preact/signals";
+import type { LaneFigures, LessonModels, LessonSampler } from "../../../../worker/lessons";
+import { fieldImage } from "../../canvas/plane";
+import type { Ask } from "../../engine";
+import { due } from "../../sampling/pacing";
+import { Turns } from "../../sampling/session";
+import { Trail } from "../../sampling/trail";
+import type { SceneValues } from "../../scenes";
+import { lessonState } from "../../state";
+import { broken, type View, viewOf } from "./broken";
+
+export type RaceValues = SceneValues<"race">;
+
+const BURN_IN = 200;
+const TRAIL = 90;
+const FIELD_SIZE = 144;
+/** How long a race lasts, and into how many parts one that is not watched is cut for its curves. */
+const RACE_MS = 10_000;
+const PARTS = 25;
+/** Steps that an engine is asked for between two frames. */
+const MOST_AT_ONCE = 200;
+const FIGURES_EVERY_MS = 120;
+export const MOST_STEPS = 5000;
+const MORE = 2;
+
+export interface Runner {
+  sampler: LessonSampler;
+  lane: number;
+  dimension: number;
+  /** Numbers of a state: chains × dimension. */
+  width: number;
+  trail: Trail;
+}
+
+/** Mean of ‖α‖²/q of each runner after some steps. */
+export interface Moment {
+  step: number;
+  meanSquares: readonly number[];
+}
+
+export class RaceRun {
+  readonly models = signal<LessonModels | null>(null);
+  readonly image = signal<HTMLCanvasElement | null>(null);
+  readonly view = signal<View | null>(null);
+  readonly runners = signal<readonly Runner[]>([]);
+  readonly figures = signal<readonly LaneFigures[]>([]);
+  readonly curve = signal<readonly Moment[]>([]);
+  readonly playing = signal(false);
+  /** Steps after the burn-in. */
+  readonly step = signal(0);
+  readonly target = signal(0);
+  #ask: Ask | null = null;
+  #turns = new Turns();
+  #carry = 0;
+  #clock = 0;
+  #next = 0;
+  #over: ((steps: number) => void) | null = null;
+
+  async open(ask: Ask, values: RaceValues, growing: boolean): Promise<void> {
+    const { side, chains, seed, steps } = values;
+    this.playing.value = false;
+    const { opening, samplers, target, dimension, oneChain } = broken(values);
+    const models = await ask({ ask: "open", ...opening });
+    const view = viewOf(models.fits[side], target);
+    const field = await ask({
+      ask: "field",
+      of: target,
+      side,
+      modes: [0, 1],
+      at: target === "normal" ? [] : models.fits[side].mean,
+      extent: view.fieldExtent,
+      size: FIELD_SIZE,
+    });
+    const runners: Runner[] = [];
+    for (const [lane, sampler] of samplers.entries()) {
+      const begun = await ask({
+        ask: "begin",
+        lane,
+        target,
+        side,
+        sampler,
+        chains: oneChain ? 1 : chains,
+        seed,
+        burnIn: BURN_IN,
+        ...(dimension === null ? {} : { dimension }),
+      });
+      const { states } = await ask({ ask: "advance", lane, steps: BURN_IN, watch: false });
+      const trail = new Trail(TRAIL);
+      trail.clear(states.length);
+      trail.push(states);
+      runners.push({ sampler, lane, dimension: begun.dimension, width: states.length, trail });
+    }
+    batch(() => {
+      this.#ask = ask;
+      this.#over = null;
+      this.models.value = models;
+      this.view.value = view;
+      this.image.value = fieldImage(field);
+      this.runners.value = runners;
+      this.figures.value = [];
+      this.curve.value = [];
+      this.step.value = 0;
+      this.target.value = steps;
+      this.playing.value = growing;
+    });
+    if (!growing) await this.#jump(steps);
+  }
+
+  frame(elapsedMs: number): void {
+    if (!this.playing.peek() || this.#turns.busy) return;
+    this.#clock += elapsedMs;
+    const perSecond = this.target.peek() / (RACE_MS / 1000);
+    const { steps, carry } = due(this.#carry, elapsedMs, perSecond, MOST_AT_ONCE);
+    this.#carry = carry;
+    const left = this.target.peek() - this.step.peek();
+    const now = Math.min(steps, left);
+    if (now > 0) this.#turns.take(() => this.#stride(now));
+  }
+
+  /** Stops where it is; resolves to the steps that were made. */
+  async pause(): Promise<number> {
+    this.playing.value = false;
+    await this.#turns.idle();
+    await this.#look();
+    lessonState.value = "done";
+    return this.step.peek();
+  }
+
+  /** Goes on to the end, or beyond it; `over` is told how far that was. */
+  run(over: (steps: number) => void): void {
+    const step = this.step.peek();
+    if (step >= MOST_STEPS) return;
+    if (step >= this.target.peek()) this.target.value = Math.min(MOST_STEPS, MORE * step);
+    this.#over = over;
+    this.playing.value = true;
+  }
+
+  async #stride(steps: number): Promise<void> {
+    await this.#advance(steps);
+    const isOver = this.step.peek() >= this.target.peek();
+    if (isOver) {
+      await this.#look();
+      batch(() => {
+        this.playing.value = false;
+        lessonState.value = "done";
+      });
+      this.#over?.(this.step.peek());
+      this.#over = null;
+    } else if (this.#clock > FIGURES_EVERY_MS) {
+      this.#clock = 0;
+      await this.#lookAtNext();
+    }
+  }
+
+  /** As far as a link says, in parts, so that the curves are there too. */
+  async #jump(steps: number): Promise<void> {
+    for (let part = 1; part <= PARTS; part += 1) {
+      const goal = Math.round((steps * part) / PARTS);
+      // The last of them one by one: their trails are seen.
+      const single = part === PARTS ? Math.min(TRAIL, goal - this.step.peek()) : 0;
+      await this.#advance(goal - this.step.peek() - single);
+      for (let i = 0; i < single; i += 1) await this.#advance(1);
+      await this.#look();
+    }
+    lessonState.value = "done";
+  }
+
+  async #advance(steps: number): Promise<void> {
+    const ask = this.#ask;
+    if (steps <= 0 || !ask) return;
+    const answers = await Promise.all(
+      this.runners.peek().map(({ lane }) => ask({ ask: "advance", lane, steps, watch: false })),
+    );
+    this.runners.peek().forEach(({ trail }, i) => {
+      const states = answers[i]?.states;
+      if (states) trail.push(states);
+    });
+    this.step.value += steps;
+  }
+
+  async #look(): Promise<void> {
+    const ask = this.#ask;
+    if (!ask || this.step.peek() === 0) return;
+    const lanes = this.runners.peek();
+    this.figures.value = await Promise.all(lanes.map(({ lane }) => ask({ ask: "figures", lane })));
+    this.#note();
+  }
+
+  /** One runner at a time: together they would hold the race up. */
+  async #lookAtNext(): Promise<void> {
+    const runners = this.runners.peek();
+    const ask = this.#ask;
+    if (!ask) return;
+    if (this.figures.peek().length < runners.length) return this.#look();
+    this.#next = (this.#next + 1) % runners.length;
+    const figures = await ask({ ask: "figures", lane: this.#next });
+    this.figures.value = this.figures.peek().map((old, i) => (i === this.#next ? figures : old));
+    this.#note();
+  }
+
+  #note(): void {
+    const meanSquares = this.figures.peek().map(({ meanSquare }) => meanSquare);
+    const step = this.step.peek();
+    const before = this.curve.peek().filter((moment) => moment.step < step);
+    this.curve.value = [...before, { step, meanSquares }];
+  }
+}

@@ -1,0 +1,106 @@
+import type { LessonStep } from "../../../../worker/lessons";
+import { number, signed } from "../../../format";
+import { isSaid } from "../../sampling/pacing";
+import { stepVerdict } from "../../sampling/verdicts";
+
+interface Props {
+  step: LessonStep | undefined;
+  /** Which share of the step has been told. */
+  told: number;
+  corrected: boolean;
+}
+
+/** The last step, worked through as on a blackboard. */
+export function Working({ step, told, corrected }: Props) {
+  const compared = step !== undefined && isSaid("compare", told);
+  const decided = step !== undefined && isSaid("decide", told);
+  const at = <T,>(said: boolean, value: T | undefined) => (said ? value : undefined);
+  return (
+    <section class="step-working" aria-label="The last step, worked through">
+      <dl class="step-sum">
+        <Line
+          label="log p(α′), of the proposal"
+          metric="logDensityTo"
+          value={at(compared, step?.logDensityTo)}
+        />
+        <Line
+          label="− log p(α), of where it is"
+          metric="logDensityFrom"
+          value={at(compared, step?.logDensityFrom)}
+        />
+        <Line
+          label={corrected ? "+ log Hastings factor" : "+ log Hastings factor (left out)"}
+          metric="logHastings"
+          value={at(compared, step?.logHastings)}
+        />
+        <Line label="= log r" metric="logRatio" value={at(compared, step?.logRatio)} total />
+      </dl>
+      <RatioBar step={step} compared={compared} decided={decided} />
+      <p class="step-verdict" data-accepted={decided ? step?.accepted : undefined}>
+        {decided ? stepVerdict(step).text : compared ? "Draw u between 0 and 1 …" : "Propose …"}
+      </p>
+    </section>
+  );
+}
+
+function Line({
+  label,
+  metric,
+  value,
+  total = false,
+}: {
+  label: string;
+  metric: string;
+  value: number | undefined;
+  total?: boolean;
+}) {
+  return (
+    <div class="step-line" data-total={total}>
+      <dt>{label}</dt>
+      <dd data-metric={`lastStep.${metric}`} data-value={value}>
+        {value === undefined ? "…" : total ? signed(value) : number(value)}
+      </dd>
+    </div>
+  );
+}
+
+/** The ratio r on 0 … 1, and u as a needle: accepted where it falls on what r covers. */
+function RatioBar({
+  step,
+  compared,
+  decided,
+}: {
+  step: LessonStep | undefined;
+  compared: boolean;
+  decided: boolean;
+}) {
+  const ratio = step ? Math.min(1, Math.exp(step.logRatio)) : 0;
+  const label = !step
+    ? "No step yet"
+    : `r = ${number(Math.exp(step.logRatio))}, u = ${number(step.uniform)}: ${step.accepted ? "accepted" : "rejected"}`;
+  return (
+    <div class="ratio">
+      <div class="ratio-bar" role="img" aria-label={label}>
+        <span class="ratio-covered" style={{ width: `${compared ? 100 * ratio : 0}%` }} />
+        <span
+          class="ratio-needle"
+          data-down={decided}
+          data-accepted={step?.accepted}
+          style={{ left: `${100 * (step?.uniform ?? 0)}%` }}
+        >
+          <span>{decided ? (step?.accepted ? "✓" : "✕") : "u"}</span>
+        </span>
+      </div>
+      <div class="ratio-scale" aria-hidden="true">
+        <span>0</span>
+        <span class="ratio-words">accepted where u falls on r</span>
+        <span>1</span>
+      </div>
+      <span
+        class="unseen"
+        data-metric="lastStep.uniform"
+        data-value={decided ? step?.uniform : undefined}
+      />
+    </div>
+  );
+}
