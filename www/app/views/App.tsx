@@ -27,8 +27,8 @@ import { Taking } from "./Taking";
 export function App() {
   return embedded.value ? (
     <>
-      <Embedded />
       <Spoken />
+      <Embedded />
     </>
   ) : (
     <WholePage />
