@@ -24,6 +24,8 @@ export async function host(files, { cors = true } = {}) {
     response.end(bytes.subarray(half));
   });
   await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  // A test that fails before it closes this ends all the same.
+  server.unref();
   return {
     url: `http://localhost:${server.address().port}`,
     asked,

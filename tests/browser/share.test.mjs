@@ -428,7 +428,10 @@ for (const [width, height] of [
         assert.equal(await page.locator(name).filter({ visible: true }).count(), 0, name);
       }
       assert.equal(await page.evaluate(() => document.documentElement.dataset.embed), "");
-      const { scrollHeight, scrollWidth } = await page.evaluate(() => document.documentElement);
+      const { scrollHeight, scrollWidth } = await page.evaluate(() => {
+        const { scrollHeight, scrollWidth } = document.documentElement;
+        return { scrollHeight, scrollWidth };
+      });
       assert.deepEqual([scrollWidth, scrollHeight], [width, height], "it fits");
       await page.getByText("Female heads can make").waitFor();
       assert.deepEqual(await accessibilityFaults(page), []);
@@ -444,7 +447,6 @@ for (const [width, height] of [
 }
 
 test("the element shows a comparison on a page of another site, and follows its attributes", async () => {
-  const main = await host({});
   await withPage({}, async ({ url, page }) => {
     const site = await host({
       "/": {
@@ -504,7 +506,6 @@ test("the element shows a comparison on a page of another site, and follows its 
     assert.equal(await page.evaluate(() => history.length), steps, "Back leads out of the course");
     await site.close();
   });
-  await main.close();
 });
 
 test("the example page of the element shows both of its frames", async () => {
