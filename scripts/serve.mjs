@@ -16,6 +16,9 @@ const isolation = {
   "Cross-Origin-Resource-Policy": "cross-origin",
 };
 
+/** Pages of other sites load shape-venn.js as a module, which takes this; GitHub Pages sends it on its own. */
+const open = { "Access-Control-Allow-Origin": "*" };
+
 const types = {
   ".css": "text/css; charset=utf-8",
   ".html": "text/html; charset=utf-8",
@@ -52,7 +55,7 @@ async function fileFor(folder, url) {
 }
 
 async function answer(folder, isolated, request, response) {
-  const headers = { "Cache-Control": "no-cache", ...(isolated ? isolation : {}) };
+  const headers = { "Cache-Control": "no-cache", ...open, ...(isolated ? isolation : {}) };
   const refuse = (status, sentence) => {
     response.writeHead(status, { ...headers, "Content-Type": types[".txt"] }).end(`${sentence}\n`);
   };

@@ -138,8 +138,44 @@ test("what is done to the models first can be read in the link, and a list is le
   assert.equal(fitsLink(null), true);
 });
 
-test("only web addresses are opened", () => {
-  assert.equal(readLink("v=1&a=javascript:alert(1)&b=file:///etc/passwd").urls, null);
+test("only web addresses are opened, and what is none is told", () => {
+  const odd = "v=1&a=javascript:alert(1)&b=file:///etc/passwd";
+  assert.equal(readLink(odd).urls, null);
+  assert.deepEqual(misread(odd), ["a=javascript:alert(1)", "b=file:///etc/passwd"]);
+  assert.deepEqual(misread("v=1&a=demo:nobody&b=demo:planes-a"), ["a=demo:nobody"]);
+  assert.deepEqual(misread("v=1&a=models/m.h5&b=demo:planes-a"), []);
+});
+
+test("files that no link can hold are named by what tells them from others", () => {
+  const hashes = { a: "0123456789abcdef", b: "fedcba9876543210" };
+  const names = { a: "male head.h5", b: "b&w.npz" };
+  const urls = { a: null, b: null };
+  const link = { ...defaultLink(), urls, names, hashes, parts: { a: "expression", b: null } };
+  const text = writeLink(link);
+  assert.match(text, /^v=1&name-a=male%20head\.h5&name-b=b%26w\.npz&hash-a=0123456789abcdef&/);
+  assert.deepEqual(readLink(text), link);
+  const nameless = { ...link, names: { a: null, b: null } };
+  assert.deepEqual(readLink(writeLink(nameless)), nameless);
+  const mixed = { ...link, urls: { a: "demo:planes-a", b: null }, names: { a: null, b: "b.h5" } };
+  assert.deepEqual(readLink(writeLink(mixed)), mixed);
+  // Of one model nothing is said: nobody knows what is meant.
+  assert.equal(readLink("v=1&name-a=male.h5").urls, null);
+  assert.equal(readLink("v=1&name-a=male.h5&hash-b=xyz").urls, null);
+});
+
+test("what is at an address is told by the start of its fingerprint, however much is given", () => {
+  const link = (hash: string) => `v=1&a=https://a.example/m.h5&b=demo:planes-b&hash-a=${hash}`;
+  const read = (hash: string) => readLink(link(hash)).hashes.a;
+  assert.equal(read("0123456789ABCDEF0123456789abcdef"), "0123456789abcdef");
+  assert.equal(read("01234567"), "01234567");
+  assert.equal(read("0123"), null);
+  assert.equal(read("unknown!"), null);
+});
+
+test("a frame says so, and an older link is none", () => {
+  assert.equal(readLink(writeLink({ ...defaultLink(), embed: true })).embed, true);
+  assert.equal(readLink("v=1&demo=planes").embed, false);
+  assert.equal(readLink("v=1&embed=no").embed, false);
 });
 
 test("unknown keys and unreadable values are passed over", () => {

@@ -28,8 +28,8 @@ import { Taking } from "./Taking";
 export function App() {
   return embedded.value ? (
     <>
-      {page.value === "learn" ? <Later load={learn} /> : <Embedded />}
       <Spoken />
+      {page.value === "learn" ? <Later load={learn} /> : <Embedded />}
     </>
   ) : (
     <WholePage />

@@ -2,7 +2,7 @@ import { percent } from "../format";
 import { sharedAddress } from "../history";
 import { MAP_WORDS } from "../map-words";
 import { awaited } from "../runfile/run";
-import { alone, nouns, room, run, vertexMap, view } from "../state";
+import { alone, inspection, nouns, room, run, vertexMap, view } from "../state";
 import { Consent } from "./Consent";
 import { Diagnostics } from "./Diagnostics";
 import { ExploreStage } from "./explore/ExploreStage";
@@ -22,6 +22,7 @@ export function Embedded() {
         {(["page", "link", "content", "a", "b", "pair", "run"] as const).map((place) => (
           <Notices key={place} place={place} />
         ))}
+        <Problem />
         <Consent />
         {awaited.value && <RunFileCard />}
         <Stage />
@@ -39,6 +40,19 @@ export function Embedded() {
       </footer>
     </main>
   );
+}
+
+/** Why the two cannot be compared; the remedies are a click away in the whole page. */
+function Problem() {
+  const problem = inspection.value?.problem;
+  return problem ? (
+    <div class="notice" role="alert" data-code={problem.code}>
+      <div>
+        <p class="notice-message">{problem.message}</p>
+        <p class="notice-hint">{problem.hint}</p>
+      </div>
+    </div>
+  ) : null;
 }
 
 /** Whose, and what of them. */

@@ -59,6 +59,7 @@ function Drawing({ code: { size, path } }: { code: QrCode }) {
     <svg
       class="qr"
       viewBox={`0 0 ${size} ${size}`}
+      style={{ "--modules": size }}
       role="img"
       aria-label="QR code of the link"
       shape-rendering="crispEdges"
