@@ -26,7 +26,7 @@ fn real(value: &Value) -> f64 {
 fn every_scene_has_its_figures() {
     let model = figures("page=learn&scene=model&coefficients=1,2");
     assert_eq!(model["point"]["logPrior"], -2.5, "−½‖a‖²");
-    assert_eq!(model["settings"]["pair"], "stars-2", "the pair when left out");
+    assert_eq!(model["settings"]["pair"], "stars-5", "the pair when left out");
 
     let agree = figures("scene=agree");
     let tips = agree["tips"].as_array().unwrap();

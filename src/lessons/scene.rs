@@ -2,11 +2,11 @@
 //!
 //! | scene | its keys and what they are when left out |
 //! |---|---|
-//! | model | pair=stars-2 side=a coefficients=0,0 |
-//! | agree | pair=stars-2 sigma=0.003 |
-//! | planes | tilt=50 shift=0.4 lift=0 sigma=0.3 side=a coefficients=1,0.5 |
+//! | model | pair=stars-5 side=a coefficients=1.2,-0.6 |
+//! | agree | pair=stars-5 sigma=0.003 |
+//! | planes | tilt=50 shift=0.4 lift=0 sigma=0.3 side=a coefficients=0.8,0.8 |
 //! | step | pair=planes modes=2 sigma=0.3 side=a sampler=paper-corrected chains=1 seed=1 steps=0 |
-//! | cloud | pair=stars-5 sigma=0.003 sampler=paper-corrected chains=8 seed=1 draws=2000 |
+//! | cloud | pair=stars-5 sigma=0.003 sampler=independence chains=8 seed=1 draws=2000 |
 //! | difference | pair=planes modes=2 sigma=0.3 side=a seed=1 draws=1000 |
 //! | race | pair=stars-5 modes=all sigma=0.003 side=a chains=4 seed=1 steps=500 break=none |
 //!
@@ -111,15 +111,16 @@ impl Scene {
         };
         match scene {
             SceneName::Model => {
-                let opening = opening("stars-2", None, 0.003);
-                Self { opening, coefficients: vec![0.0, 0.0], ..plain }
+                let opening = opening("stars-5", None, 0.003);
+                Self { opening, coefficients: vec![1.2, -0.6], ..plain }
             }
-            SceneName::Agree => Self { opening: opening("stars-2", None, 0.003), ..plain },
-            SceneName::Planes => Self { coefficients: vec![1.0, 0.5], ..plain },
+            SceneName::Agree => Self { opening: opening("stars-5", None, 0.003), ..plain },
+            SceneName::Planes => Self { coefficients: vec![0.8, 0.8], ..plain },
             SceneName::Step => Self { opening: opening("planes", Some(2), 0.3), ..plain },
             SceneName::Cloud => {
                 let opening = opening("stars-5", None, 0.003);
-                Self { opening, chains: 8, draws: 2000, ..plain }
+                let sampler = LessonSampler::Independence;
+                Self { opening, sampler, chains: 8, draws: 2000, ..plain }
             }
             SceneName::Difference => {
                 let opening = opening("planes", Some(2), 0.3);
