@@ -35,7 +35,7 @@ fn every_scene_has_its_figures() {
     assert!(real(&shared["intersection"]) > 10.0 * real(&of_a["intersection"]), "tip 0 is shared");
     assert!(real(&of_a["a"]) > 1.0 && real(&of_a["b"]) < 1e-9, "tip 2 is A's alone");
 
-    let planes = figures("scene=planes");
+    let planes = figures("scene=planes&coefficients=1,0.5");
     let expected = 0.5 * libm::sin(50_f64.to_radians());
     assert!((real(&planes["point"]["distance"]) - expected).abs() < 1e-12, "|y| sin 50°");
     assert!((real(&planes["angles"][1]) - 50.0).abs() < 1e-9, "their angle");
