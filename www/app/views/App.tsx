@@ -1,4 +1,5 @@
-import { demo, embedded, room, spoken } from "../state";
+import { awaited } from "../runfile/run";
+import { demo, embedded, result, room, spoken } from "../state";
 import { wide } from "../wide";
 import { About } from "./About";
 import { Chooser } from "./Chooser";
@@ -36,6 +37,8 @@ export function App() {
 }
 
 function WholePage() {
+  // Before anything is compared, what a link waits for is all that there is.
+  const linkIsAll = Boolean(awaited.value?.link) && result.value === null;
   const explores = room.value === "explore";
   return (
     <>
@@ -46,6 +49,7 @@ function WholePage() {
           <Notices place="link" />
           <Notices place="content" />
           <Consent />
+          {linkIsAll && <RunFileCard />}
           <Headline />
           <Rooms />
           <Stage />
@@ -58,7 +62,7 @@ function WholePage() {
         <div class="rail models">
           <ModelCard side="a" />
           <ModelCard side="b" />
-          <RunFileCard />
+          {!linkIsAll && <RunFileCard />}
           <p class="privacy">
             {demo.value && `${demo.value.note} `}
             Drop files or folders anywhere. Your files stay on this computer.
