@@ -123,7 +123,8 @@ export function writeValues<S extends Schema>(schema: S, values: Values<S>): [st
   });
 }
 
-function written(value: Param["standard"]): string {
+/** A value as a link has it. */
+export function written(value: Param["standard"]): string {
   if (typeof value === "boolean") return value ? "yes" : "no";
   return Array.isArray(value) ? value.join(",") : String(value);
 }

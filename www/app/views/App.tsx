@@ -1,4 +1,5 @@
-import { demo, embedded, page, room, spoken } from "../state";
+import { awaited } from "../runfile/run";
+import { demo, embedded, page, result, room, spoken } from "../state";
 import { wide } from "../wide";
 import { About } from "./About";
 import { Chooser } from "./Chooser";
@@ -56,6 +57,8 @@ const learn = () => import("../learn/Learn").then(({ Learn }) => Learn);
 const gallery = () => import("./Gallery").then(({ Gallery }) => Gallery);
 
 function Comparison() {
+  // Before anything is compared, what a link waits for is all that there is.
+  const linkIsAll = Boolean(awaited.value?.link) && result.value === null;
   const explores = room.value === "explore";
   return (
     <main class="comparison" data-room={room.value}>
@@ -64,6 +67,7 @@ function Comparison() {
         <Notices place="link" />
         <Notices place="content" />
         <Consent />
+        {linkIsAll && <RunFileCard />}
         <Headline />
         <Rooms />
         <Stage />
@@ -76,7 +80,7 @@ function Comparison() {
       <div class="rail models">
         <ModelCard side="a" />
         <ModelCard side="b" />
-        <RunFileCard />
+        {!linkIsAll && <RunFileCard />}
         <p class="privacy">
           {demo.value && `${demo.value.note} `}
           Drop files or folders anywhere. Your files stay on this computer.

@@ -60,8 +60,8 @@ function Awaited({ run }: { run: ExpectedRun }) {
         </div>
         <p class="small">
           {run.link &&
-            "A link holds no files: drop the same ones anywhere, and it is checked that they are. "}
-          Once they are open it runs by itself; until then nothing changes.
+            "A link holds no files: drop the same ones anywhere, and the page checks that they are. "}
+          Once they are open it runs by itself{!empty && "; until then nothing changes"}.
         </p>
         <div class="card-row">
           {!empty && (
@@ -69,7 +69,7 @@ function Awaited({ run }: { run: ExpectedRun }) {
               Use its settings for these
             </button>
           )}
-          <button type="button" class="quiet" onClick={forgetRunFile}>
+          <button type="button" class={empty ? "" : "quiet"} onClick={forgetRunFile}>
             Forget it
           </button>
         </div>

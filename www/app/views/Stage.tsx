@@ -7,12 +7,14 @@ import {
   alone,
   compared,
   emptyRegions,
+  opening,
   outOfDate,
   painting,
   region,
   result,
   room,
   run,
+  SIDES,
   shapes,
   slots,
   unit,
@@ -159,9 +161,8 @@ function PaneNote({ name }: { name: Region }) {
     const guess = shapes.value[name]?.source === "fit" && run.value;
     return guess ? <p class="pane-note">first guess</p> : null;
   }
-  return (
-    <p class="pane-note">{run.value ? "waiting for draws" : slots.a.value ? "" : "loading"}</p>
-  );
+  const loads = !slots.a.value && SIDES.some((side) => opening[side].value);
+  return <p class="pane-note">{run.value ? "waiting for draws" : loads ? "loading" : ""}</p>;
 }
 
 /** A difference that has no shapes, rather than none yet. */
