@@ -35,12 +35,17 @@ interface Props {
   children?: ComponentChildren;
 }
 
+/** Pixels after which a finger is sure to go sideways. */
+const SURE = 8;
+
 /** A picture of a lesson, on Canvas2D, sharp on every screen and in the colours of the page. */
 export function Board(props: Props) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const latest = useRef(props);
   latest.current = props;
   const held = useRef<boolean | "sideways">(false);
+  /** Where a finger that may yet scroll came down. */
+  const undecided = useRef<Pointer | null>(null);
   const { label, aspect, onGrab, onKey, help } = props;
   const dark = isDark();
   useLayoutEffect(() => paint(canvas.current, latest.current.draw));
@@ -68,12 +73,23 @@ export function Board(props: Props) {
   const down = (event: PointerEvent) => {
     held.current = event.button === 0 && (latest.current.onGrab?.(at(event)) ?? false);
     if (!held.current) return;
+    undecided.current =
+      held.current === "sideways" && event.pointerType === "touch" ? at(event) : null;
     (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
     event.preventDefault();
-    (event.currentTarget as HTMLElement).focus({ preventScroll: true });
+    // For the arrow keys: who has fingers only needs no ring around it.
+    if (event.pointerType !== "touch") {
+      (event.currentTarget as HTMLElement).focus({ preventScroll: true });
+    }
   };
   const move = (event: PointerEvent) => {
-    if (held.current) latest.current.onDrag?.(at(event));
+    if (!held.current) return;
+    const now = at(event);
+    const { current: down } = undecided;
+    const [dx, dy] = down ? [Math.abs(now.x - down.x), Math.abs(now.y - down.y)] : [SURE, 0];
+    if (dx < SURE || dx < dy) return;
+    undecided.current = null;
+    latest.current.onDrag?.(now);
   };
   const up = () => {
     if (!held.current) return;

@@ -53,9 +53,11 @@ export function ModelScene() {
   useDone(lesson.current && field.current && cloud.current && (playing || point.current));
   useSceneKeys(roam.toggle, null);
   const [first = 0, second = 0] = now;
-  const move = (by: readonly [number, number]) =>
-    roam.hold([first + by[0], second + by[1], ...roam.now.slice(2)]);
-  const to = (place: readonly [number, number]) => roam.hold([...place, ...roam.now.slice(2)]);
+  // Not beyond what is drawn of the plane.
+  const within = (value: number) => Math.min(EXTENT, Math.max(-EXTENT, value));
+  const to = (place: readonly [number, number]) =>
+    roam.hold([...place.map(within), ...roam.now.slice(2)]);
+  const move = (by: readonly [number, number]) => to([first + by[0], second + by[1]]);
   return (
     <>
       <p class="lead">

@@ -21,6 +21,8 @@ const SCHEMA = SCENE_PARAMS.planes;
 /** It turns to and fro, since from the side there is little to see. */
 const SWAY = { reach: 0.5, speed: 0.45 };
 const SIZE = 96;
+/** The point is not taken beyond what is drawn of its plane. */
+const SHEET = { least: -EXTENT, most: EXTENT, digits: SCHEMA.coefficients.digits };
 const set = (part: Partial<SceneValues<"planes">>) => setParams("planes", part);
 
 /** Two planes: the smallest case of two models, with everything the method speaks of in sight. */
@@ -56,7 +58,7 @@ export function PlanesScene() {
   const to = (moved: Flat) => {
     // Whoever moves the point wants to see it stand still.
     if (roam.playing.peek()) roam.toggle();
-    set({ coefficients: moved.map((value) => bounded(SCHEMA.coefficients, value)) });
+    set({ coefficients: moved.map((value) => bounded(SHEET, value)) });
   };
   const found = point.answer;
   const [yaw = 0, pitch = 0] = roam.now;

@@ -18,7 +18,7 @@ export const QUESTIONS: readonly Question[] = [
     answer: (
       <>
         Neither. p(α) ∝ exp(−½‖α‖²) depends on ‖α‖ alone, and both are 2 standard deviations away.
-        In units of the star the first is further from the mean, since √λ₁ &gt; √λ₂.
+        In units of the star the first is further from the mean, since √λ₁&nbsp;&gt;&nbsp;√λ₂.
       </>
     ),
   },
@@ -58,7 +58,7 @@ export const QUESTIONS: readonly Question[] = [
   },
   {
     scene: "planes",
-    link: "coefficients=-2.7,0",
+    link: "coefficients=-2.5,0",
     ask: "x lies exactly on the line where the planes meet, but far out. Does it belong to A∩B?",
     answer: (
       <>
