@@ -3,9 +3,28 @@ import type { Trail } from "../sampling/trail";
 import { faded, type Palette } from "./palette";
 import type { Plane } from "./plane";
 
+const COLOURS = 8;
+/** By theme; looked up once, as in the palette. */
+const known = new Map<string, readonly string[]>();
+
 /** Chain after chain, over again after the eighth. */
-export function chainColour({ chains }: Palette, chain: number): string {
-  return chains[chain % chains.length] ?? chains[0] ?? "currentColor";
+export function chainColour(chain: number): string {
+  const theme = document.documentElement.dataset.theme ?? "";
+  const colours = known.get(theme) ?? coloursNow();
+  known.set(theme, colours);
+  return colours[chain % COLOURS] ?? "gray";
+}
+
+function coloursNow(): readonly string[] {
+  const probe = document.createElement("i");
+  probe.hidden = true;
+  document.body.append(probe);
+  const colours = Array.from({ length: COLOURS }, (_, i) => {
+    probe.style.color = `var(--chain-${i})`;
+    return getComputedStyle(probe).color;
+  });
+  probe.remove();
+  return colours;
 }
 
 /** Circles of 1, 2 and 3 standard deviations of the prior, and the two axes with their names. */
@@ -57,20 +76,22 @@ export function drawPrior(
   pen.textBaseline = "alphabetic";
 }
 
-/** The last `most` places of one chain as a line that fades. */
+/** The last `most` places of one chain as a line that fades, without the `hidden` latest of them. */
 export function drawTrail(
   pen: CanvasRenderingContext2D,
   plane: Plane,
   trail: Trail,
   column: number,
   most: number,
+  hidden = 0,
 ): void {
   const parts = 4;
-  const start = Math.max(0, trail.length - most);
-  const span = trail.length - start;
+  const end = trail.length - hidden;
+  const start = Math.max(0, end - most);
+  const span = end - start;
   for (let part = 0; part < parts; part += 1) {
     const from = start + Math.floor((part * span) / parts);
-    const to = Math.min(trail.length - 1, start + Math.floor(((part + 1) * span) / parts));
+    const to = Math.min(end - 1, start + Math.floor(((part + 1) * span) / parts));
     pen.globalAlpha = (part + 1) / parts;
     pen.beginPath();
     for (let i = from; i <= to; i += 1) {

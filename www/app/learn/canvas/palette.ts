@@ -15,8 +15,6 @@ export interface Palette {
   /** Of the first and the second mode, or coefficient. */
   first: string;
   second: string;
-  /** Of chains, one after the other. */
-  chains: readonly string[];
   /** Family and pixels of small letters. */
   font: string;
   text: number;
@@ -39,35 +37,32 @@ const NAMES = [
   "second",
 ] as const;
 
-const CHAIN_COLOURS = 8;
-
 type Colours = Omit<Palette, "font" | "text">;
 
-/** To look colours up takes longer than to draw a frame: once a theme. */
+/** Kept, since a frame has no time to ask for styles again and again. */
 const known = new Map<string, Colours>();
 
-/** As the page has them; letters as large as those of the element. */
+/** As the element has them: a theme, or larger letters, may be on above it. */
 export function paletteOf(element: HTMLElement): Palette {
   const theme = document.documentElement.dataset.theme ?? "";
-  const colours = known.get(theme) ?? lookUp();
-  if (theme) known.set(theme, colours);
+  const colours = known.get(theme) ?? coloursNow();
+  known.set(theme, colours);
   const { fontFamily, fontSize } = getComputedStyle(element);
   return { ...colours, font: fontFamily, text: Number.parseFloat(fontSize) };
 }
 
-function lookUp(): Colours {
+function coloursNow(): Colours {
   // Custom properties are not resolved to colours: a colour of an element is.
   const probe = document.createElement("i");
   probe.hidden = true;
   document.body.append(probe);
-  const colourOf = (name: string) => {
+  const found: Record<string, string> = {};
+  for (const name of NAMES) {
     probe.style.color = `var(--${name})`;
-    return getComputedStyle(probe).color;
-  };
-  const found = Object.fromEntries(NAMES.map((name) => [name, colourOf(name)]));
-  const chains = Array.from({ length: CHAIN_COLOURS }, (_, i) => colourOf(`chain-${i}`));
+    found[name] = getComputedStyle(probe).color;
+  }
   probe.remove();
-  return { ...(found as unknown as Omit<Colours, "chains">), chains };
+  return found as unknown as Colours;
 }
 
 /** A colour of the palette, let through. */

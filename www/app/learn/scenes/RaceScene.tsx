@@ -1,19 +1,19 @@
 import { useMemo, useRef } from "preact/hooks";
-import { count, number } from "../../format";
+import { count } from "../../format";
 import { AdviceLine } from "../../views/Chart";
-import { Board } from "../canvas/Board";
 import { still, useFrames } from "../clock";
 import { useSceneKeys } from "../keys";
-import { LessonNumber, LessonNumbers, PlayBar, Slider } from "../parts/controls";
+import { PlayBar, Slider } from "../parts/controls";
 import { ChainSlider, PairChoice, SeedField, SideChoice, SigmaSlider } from "../sampling/Controls";
-import { SAMPLER_NAMES } from "../sampling/names";
 import { useOwn, useSession } from "../sampling/session";
 import { BREAKS, PAIRS, SCENE_PARAMS } from "../scenes";
 import { params, resetScene, setParams } from "../state";
 import { BREAK_WORDS, raceVerdict } from "./race/broken";
-import { drawRunner, type Scenery } from "./race/draw";
+import { Distance, Squares } from "./race/Figures";
+import { Lanes } from "./race/Lanes";
+import { Questions } from "./race/Questions";
 import { RaceTable } from "./race/RaceTable";
-import { MOST_STEPS, RaceRun, type RaceValues, type Runner } from "./race/run";
+import { MOST_STEPS, RaceRun, type RaceValues } from "./race/run";
 import { SquareChart } from "./race/SquareChart";
 import "../../../styles/learn-samplers.css";
 
@@ -124,105 +124,5 @@ export function RaceScene() {
       </div>
       <Questions />
     </>
-  );
-}
-
-function Lanes({ run }: { run: RaceRun }) {
-  // Where they are now.
-  run.step.value;
-  const [image, view, models] = [run.image.value, run.view.value, run.models.value];
-  const { side, break: what } = params("race").value;
-  const fit = models && what !== "scaling" ? models.fits[side] : null;
-  const scenery = image && view && { image, view, fit };
-  return (
-    <div class="race-lanes" data-count={run.runners.value.length}>
-      {run.runners.value.map((runner) => (
-        <Lane key={runner.sampler} runner={runner} scenery={scenery} />
-      ))}
-    </div>
-  );
-}
-
-interface LaneProps {
-  runner: Runner;
-  scenery: Scenery | null;
-}
-
-function Lane({ runner, scenery }: LaneProps) {
-  return (
-    <figure>
-      <Board
-        label={`${SAMPLER_NAMES[runner.sampler]}: its chains over the first two coefficients`}
-        aspect={1}
-        draw={(pen, size, palette) => {
-          if (scenery) drawRunner(pen, size, palette, runner, scenery);
-        }}
-      />
-      <figcaption>{SAMPLER_NAMES[runner.sampler]}</figcaption>
-    </figure>
-  );
-}
-
-/** E‖α‖²/q of both walks: the one number that the scaling move breaks. */
-function Squares({ run }: { run: RaceRun }) {
-  const [published, corrected] = run.figures.value;
-  return (
-    <LessonNumbers label="E‖α‖²/q of the walks">
-      <LessonNumber
-        label="E‖α‖²/q, published"
-        metric="race.0.figures.meanSquare"
-        value={published?.meanSquare}
-        show={(value) => number(value)}
-      />
-      <LessonNumber
-        label="E‖α‖²/q, corrected"
-        metric="race.1.figures.meanSquare"
-        value={corrected?.meanSquare}
-        show={(value) => number(value)}
-      />
-    </LessonNumbers>
-  );
-}
-
-/** How far the draws of the last runner are from the other model, beside what σ allows. */
-function Distance({ run }: { run: RaceRun }) {
-  const lane = run.figures.value.length - 1;
-  const sigma = run.models.value?.sigma;
-  return (
-    <LessonNumbers label="Distance of the draws to the other model">
-      <LessonNumber
-        label="mean d, independence"
-        metric={`race.${lane}.figures.meanDistance`}
-        value={run.figures.value[lane]?.meanDistance}
-        note={
-          sigma === undefined
-            ? undefined
-            : `σ is ${number(sigma)}: about as much is as it should be`
-        }
-      />
-    </LessonNumbers>
-  );
-}
-
-function Questions() {
-  return (
-    <div class="scene-questions">
-      <details>
-        <summary>Which of the four breaks does R-hat notice, and which not?</summary>
-        <p>
-          It notices chains that disagree: a σ far too small. It cannot notice that all chains agree
-          on the wrong law (uncorrected scaling), that models were never aligned, or, with one
-          chain, what that chain has not seen.
-        </p>
-      </details>
-      <details>
-        <summary>Why does the independence sampler win here, and when would it lose?</summary>
-        <p>
-          The intersection posterior is nearly Gaussian, and its fit costs a few iterations. Where a
-          target is far from Gaussian, as the difference is, a fit says nothing of it and nearly all
-          proposals would be rejected.
-        </p>
-      </details>
-    </div>
   );
 }

@@ -1,10 +1,8 @@
 import { useMemo } from "preact/hooks";
-import { count, number, percent } from "../../format";
-import { AdviceLine } from "../../views/Chart";
-import { Board } from "../canvas/Board";
+import { count, number } from "../../format";
 import { useFrames } from "../clock";
 import { useSceneKeys } from "../keys";
-import { LessonNumber, LessonNumbers, PlayBar, Slider } from "../parts/controls";
+import { PlayBar, Slider } from "../parts/controls";
 import {
   ChainSlider,
   PairChoice,
@@ -15,13 +13,12 @@ import {
 } from "../sampling/Controls";
 import { isTold, SPEEDS } from "../sampling/pacing";
 import { useOwn, useSession } from "../sampling/session";
-import { chainVerdict } from "../sampling/verdicts";
 import { PAIRS, WALKS } from "../scenes";
 import { params, resetScene, setParams } from "../state";
-import { drawNear, drawWalk, type Shown } from "./step/draw";
-import { Mixture } from "./step/Mixture";
-import { EXTENT, StepRun, type StepValues } from "./step/run";
-import { drawTraces } from "./step/traces";
+import { ChainFigures, Traces } from "./step/ChainFigures";
+import { Pictures } from "./step/Pictures";
+import { Questions } from "./step/Questions";
+import { StepRun, type StepValues } from "./step/run";
 import { Working } from "./step/Working";
 import "../../../styles/learn-samplers.css";
 
@@ -93,7 +90,7 @@ export function StepScene() {
         <div class="scene-body">
           <Traces run={run} chains={chains} />
           <div class="scene-side">
-            <Figures run={run} />
+            <ChainFigures run={run} />
           </div>
         </div>
       </section>
@@ -125,130 +122,6 @@ export function StepScene() {
   );
 }
 
-function Pictures({ run, slow, chains }: { run: StepRun; slow: boolean; chains: number }) {
-  const image = run.image.value;
-  const decisions = run.decisions.value;
-  const shown: Shown | null = image && {
-    image,
-    trail: run.trail,
-    decisions,
-    told: run.told.value,
-    slow,
-  };
-  return (
-    <>
-      <figure>
-        <Board
-          label={`Density of the intersection over two coefficients from −${EXTENT} to ${EXTENT} standard deviations, and ${chains === 1 ? "a chain that walks" : `${chains} chains that walk`} on it`}
-          aspect={1}
-          draw={(pen, size, palette) => shown && drawWalk(pen, size, palette, shown)}
-        />
-        <figcaption class="board-caption">
-          Bright: plausible in A, near B, and plausible there too. Dashed circles: 1, 2, 3 SD of A’s
-          own shapes.
-        </figcaption>
-      </figure>
-      <figure class="step-near">
-        <Board
-          label="The last step under a magnifier: the state, the circles or the ray of the proposal, the proposal, and whether it was accepted"
-          aspect={1}
-          draw={(pen, size, palette) => shown && drawNear(pen, size, palette, shown)}
-        />
-        <figcaption class="board-caption">
-          Magnified. Grey: proposal; <b class="good">✓</b> accepted; <b class="bad">✕</b> rejected.
-          <Mixture part={decisions.at(-1)?.part} />
-        </figcaption>
-      </figure>
-    </>
-  );
-}
-
 function LastStep({ run, corrected }: { run: StepRun; corrected: boolean }) {
   return <Working step={run.decisions.value.at(-1)} told={run.told.value} corrected={corrected} />;
-}
-
-function Traces({ run, chains }: { run: StepRun; chains: number }) {
-  const step = run.progress.value?.step ?? 0;
-  return (
-    <figure>
-      <Board
-        label={`Traces of both coefficients over the last steps, up to step ${step}, a line for each chain`}
-        aspect={0.34}
-        draw={(pen, size, palette) => {
-          if (run.trail.length > 1) drawTraces(pen, size, palette, run.trail, chains);
-        }}
-      />
-      <figcaption class="board-caption">
-        The last 300 steps of α₁ and α₂; dashed: ±2 SD. Chains that have converged cannot be told
-        apart.
-      </figcaption>
-    </figure>
-  );
-}
-
-function Figures({ run }: { run: StepRun }) {
-  const figures = run.figures.value;
-  const progress = run.progress.value;
-  return (
-    <>
-      <LessonNumbers label="What the chains say of themselves">
-        <LessonNumber
-          label="steps of each chain"
-          metric="settings.steps"
-          value={progress?.step ?? 0}
-          show={count}
-        />
-        <LessonNumber
-          label="accepted"
-          metric="figures.acceptance"
-          value={figures?.acceptance}
-          show={percent}
-        />
-        <LessonNumber
-          label="R-hat"
-          metric="figures.rHatMax"
-          value={figures?.rHatMax}
-          show={(value) => number(value, 4)}
-        />
-        <LessonNumber
-          label="effective draws"
-          metric="figures.essBulkMin"
-          value={figures?.essBulkMin}
-          note={figures ? `of ${count(figures.draws)}` : undefined}
-        />
-      </LessonNumbers>
-      {figures && <AdviceLine advice={{ ...chainVerdict(figures), chain: null }} />}
-    </>
-  );
-}
-
-function Questions() {
-  return (
-    <div class="scene-questions">
-      <details>
-        <summary>Why is a worse proposal ever accepted?</summary>
-        <p>
-          If it never were, the walk would climb to the top and stay there: it would find the most
-          plausible shape, not how much shapes may vary. Accepting a proposal that is half as
-          plausible half of the time makes the time spent at each shape proportional to its density.
-        </p>
-      </details>
-      <details>
-        <summary>What does the Hastings factor put right?</summary>
-        <p>
-          The scaling move draws a new length ‖α′‖ for the same direction. A step from long to short
-          lands on a smaller sphere, so it is met more often than its way back. The factor
-          (‖α′‖/‖α‖)<sup>q−1</sup> makes up for it. The paper leaves it out: its walk shrinks.
-          Choose “as published” and watch the last line but one, or break it in the race.
-        </p>
-      </details>
-      <details>
-        <summary>Why so many steps for so few effective draws?</summary>
-        <p>
-          Each state is near the one before it, so that a new one says little new. The effective
-          sample size is how many independent draws would know the mean as well.
-        </p>
-      </details>
-    </div>
-  );
 }

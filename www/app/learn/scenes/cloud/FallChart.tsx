@@ -4,6 +4,7 @@ import { logarithmic } from "../../../plots";
 import { Chart } from "../../../views/Chart";
 import { DataTable } from "../../../views/DataTable";
 import { type Box, PlotAxes } from "../../../views/PlotAxes";
+import { roomy } from "../../parts/lettering";
 import { logRange, logTicks } from "../../sampling/axes";
 
 interface Point {
@@ -64,7 +65,12 @@ interface LinesProps {
 
 function Lines({ points, closedForm, width, most }: LinesProps) {
   const height = Math.round(Math.min(300, Math.max(210, 0.55 * width)));
-  const box: Box = { left: 52, right: width - 10, top: 24, bottom: height - 40 };
+  const box: Box = {
+    left: roomy(52),
+    right: width - roomy(16),
+    top: roomy(24),
+    bottom: height - roomy(40),
+  };
   const [low, high] = logRange([
     closedForm,
     ...points.flatMap(({ found, predicted }) => [found, predicted]),
@@ -88,11 +94,14 @@ function Lines({ points, closedForm, width, most }: LinesProps) {
         y={y}
         across={logTicks(first, end).filter((value) => value >= first)}
         up={logTicks(low, high)}
-        acrossName="draws of each side"
+        acrossName=""
         upName="d_G"
         showAcross={count}
         showUp={(value) => number(value, 1)}
       />
+      <text class="tick axis-name" x={box.right} y={box.bottom + roomy(30)} text-anchor="end">
+        draws of each side
+      </text>
       {closedForm !== null && (
         <line class="closed" x1={box.left} x2={box.right} y1={y(closedForm)} y2={y(closedForm)} />
       )}

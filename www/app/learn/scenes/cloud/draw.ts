@@ -1,9 +1,8 @@
-/** Stars of draws, the model made of them beside the truth, and how far each tip turned. */
+/** Stars of draws, and the model made of them beside the truth. */
 import type { LessonModel } from "../../../../worker/lessons";
 import type { Size } from "../../canvas/Board";
 import { faded, type Palette } from "../../canvas/palette";
 import { type Plane, planeOf, traceShape } from "../../canvas/plane";
-import { placeOf, polarHistogram } from "../../sampling/polar";
 import type { BothSides } from "./run";
 
 type Pen = CanvasRenderingContext2D;
@@ -104,94 +103,4 @@ function tipTrace(pen: Pen, plane: Plane, model: LessonModel, colour: string, wi
   pen.lineTo(plane.x(to[0] ?? 0), plane.y(to[1] ?? 0));
   pen.stroke();
   pen.globalAlpha = 1;
-}
-
-/** Degrees; a bin in the middle for tips that stay in their place. */
-const BIN = 2.5;
-const HALF = 61.25;
-/** Radii over half the side of the picture. */
-const RING = 0.4;
-const BARS = 0.5;
-
-/** Polar histogram: how often each tip is how far off its place, with what both models can make. */
-export function drawPolar(
-  pen: Pen,
-  size: Size,
-  palette: Palette,
-  stars: BothSides<Float32Array>,
-  length: number,
-  bound: number | null,
-): void {
-  const half = Math.min(size.width, size.height) / 2;
-  const [cx, cy, ring] = [size.width / 2, size.height / 2, RING * half];
-  const at = (degrees: number, radius: number): [number, number] => {
-    const angle = (degrees * Math.PI) / 180;
-    return [cx + radius * Math.cos(angle), cy - radius * Math.sin(angle)];
-  };
-  if (bound !== null) {
-    sector(pen, at, 90 - bound, 90 + bound, ring, ring + BARS * half);
-    pen.fillStyle = faded(palette.ab, 0.14);
-    pen.fill();
-  }
-  pen.strokeStyle = palette.line;
-  pen.lineWidth = 1;
-  pen.beginPath();
-  pen.arc(cx, cy, ring, 0, 2 * Math.PI);
-  pen.stroke();
-  const together = new Float32Array(stars.a.length + stars.b.length);
-  together.set(stars.a);
-  together.set(stars.b, stars.a.length);
-  polarHistogram(together, length, BIN, HALF).forEach((bins, tip) => {
-    pen.fillStyle = tip === 0 ? palette.ab : faded(palette.dim, 0.75);
-    bins.forEach((share, bin) => {
-      if (share === 0) return;
-      const from = placeOf(tip) - HALF + bin * BIN;
-      // As much area as there are stars: lengths go with the root.
-      sector(pen, at, from + 0.2, from + BIN - 0.2, ring, ring + BARS * half * Math.sqrt(share));
-      pen.fill();
-    });
-  });
-  pen.fillStyle = palette.dim;
-  pen.font = `${palette.text}px ${palette.font}`;
-  pen.textAlign = "center";
-  pen.textBaseline = "middle";
-  for (let tip = 0; tip < 5; tip += 1) {
-    const [x, y] = at(placeOf(tip), ring - 16 * (palette.text / 14));
-    pen.fillText(String(tip + 1), x, y);
-  }
-  if (bound === null) return;
-  pen.strokeStyle = palette.ab;
-  pen.lineWidth = 1.5;
-  pen.setLineDash([4, 3]);
-  for (const sign of [-1, 1]) {
-    const degrees = 90 - sign * bound;
-    pen.beginPath();
-    pen.moveTo(...at(degrees, ring - 6));
-    pen.lineTo(...at(degrees, ring + BARS * half));
-    pen.stroke();
-    pen.fillStyle = palette.ink;
-    pen.textAlign = sign > 0 ? "left" : "right";
-    const [x, y] = at(degrees, ring + BARS * half);
-    pen.fillText(`${sign > 0 ? "−" : "+"}${bound}°`, x + sign * 5, y + 4);
-  }
-  pen.setLineDash([]);
-}
-
-function sector(
-  pen: Pen,
-  at: (degrees: number, radius: number) => [number, number],
-  from: number,
-  to: number,
-  inner: number,
-  outer: number,
-): void {
-  pen.beginPath();
-  const parts = Math.max(1, Math.ceil((to - from) / 4));
-  for (let i = 0; i <= parts; i += 1) {
-    pen.lineTo(...at(from + (i / parts) * (to - from), outer));
-  }
-  for (let i = parts; i >= 0; i -= 1) {
-    pen.lineTo(...at(from + (i / parts) * (to - from), inner));
-  }
-  pen.closePath();
 }

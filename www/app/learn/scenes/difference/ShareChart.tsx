@@ -3,7 +3,8 @@ import { linear, logarithmic } from "../../../plots";
 import { Chart } from "../../../views/Chart";
 import { DataTable } from "../../../views/DataTable";
 import { type Box, PlotAxes } from "../../../views/PlotAxes";
-import type { Share } from "./run";
+import { roomy } from "../../parts/lettering";
+import type { Share } from "./asks";
 
 const HEIGHT = 190;
 
@@ -40,7 +41,12 @@ export function ShareChart({ shares, sigma, own, other }: Props) {
 }
 
 function Line({ shares, sigma, width }: Pick<Props, "shares" | "sigma"> & { width: number }) {
-  const box: Box = { left: 44, right: width - 10, top: 14, bottom: HEIGHT - 36 };
+  const box: Box = {
+    left: roomy(44),
+    right: width - 10,
+    top: 14,
+    bottom: HEIGHT - roomy(36),
+  };
   const [first, last] = [shares[0]?.sigma ?? 0.01, shares.at(-1)?.sigma ?? 1];
   const x = logarithmic(first, last, box.left, box.right);
   const y = linear(0, 1, box.bottom, box.top);
@@ -52,10 +58,13 @@ function Line({ shares, sigma, width }: Pick<Props, "shares" | "sigma"> & { widt
         y={y}
         across={[0.01, 0.1, 1]}
         up={[0, 0.5, 1]}
-        acrossName="σ"
+        acrossName=""
         upName=""
         showUp={percent}
       />
+      <text class="tick axis-name" x={box.right} y={box.bottom + roomy(30)} text-anchor="end">
+        σ
+      </text>
       <polyline
         class="share"
         points={shares.map((one) => `${x(one.sigma)},${y(one.share)}`).join(" ")}

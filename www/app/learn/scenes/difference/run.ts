@@ -1,59 +1,15 @@
-/** The difference of a side: fields, exact draws, and what PCA makes of them. */
+/** The story of the difference: rain, the flip, rain again. */
 import { batch, computed, signal } from "@preact/signals";
-import type {
-  LaneFigures,
-  LessonField,
-  LessonLaw,
-  LessonModels,
-  LessonPrincipal,
-  LessonSide,
-} from "../../../../worker/lessons";
 import { still } from "../../clock";
 import type { Ask } from "../../engine";
 import { rained } from "../../sampling/pacing";
-import type { SceneValues } from "../../scenes";
 import { lessonState } from "../../state";
+import { type DifferenceValues, type Found, findDifference, type Share, sharesOver } from "./asks";
 
-export type DifferenceValues = SceneValues<"difference">;
-
-export const EXTENT = 3.4;
-/** Odd: one column of the grid is at 0, for the cut. */
-const FIELD_SIZE = 161;
-const MODES = 2;
-const FIRST_TWO: [number, number] = [0, 1];
-const LANES = { difference: 0, intersection: 1 };
-/** Draws of the intersection, to compare with. */
-const OTHERS = { chains: 4, burnIn: 50, steps: 150 };
 const FLIP_MS = 1100;
 const RAIN_MS = 6000;
 /** The likelihood flips by itself once it has been seen as it was. */
 const STORY_MS = 3200;
-/** As far as the slider goes. */
-const SIGMAS = [0.003, 0.01, 0.03, 0.06, 0.1, 0.17, 0.3, 0.5, 0.8, 1.3, 2, 3];
-const SHARE_DRAWS = 1500;
-
-export interface Cloud {
-  /** Two coefficients each. */
-  values: Float32Array;
-  law: LessonLaw;
-}
-
-export interface Found {
-  models: LessonModels;
-  intersection: LessonField;
-  difference: LessonField;
-  likelihood: LessonField;
-  common: Cloud;
-  exclusive: Cloud;
-  figures: LaneFigures;
-  principal: LessonPrincipal;
-}
-
-export interface Share {
-  sigma: number;
-  share: number;
-}
-
 export class DifferenceRun {
   readonly found = signal<Found | null>(null);
   /** The share that the other model cannot make, over σ. */
@@ -73,39 +29,9 @@ export class DifferenceRun {
   );
 
   async open(ask: Ask, values: DifferenceValues, told: boolean): Promise<void> {
-    const { pair, sigma, side, seed, draws } = values;
-    const models = await ask({ ask: "open", pair, sigma, modes: MODES });
-    const grid = { side, modes: FIRST_TWO, at: [], extent: EXTENT, size: FIELD_SIZE };
-    const intersection = await ask({ ask: "field", of: "intersection", ...grid });
-    const difference = await ask({ ask: "field", of: "difference", ...grid });
-    const likelihood = await ask({ ask: "field", of: "likelihood", ...grid });
-    const lane = LANES.difference;
-    await ask({
-      ask: "begin",
-      lane,
-      target: "difference",
-      side,
-      sampler: "rejection",
-      chains: 1,
-      seed,
-      burnIn: 0,
-    });
-    await ask({ ask: "advance", lane, steps: draws, watch: false });
-    const figures = await ask({ ask: "figures", lane });
-    const principal = await ask({ ask: "principal", lane });
-    const { values: exclusive } = await ask({ ask: "draws", lane, most: draws });
-    const common = await commonDraws(ask, values);
+    const found = await findDifference(ask, values);
     batch(() => {
-      this.found.value = {
-        models,
-        intersection,
-        difference,
-        likelihood,
-        common,
-        exclusive: { values: exclusive, law: principal },
-        figures,
-        principal,
-      };
+      this.found.value = found;
       lessonState.value = "done";
       if (told) this.#tell();
     });
@@ -113,16 +39,11 @@ export class DifferenceRun {
   }
 
   /** Other models are opened for it: after everything else. */
-  async #sweep(ask: Ask, { pair, side, seed }: DifferenceValues): Promise<void> {
+  async #sweep(ask: Ask, values: DifferenceValues): Promise<void> {
+    const { pair, side, seed } = values;
     const what = [pair, side, seed].join();
     if (this.#sharesOf === what) return;
-    const shares: Share[] = [];
-    for (const sigma of SIGMAS) {
-      await ask({ ask: "open", pair, sigma, modes: MODES });
-      const share = await exclusiveShare(ask, side, seed);
-      if (share !== null) shares.push({ sigma, share });
-    }
-    this.shares.value = shares;
+    this.shares.value = await sharesOver(ask, values);
     this.#sharesOf = what;
   }
 
@@ -185,39 +106,4 @@ export class DifferenceRun {
   fallen(count: number): number {
     return rained(this.rain.value / RAIN_MS, count);
   }
-}
-
-async function exclusiveShare(ask: Ask, side: LessonSide, seed: string): Promise<number | null> {
-  const lane = LANES.difference;
-  const sampler = "rejection" as const;
-  await ask({
-    ask: "begin",
-    lane,
-    target: "difference",
-    side,
-    sampler,
-    chains: 1,
-    seed,
-    burnIn: 0,
-  });
-  await ask({ ask: "advance", lane, steps: SHARE_DRAWS, watch: false });
-  return (await ask({ ask: "figures", lane })).probability;
-}
-
-async function commonDraws(ask: Ask, { side, seed }: DifferenceValues): Promise<Cloud> {
-  const lane = LANES.intersection;
-  const { chains, burnIn, steps } = OTHERS;
-  const sampler = "independence" as const;
-  await ask({ ask: "begin", lane, target: "intersection", side, sampler, chains, seed, burnIn });
-  await ask({ ask: "advance", lane, steps: burnIn + steps, watch: false });
-  const { values } = await ask({ ask: "draws", lane, most: chains * steps });
-  const law = await ask({ ask: "figures", lane });
-  // Chain after chain: in turn, so that it rains everywhere at once.
-  const mixed = new Float32Array(values.length);
-  const count = values.length / MODES;
-  for (let i = 0; i < count; i += 1) {
-    const from = (i % chains) * Math.floor(count / chains) + Math.floor(i / chains);
-    mixed.set(values.subarray(MODES * from, MODES * (from + 1)), MODES * i);
-  }
-  return { values: mixed, law };
 }

@@ -2,6 +2,7 @@ import { count, number } from "../../../format";
 import { linear, ticks } from "../../../plots";
 import { Chart } from "../../../views/Chart";
 import { type Box, PlotAxes } from "../../../views/PlotAxes";
+import { roomy } from "../../parts/lettering";
 import type { Moment } from "./run";
 
 const HEIGHT = 230;
@@ -31,7 +32,12 @@ export function SquareChart({ curve, most }: { curve: readonly Moment[]; most: n
 }
 
 function Curves({ curve, most, width }: { curve: readonly Moment[]; most: number; width: number }) {
-  const box: Box = { left: 40, right: width - 12, top: 24, bottom: HEIGHT - 40 };
+  const box: Box = {
+    left: roomy(40),
+    right: width - 12,
+    top: roomy(24),
+    bottom: HEIGHT - roomy(40),
+  };
   const x = linear(0, most, box.left, box.right);
   const y = linear(0.4, 1.2, box.bottom, box.top);
   const line = (which: number) =>
@@ -49,10 +55,13 @@ function Curves({ curve, most, width }: { curve: readonly Moment[]; most: number
         y={y}
         across={ticks(0, most, 4).filter((value) => value <= most)}
         up={[0.4, 0.6, 0.8, 1]}
-        acrossName="steps after burn-in"
+        acrossName=""
         upName="E‖α‖²/q"
         showAcross={count}
       />
+      <text class="tick axis-name" x={box.right} y={box.bottom + roomy(30)} text-anchor="end">
+        steps after burn-in
+      </text>
       <line class="right" x1={box.left} x2={box.right} y1={y(1)} y2={y(1)} />
       <line class="wrong-level" x1={box.left} x2={box.right} y1={y(WITHOUT)} y2={y(WITHOUT)} />
       <polyline class="published" points={line(0)} />

@@ -36,28 +36,28 @@ export function drawRunner(
   const { trail, dimension, width } = runner;
   const chains = trail.length === 0 ? 0 : Math.round(width / dimension);
   for (let chain = 0; chain < chains; chain += 1) {
-    drawWay(pen, plane, palette, runner, chain);
+    drawWay(pen, plane, runner, chain);
   }
   let outside = 0;
   for (let chain = 0; chain < chains; chain += 1) {
     const [last, column] = [trail.length - 1, chain * dimension];
     const [x, y] = [plane.x(trail.at(last, column)), plane.y(trail.at(last, column + 1))];
-    const colour = chainColour(palette, chain);
+    const colour = chainColour(chain);
     if (!drawChain(pen, size, { x, y, outside }, colour, palette.raised)) outside += 1;
   }
 }
 
-function drawWay(pen: Pen, plane: Plane, palette: Palette, runner: Runner, chain: number): void {
+function drawWay(pen: Pen, plane: Plane, runner: Runner, chain: number): void {
   const { trail, dimension } = runner;
   const column = chain * dimension;
-  pen.strokeStyle = faded(chainColour(palette, chain), 0.3);
+  pen.strokeStyle = faded(chainColour(chain), 0.3);
   pen.lineWidth = 1;
   pen.beginPath();
   for (let i = 0; i < trail.length; i += 1) {
     pen.lineTo(plane.x(trail.at(i, column)), plane.y(trail.at(i, column + 1)));
   }
   pen.stroke();
-  pen.fillStyle = chainColour(palette, chain);
+  pen.fillStyle = chainColour(chain);
   pen.beginPath();
   for (let i = 0; i < trail.length; i += 1) {
     const [x, y] = [plane.x(trail.at(i, column)), plane.y(trail.at(i, column + 1))];

@@ -85,10 +85,11 @@ function RatioBar({
         <span
           class="ratio-needle"
           data-down={decided}
-          data-accepted={step?.accepted}
           style={{ left: `${100 * (step?.uniform ?? 0)}%` }}
         >
-          <span>{decided ? (step?.accepted ? "✓" : "✕") : "u"}</span>
+          <span class="ratio-flag" data-accepted={step?.accepted}>
+            {decided ? (step?.accepted ? "✓" : "✕") : "u"}
+          </span>
         </span>
       </div>
       <div class="ratio-scale" aria-hidden="true">

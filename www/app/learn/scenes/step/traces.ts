@@ -43,7 +43,7 @@ export function drawTraces(
     pen.lineWidth = chains > 6 ? 1 : 1.5;
     // As chains that wait for no one: the newest state is at the right once there are enough.
     for (let chain = 0; chain < chains; chain += 1) {
-      pen.strokeStyle = chainColour(palette, chain);
+      pen.strokeStyle = chainColour(chain);
       pen.beginPath();
       for (let i = 0; i < trail.length; i += 1) {
         pen.lineTo(x(i), y(trail.at(i, 2 * chain + coefficient)));

@@ -1,0 +1,65 @@
+import { Board } from "../../canvas/Board";
+import { still } from "../../clock";
+import { BOUNDS } from "../../sampling/polar";
+import { drawModel, drawStars } from "./draw";
+import { drawPolar } from "./polar";
+import type { CloudRun } from "./run";
+
+/** The draws, the model made of them beside the truth, and the angles of the tips. */
+export function Pictures({ run, pair }: { run: CloudRun; pair: string }) {
+  const [models, stars] = [run.models.value, run.stars.value];
+  const segments = models?.segments ?? [];
+  const length = models ? models.dimension * models.points : 1;
+  const bound = BOUNDS[pair] ?? null;
+  return (
+    <div class="boards cloud-boards">
+      <figure>
+        <Board
+          label="Stars drawn from both sides, one above the other; their first tips as dots"
+          aspect={1}
+          draw={(pen, size, palette) =>
+            stars && drawStars(pen, size, palette, stars, segments, length)
+          }
+        />
+        <figcaption class="board-caption">
+          The draws: <b class="side-a">of A, near B</b> and <b class="side-b">of B, near A</b>.
+        </figcaption>
+      </figure>
+      <Swaying run={run} />
+      <figure>
+        <Board
+          label={`Polar histogram of the angles of the five tips; both models can make the first within ${bound ?? "–"} degrees`}
+          aspect={1}
+          draw={(pen, size, palette) =>
+            stars && drawPolar(pen, size, palette, stars, length, bound)
+          }
+        />
+        <figcaption class="board-caption">
+          How far each tip turns, as in the paper. Both were made with tip 1 within −{bound}…{bound}
+          °.
+        </figcaption>
+      </figure>
+    </div>
+  );
+}
+
+/** Alone, as it is drawn every frame. */
+function Swaying({ run }: { run: CloudRun }) {
+  const [models, found] = [run.models.value, run.found.value];
+  const sway = still.value ? 1 : run.sway.value;
+  return (
+    <figure>
+      <Board
+        label="The model of the draws, solid, and the true intersection, dashed, swaying by two standard deviations along their first mode"
+        aspect={1}
+        draw={(pen, size, palette) => {
+          if (!models || !found) return;
+          drawModel(pen, size, palette, found.model, models.truth, models.segments ?? [], sway);
+        }}
+      />
+      <figcaption class="board-caption">
+        <b class="side-ab">PCA of the draws</b> and the truth (dashed): mean ± 2 SD of mode 1.
+      </figcaption>
+    </figure>
+  );
+}

@@ -1,0 +1,56 @@
+import { number, percent, plusMinus } from "../../../format";
+import { AdviceLine } from "../../../views/Chart";
+import { LessonNumber, LessonNumbers } from "../../parts/controls";
+import { differenceVerdict } from "../../sampling/verdicts";
+import type { DifferenceRun } from "./run";
+
+interface FiguresProps {
+  run: DifferenceRun;
+  own: string;
+  other: string;
+  side: "a" | "b";
+}
+
+/** How much is different, and how far PCA misleads. */
+export function Figures({ run, own, other, side }: FiguresProps) {
+  const found = run.found.value;
+  const { probability = null, standardError = null } = found?.figures ?? {};
+  const { misled, misledDraws } = found?.principal ?? {};
+  return (
+    <>
+      <p class="lesson-headline">
+        <strong data-metric="figures.probability" data-value={probability ?? undefined}>
+          {probability === null ? "–" : percent(probability)}
+        </strong>{" "}
+        <span
+          class="dim"
+          data-metric="figures.standardError"
+          data-value={standardError ?? undefined}
+        >
+          ± {standardError === null ? "–" : plusMinus(0, 100 * standardError).spread}
+        </span>{" "}
+        of {own} cannot be made by {other}: E[1 − Lᴅ].
+      </p>
+      <LessonNumbers label="What principal components would claim">
+        <LessonNumber
+          label={`PCA’s shapes that ${other} makes too`}
+          metric="principal.misled"
+          value={misled}
+          show={percent}
+        />
+        <LessonNumber
+          label="the same of the draws"
+          metric="principal.misledDraws"
+          value={misledDraws}
+          show={percent}
+        />
+      </LessonNumbers>
+      {found && misled !== undefined && probability !== null && (
+        <AdviceLine advice={{ ...differenceVerdict(side, probability, misled), chain: null }} />
+      )}
+      {found && (
+        <p class="small">Recommended σ of this pair: {number(found.models.recommended)}.</p>
+      )}
+    </>
+  );
+}

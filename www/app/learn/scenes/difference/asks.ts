@@ -1,0 +1,131 @@
+/** The difference of a side: fields, exact draws, and what PCA makes of them. */
+import type {
+  LaneFigures,
+  LessonField,
+  LessonLaw,
+  LessonModels,
+  LessonPrincipal,
+  LessonSide,
+} from "../../../../worker/lessons";
+import type { Ask } from "../../engine";
+import type { SceneValues } from "../../scenes";
+
+export type DifferenceValues = SceneValues<"difference">;
+
+export const EXTENT = 3.4;
+/** Odd: one column of the grid is at 0, for the cut. */
+const FIELD_SIZE = 161;
+const MODES = 2;
+const FIRST_TWO: [number, number] = [0, 1];
+const LANES = { difference: 0, intersection: 1 };
+/** Draws of the intersection, to compare with. */
+const OTHERS = { chains: 4, burnIn: 50, steps: 150 };
+/** As far as the slider goes. */
+const SIGMAS = [0.003, 0.01, 0.03, 0.06, 0.1, 0.17, 0.3, 0.5, 0.8, 1.3, 2, 3];
+const SHARE_DRAWS = 1500;
+
+export interface Cloud {
+  /** Two coefficients each. */
+  values: Float32Array;
+  law: LessonLaw;
+}
+
+export interface Found {
+  models: LessonModels;
+  intersection: LessonField;
+  difference: LessonField;
+  likelihood: LessonField;
+  common: Cloud;
+  exclusive: Cloud;
+  figures: LaneFigures;
+  principal: LessonPrincipal;
+}
+
+export interface Share {
+  sigma: number;
+  share: number;
+}
+
+export async function findDifference(ask: Ask, values: DifferenceValues): Promise<Found> {
+  const { pair, sigma, side, seed, draws } = values;
+  const models = await ask({ ask: "open", pair, sigma, modes: MODES });
+  const grid = { side, modes: FIRST_TWO, at: [], extent: EXTENT, size: FIELD_SIZE };
+  const intersection = await ask({ ask: "field", of: "intersection", ...grid });
+  const difference = await ask({ ask: "field", of: "difference", ...grid });
+  const likelihood = await ask({ ask: "field", of: "likelihood", ...grid });
+  const lane = LANES.difference;
+  await ask({
+    ask: "begin",
+    lane,
+    target: "difference",
+    side,
+    sampler: "rejection",
+    chains: 1,
+    seed,
+    burnIn: 0,
+  });
+  await ask({ ask: "advance", lane, steps: draws, watch: false });
+  const figures = await ask({ ask: "figures", lane });
+  const principal = await ask({ ask: "principal", lane });
+  const { values: exclusive } = await ask({ ask: "draws", lane, most: draws });
+  const common = await commonDraws(ask, values);
+  return {
+    models,
+    intersection,
+    difference,
+    likelihood,
+    common,
+    exclusive: { values: exclusive, law: principal },
+    figures,
+    principal,
+  };
+}
+
+/** Opens the models anew for every σ: to be asked after everything else. */
+export async function sharesOver(
+  ask: Ask,
+  { pair, side, seed }: DifferenceValues,
+): Promise<Share[]> {
+  const shares: Share[] = [];
+  for (const sigma of SIGMAS) {
+    await ask({ ask: "open", pair, sigma, modes: MODES });
+    const share = await exclusiveShare(ask, side, seed);
+    if (share !== null) shares.push({ sigma, share });
+  }
+  return shares;
+}
+
+async function exclusiveShare(ask: Ask, side: LessonSide, seed: string): Promise<number | null> {
+  const lane = LANES.difference;
+  const sampler = "rejection" as const;
+  await ask({
+    ask: "begin",
+    lane,
+    target: "difference",
+    side,
+    sampler,
+    chains: 1,
+    seed,
+    burnIn: 0,
+  });
+  await ask({ ask: "advance", lane, steps: SHARE_DRAWS, watch: false });
+  return (await ask({ ask: "figures", lane })).probability;
+}
+
+async function commonDraws(ask: Ask, { side, seed }: DifferenceValues): Promise<Cloud> {
+  const lane = LANES.intersection;
+  const { chains, burnIn, steps } = OTHERS;
+  const sampler = "independence" as const;
+  await ask({ ask: "begin", lane, target: "intersection", side, sampler, chains, seed, burnIn });
+  await ask({ ask: "advance", lane, steps: burnIn + steps, watch: false });
+  const { values } = await ask({ ask: "draws", lane, most: chains * steps });
+  const law = await ask({ ask: "figures", lane });
+  // Chain after chain: in turn, so that it rains everywhere at once.
+  const mixed = new Float32Array(values.length);
+  const count = values.length / MODES;
+  for (let i = 0; i < count; i += 1) {
+    const from = (i % chains) * Math.floor(count / chains) + Math.floor(i / chains);
+    mixed.set(values.subarray(MODES * from, MODES * (from + 1)), MODES * i);
+  }
+  return { values: mixed, law };
+}

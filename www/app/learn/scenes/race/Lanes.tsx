@@ -1,0 +1,42 @@
+import { Board } from "../../canvas/Board";
+import { SAMPLER_NAMES } from "../../sampling/names";
+import { params } from "../../state";
+import { drawRunner, type Scenery } from "./draw";
+import type { RaceRun, Runner } from "./run";
+
+/** A board for each sampler. */
+export function Lanes({ run }: { run: RaceRun }) {
+  // Where they are now.
+  run.step.value;
+  const [image, view, models] = [run.image.value, run.view.value, run.models.value];
+  const { side, break: what } = params("race").value;
+  const fit = models && what !== "scaling" ? models.fits[side] : null;
+  const scenery = image && view && { image, view, fit };
+  return (
+    <div class="race-lanes" data-count={run.runners.value.length}>
+      {run.runners.value.map((runner) => (
+        <Lane key={runner.sampler} runner={runner} scenery={scenery} />
+      ))}
+    </div>
+  );
+}
+
+interface LaneProps {
+  runner: Runner;
+  scenery: Scenery | null;
+}
+
+function Lane({ runner, scenery }: LaneProps) {
+  return (
+    <figure>
+      <Board
+        label={`${SAMPLER_NAMES[runner.sampler]}: its chains over the first two coefficients`}
+        aspect={1}
+        draw={(pen, size, palette) => {
+          if (scenery) drawRunner(pen, size, palette, runner, scenery);
+        }}
+      />
+      <figcaption>{SAMPLER_NAMES[runner.sampler]}</figcaption>
+    </figure>
+  );
+}

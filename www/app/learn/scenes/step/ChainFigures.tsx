@@ -1,0 +1,63 @@
+import { count, number, percent } from "../../../format";
+import { AdviceLine } from "../../../views/Chart";
+import { Board } from "../../canvas/Board";
+import { LessonNumber, LessonNumbers } from "../../parts/controls";
+import { chainVerdict } from "../../sampling/verdicts";
+import type { StepRun } from "./run";
+import { drawTraces } from "./traces";
+
+export function Traces({ run, chains }: { run: StepRun; chains: number }) {
+  const step = run.progress.value?.step ?? 0;
+  return (
+    <figure>
+      <Board
+        label={`Traces of both coefficients over the last steps, up to step ${step}, a line for each chain`}
+        aspect={0.34}
+        draw={(pen, size, palette) => {
+          if (run.trail.length > 1) drawTraces(pen, size, palette, run.trail, chains);
+        }}
+      />
+      <figcaption class="board-caption">
+        The last 300 steps of α₁ and α₂; dashed: ±2 SD. Chains that have converged cannot be told
+        apart.
+      </figcaption>
+    </figure>
+  );
+}
+
+/** What the chains say of themselves, and what that means. */
+export function ChainFigures({ run }: { run: StepRun }) {
+  const figures = run.figures.value;
+  const progress = run.progress.value;
+  return (
+    <>
+      <LessonNumbers label="What the chains say of themselves">
+        <LessonNumber
+          label="steps of each chain"
+          metric="settings.steps"
+          value={progress?.step ?? 0}
+          show={count}
+        />
+        <LessonNumber
+          label="accepted"
+          metric="figures.acceptance"
+          value={figures?.acceptance}
+          show={percent}
+        />
+        <LessonNumber
+          label="R-hat"
+          metric="figures.rHatMax"
+          value={figures?.rHatMax}
+          show={(value) => number(value, 4)}
+        />
+        <LessonNumber
+          label="effective draws"
+          metric="figures.essBulkMin"
+          value={figures?.essBulkMin}
+          note={figures ? `of ${count(figures.draws)}` : undefined}
+        />
+      </LessonNumbers>
+      {figures && <AdviceLine advice={{ ...chainVerdict(figures), chain: null }} />}
+    </>
+  );
+}
