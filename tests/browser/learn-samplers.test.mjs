@@ -24,7 +24,7 @@ async function follow(page, url, link) {
 /** Waits until the address has what is asked of it. */
 const untilAddress = (page, pattern) =>
   page.waitForFunction((source) => new RegExp(source).test(location.hash), pattern.source, {
-    timeout: 10_000,
+    timeout: 60_000,
   });
 
 async function numbersOf(page) {

@@ -42,7 +42,7 @@ export function drawCut(
   pen.setLineDash([]);
   pen.textAlign = "center";
   pen.textBaseline = "top";
-  for (const value of [-3, -2, -1, 0, 1, 2, 3]) {
+  for (const value of [-2, -1, 0, 1, 2]) {
     const place = x(((EXTENT - value) / (2 * EXTENT)) * (rows - 1));
     pen.fillText(String(value).replace("-", "−"), place, box.bottom + 5);
   }

@@ -15,12 +15,16 @@ export type RaceValues = SceneValues<"race">;
 const BURN_IN = 200;
 const TRAIL = 90;
 const FIELD_SIZE = 144;
-/** How long a race lasts, and into how many parts one that is not watched is cut for its curves. */
+/** How long a race lasts. */
 const RACE_MS = 10_000;
-const PARTS = 25;
+/** Into how many parts one that is not watched is cut for its curves; the figures of a long one take their time. */
+const PARTS = { short: 25, long: 10 };
+const LONG = 1000;
 /** Steps that an engine is asked for between two frames. */
 const MOST_AT_ONCE = 200;
 const FIGURES_EVERY_MS = 120;
+/** Figures take at most one part of so many of the time. */
+const FIGURES_SHARE = 4;
 export const MOST_STEPS = 5000;
 const MORE = 2;
 
@@ -55,6 +59,7 @@ export class RaceRun {
   #carry = 0;
   #clock = 0;
   #next = 0;
+  #every = FIGURES_EVERY_MS;
   #over: ((steps: number) => void) | null = null;
 
   async open(ask: Ask, values: RaceValues, growing: boolean): Promise<void> {
@@ -107,6 +112,11 @@ export class RaceRun {
     if (!growing) await this.#jump(steps);
   }
 
+  /** Whether its curves are looked at: only where a law is known that they should come to. */
+  get #curved(): boolean {
+    return this.runners.peek().length === 2;
+  }
+
   frame(elapsedMs: number): void {
     if (!this.playing.peek() || this.#turns.busy) return;
     this.#clock += elapsedMs;
@@ -147,18 +157,21 @@ export class RaceRun {
       });
       this.#over?.(this.step.peek());
       this.#over = null;
-    } else if (this.#clock > FIGURES_EVERY_MS) {
+    } else if (this.#clock > this.#every) {
       this.#clock = 0;
+      const start = performance.now();
       await this.#lookAtNext();
+      this.#every = Math.max(FIGURES_EVERY_MS, FIGURES_SHARE * (performance.now() - start));
     }
   }
 
   /** As far as a link says, in parts, so that the curves are there too. */
   async #jump(steps: number): Promise<void> {
-    for (let part = 1; part <= PARTS; part += 1) {
-      const goal = Math.round((steps * part) / PARTS);
+    const parts = !this.#curved ? 1 : steps > LONG ? PARTS.long : PARTS.short;
+    for (let part = 1; part <= parts; part += 1) {
+      const goal = Math.round((steps * part) / parts);
       // The last of them one by one: their trails are seen.
-      const single = part === PARTS ? Math.min(TRAIL, goal - this.step.peek()) : 0;
+      const single = part === parts ? Math.min(TRAIL, goal - this.step.peek()) : 0;
       await this.#advance(goal - this.step.peek() - single);
       for (let i = 0; i < single; i += 1) await this.#advance(1);
       await this.#look();

@@ -1,11 +1,10 @@
 /** One chain of the walk under a magnifier. */
 import type { LessonStep } from "../../../../worker/lessons";
 import type { Size } from "../../canvas/Board";
-import { chainColour, drawDot, drawOutcome, drawTrail } from "../../canvas/chains";
+import { chainColour, drawDot, drawTrail } from "../../canvas/chains";
 import { faded, type Palette } from "../../canvas/palette";
 import { drawField, type Plane, planeOf } from "../../canvas/plane";
 import { MIXTURE, SCALING } from "../../sampling/names";
-import { isSaid } from "../../sampling/pacing";
 import { drawProposal, followedOf, line, NEAR, placeOf, type Shown, undecided } from "./draw";
 import { EXTENT } from "./run";
 
@@ -26,14 +25,11 @@ export function drawNear(pen: Pen, size: Size, palette: Palette, shown: Shown): 
   pen.lineWidth = 1.5;
   drawTrail(pen, plane, shown.trail, 2 * followed, TRAIL, hidden);
   const step = shown.decisions[followed];
-  if (step) {
-    drawMixture(pen, plane, palette, step);
-    drawProposal(pen, plane, palette, step, shown.told, 11);
-  }
+  if (step) drawMixture(pen, plane, palette, step);
   const [x, y] = [plane.x(at[0] ?? 0), plane.y(at[1] ?? 0)];
   drawDot(pen, x, y, 10, chainColour(followed), palette.raised);
-  // Where it was accepted the tick stays on top of the state.
-  if (step?.accepted && isSaid("decide", shown.told)) drawOutcome(pen, x, y, 12, true, palette);
+  // Where it was accepted the tick is on top of the state that goes there.
+  if (step) drawProposal(pen, plane, palette, step, shown.told, 11);
 }
 
 /** The part of the mixture that proposed: circles of 1 and 2 SD, or the ray of the scaling move. */
