@@ -54,6 +54,10 @@ async function compares(address, threads) {
     await page.goto(`${address}#v=1&demo=heads-sex&sigma=2&draws=400`);
     await page.reload();
     await untilState(page, "done");
+    await page.goto(`${address}#v=1&page=learn&scene=step&steps=137`);
+    await page.reload();
+    await untilState(page, "done");
+    assert.ok((await metric(page, "figures.acceptance")) > 0.5);
     assert.equal(await page.evaluate(() => crossOriginIsolated), threads);
     assert.deepEqual(beyond, []);
   });

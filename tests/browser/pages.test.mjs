@@ -4,6 +4,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { EXHIBITS } from "../../scripts/exhibits.mjs";
 import { root } from "../../scripts/steps/run.mjs";
+import { shapevenn } from "./command.mjs";
 import { accessibilityFaults, dropFiles, untilCompared, untilState, withPage } from "./harness.mjs";
 
 const hash = (page) => page.evaluate(() => location.hash);
@@ -93,3 +94,38 @@ for (const colorScheme of ["light", "dark"]) {
     );
   });
 }
+
+test("what is shared of a lesson is the scene: link, frame and command", async () => {
+  await withPage({}, async ({ url, page }) => {
+    const fragment = "v=1&page=learn&scene=step&seed=7&steps=137";
+    await page.goto(`${url}#${fragment}`);
+    await untilState(page, "done");
+    await page.getByRole("button", { name: "Share", exact: true }).click();
+    const dialog = page.getByRole("dialog", { name: "Share this scene" });
+    await dialog.waitFor();
+    assert.equal(await dialog.getByLabel(/^Link/).inputValue(), `${url}#${fragment}`);
+    await dialog.getByText("In another web page").click();
+    const frame = await dialog.getByLabel("Where no scripts are allowed").inputValue();
+    await dialog.getByText("On the command line").click();
+    const line = await dialog.getByLabel("The same numbers from a terminal").inputValue();
+    assert.equal(line, `shapevenn lesson '${fragment}'`);
+    const shown = await page
+      .locator('[data-metric="figures.acceptance"]')
+      .getAttribute("data-value");
+    assert.equal(
+      JSON.parse(shapevenn("lesson", fragment, "--json")).figures.acceptance,
+      Number(shown),
+    );
+    // The frame has the scene and nothing around it.
+    const [, address = ""] = /src="([^"]+)"/.exec(frame) ?? [];
+    await page.goto(address.replaceAll("&amp;", "&"));
+    await page.reload();
+    await untilState(page, "done");
+    assert.equal(await page.locator("header.top, .scene-list").count(), 0);
+    const again = await page
+      .locator('[data-metric="figures.acceptance"]')
+      .getAttribute("data-value");
+    assert.equal(again, shown);
+    await page.getByRole("link", { name: "Open in Shapevenn" }).waitFor();
+  });
+});

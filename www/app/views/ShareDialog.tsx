@@ -1,41 +1,42 @@
 import { signal } from "@preact/signals";
-import { sharedAddress, unlinkable } from "../history";
-import { plain } from "../phrase";
-import { commandOf } from "../share/command";
-import { copiedWords, holdsSentences } from "../share/holds";
+import { sharedAddress } from "../history";
 import { elementSnippet, frameSnippet } from "../share/snippets";
-import { nameOf } from "../sources";
-import { namesInLinks, nouns, result, type Side, settings, slots } from "../state";
-import { headline } from "../words";
+import { type Line, type Subject, subject } from "../share/subject";
+import { namesInLinks } from "../state";
 import { CopyButton } from "./CopyButton";
 import { Modal } from "./Modal";
 import { Qr } from "./Qr";
 
 export const sharing = signal(false);
 
-/** The comparison for somebody else: as a link, a code to photograph, a frame, a command. */
+/** What is on show, for somebody else: as a link, a code to photograph, a frame, a command. */
 export function ShareDialog() {
   if (!sharing.value) return null;
   const address = sharedAddress();
+  const shared = subject();
   return (
     <Modal
-      title="Share this comparison"
+      title={shared.title}
       onClose={() => {
         sharing.value = false;
       }}
     >
       <div class="share">
-        <LinkPart address={address} />
+        <LinkPart address={address} shared={shared} />
         <Qr text={address} />
       </div>
-      <Embedding address={address} />
-      <AsCommand />
+      <Embedding address={address} shared={shared} />
+      {shared.command && <AsCommand command={shared.command} />}
     </Modal>
   );
 }
 
-function LinkPart({ address }: { address: string }) {
-  const lost = unlinkable.value;
+interface Props {
+  address: string;
+  shared: Subject;
+}
+
+function LinkPart({ address, shared: { holds, copied, lost } }: Props) {
   const share = "share" in navigator ? () => void sendOn(address) : null;
   return (
     <div class="share-link">
@@ -56,7 +57,7 @@ function LinkPart({ address }: { address: string }) {
           primary
           autofocus
           text={() => sharedAddress()}
-          done={copiedWords(lost)}
+          done={copied}
         />
         {share && (
           <button type="button" onClick={share}>
@@ -64,7 +65,7 @@ function LinkPart({ address }: { address: string }) {
           </button>
         )}
       </div>
-      {holdsSentences(lost).map((sentence) => (
+      {holds.map((sentence) => (
         <p key={sentence} class="small">
           {sentence}
         </p>
@@ -95,20 +96,14 @@ async function sendOn(url: string): Promise<void> {
   await navigator.share({ title: document.title, url }).catch(() => undefined);
 }
 
-function Embedding({ address }: { address: string }) {
-  const title = `Shapevenn: ${nouns.value.a} and ${nouns.value.b}`;
-  const element = elementSnippet(address, title);
-  const frame = frameSnippet(sharedAddress(true), title);
-  const shown = result.value;
+function Embedding({ address, shared: { name, framed } }: Props) {
+  const element = elementSnippet(address, name);
+  const frame = frameSnippet(sharedAddress(true), name);
   return (
     <details class="more">
       <summary>In another web page</summary>
       <div class="share-parts">
-        <p class="small">
-          A frame with the shapes
-          {shown && `, the sentence “${plain(headline(shown.report, shown.nouns))}”`} and a link to
-          here. It is 420 pixels high unless the page says otherwise.
-        </p>
+        <p class="small">{framed} It is 420 pixels high unless the page says otherwise.</p>
         <Snippet label="As an element" text={element} />
         <Snippet label="Where no scripts are allowed" text={frame} />
       </div>
@@ -116,20 +111,14 @@ function Embedding({ address }: { address: string }) {
   );
 }
 
-function AsCommand() {
-  const [a, b] = [commandModel("a"), commandModel("b")];
-  if (!a || !b) return null;
-  const { line, missing } = commandOf(settings.value, { a, b });
-  const from = [a, b]
-    .filter(({ source }) => !source.startsWith("demo:"))
-    .map(({ source }) => source);
+function AsCommand({ command: { text, files, missing } }: { command: Line }) {
   return (
     <details class="more">
       <summary>On the command line</summary>
       <div class="share-parts">
-        <Snippet label="The same numbers from a terminal" text={line} />
-        {from.length > 0 && (
-          <p class="small">Run it in the folder that holds {[...new Set(from)].join(" and ")}.</p>
+        <Snippet label="The same numbers from a terminal" text={text} />
+        {files.length > 0 && (
+          <p class="small">Run it in the folder that holds {files.join(" and ")}.</p>
         )}
         {missing.length > 0 && (
           <p class="small">
@@ -140,17 +129,6 @@ function AsCommand() {
       </div>
     </details>
   );
-}
-
-function commandModel(side: Side) {
-  const slot = slots[side].value;
-  if (!slot) return null;
-  const { source, part, parts, scale } = slot;
-  return {
-    source: source.kind === "demo" ? `demo:${source.name}` : nameOf(source),
-    part: part === parts[0] ? null : part,
-    scale,
-  };
 }
 
 function Snippet({ label, text }: { label: string; text: string }) {

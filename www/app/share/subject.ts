@@ -1,0 +1,102 @@
+/** What is shared: the comparison, the scene of a lesson, or the gallery. */
+import { currentLink, unlinkable } from "../history";
+import { titleOf } from "../learn/scenes";
+import { scene } from "../learn/state";
+import { plain } from "../phrase";
+import { nameOf } from "../sources";
+import { nouns, page, result, type Side, settings, slots } from "../state";
+import { headline } from "../words";
+import { type CommandModel, commandOf } from "./command";
+import { copiedWords, holdsSentences, type Unlinkable } from "./holds";
+
+export interface Subject {
+  /** Of the dialog. */
+  title: string;
+  /** Of a frame, for those who do not see it. */
+  name: string;
+  /** What a frame shows. */
+  framed: string;
+  /** What the link holds. */
+  holds: string[];
+  copied: string;
+  /** What a link cannot hold. */
+  lost: Unlinkable;
+  command: Line | null;
+}
+
+/** A line for a terminal, and what there is to know about it. */
+export interface Line {
+  text: string;
+  /** Files that must be at hand. */
+  files: string[];
+  /** What the line cannot say. */
+  missing: string[];
+}
+
+const NOTHING: Unlinkable = { files: [], shelf: false, points: false };
+
+export function subject(): Subject {
+  if (page.value === "learn") return scenePart();
+  return page.value === "gallery" ? GALLERY : comparison();
+}
+
+const GALLERY: Subject = {
+  title: "Share the gallery",
+  name: "Shapevenn: gallery",
+  framed: "A frame with a first comparison and a link to here.",
+  holds: ["The link leads to the gallery."],
+  copied: copiedWords(NOTHING),
+  lost: NOTHING,
+  command: null,
+};
+
+function scenePart(): Subject {
+  const { name, title } = titleOf(scene.value);
+  const hasNumbers = name !== "yours" && name !== "teacher";
+  const text = `shapevenn lesson '${currentLink()}'`;
+  return {
+    title: "Share this scene",
+    name: `Shapevenn: ${title}`,
+    framed: "A frame with the scene, which plays there too, and a link to here.",
+    holds: [
+      "The link holds the scene, its seed and what was set: whoever opens it sees the same numbers.",
+    ],
+    copied: copiedWords(NOTHING),
+    lost: NOTHING,
+    command: hasNumbers ? { text, files: [], missing: [] } : null,
+  };
+}
+
+function comparison(): Subject {
+  const lost = unlinkable.value;
+  const shown = result.value;
+  const sentence = shown && `, the sentence “${plain(headline(shown.report, shown.nouns))}”`;
+  return {
+    title: "Share this comparison",
+    name: `Shapevenn: ${nouns.value.a} and ${nouns.value.b}`,
+    framed: `A frame with the shapes${sentence ?? ""} and a link to here.`,
+    holds: holdsSentences(lost),
+    copied: copiedWords(lost),
+    lost,
+    command: comparing(),
+  };
+}
+
+function comparing(): Line | null {
+  const [a, b] = [commandModel("a"), commandModel("b")];
+  if (!a || !b) return null;
+  const { line, missing } = commandOf(settings.value, { a, b });
+  const files = [a, b].map(({ source }) => source).filter((name) => !name.startsWith("demo:"));
+  return { text: line, files: [...new Set(files)], missing };
+}
+
+function commandModel(side: Side): CommandModel | null {
+  const slot = slots[side].value;
+  if (!slot) return null;
+  const { source, part, parts, scale } = slot;
+  return {
+    source: source.kind === "demo" ? `demo:${source.name}` : nameOf(source),
+    part: part === parts[0] ? null : part,
+    scale,
+  };
+}
