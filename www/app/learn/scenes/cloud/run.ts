@@ -96,6 +96,7 @@ export class CloudRun {
     this.#held.value = true;
     await this.#turns.idle();
     this.#stages = [];
+    lessonState.value = "done";
     return this.draws.peek();
   }
 
