@@ -90,7 +90,7 @@ fn an_address_gives_the_same_bytes_as_its_fragment_every_time() {
 
 #[test]
 fn text_has_the_numbers_by_their_paths_and_names_other_keys() {
-    let output = lesson(&["scene=planes&camera=1,2,3"]);
+    let output = lesson(&["scene=planes&coefficients=1,0.5&camera=1,2,3"]);
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let line = text.lines().find(|line| line.starts_with("point.distance ")).unwrap();
     assert_eq!(line.split_whitespace().last(), Some("0.383022"), "{text}");
