@@ -6,7 +6,8 @@ import { spawnSync } from "node:child_process";
 import { existsSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { ensureNode } from "./setup.mjs";
-import { cache, isMain, main, root } from "./steps/run.mjs";
+import { bundle } from "./steps/bundle.mjs";
+import { isMain, main, root } from "./steps/run.mjs";
 
 /** Bundles the tests and returns the files for `node --test`. */
 export async function bundleUnitTests() {
@@ -20,23 +21,7 @@ export async function bundleUnitTests() {
       join(folder, name),
     ]),
   );
-  const outDir = join(cache, "unit");
-  const { build } = await import("vite");
-  await build({
-    configFile: false,
-    root,
-    publicDir: false,
-    logLevel: "warn",
-    build: {
-      ssr: true,
-      target: "node20",
-      outDir,
-      emptyOutDir: true,
-      sourcemap: "inline",
-      rolldownOptions: { input, output: { entryFileNames: "[name].mjs" } },
-    },
-  });
-  return Object.keys(input).map((name) => join(outDir, `${name}.mjs`));
+  return bundle("unit", input);
 }
 
 if (isMain(import.meta.url)) {

@@ -1,7 +1,6 @@
-import { useMemo, useRef } from "preact/hooks";
+import { useMemo } from "preact/hooks";
 import { count } from "../../format";
-import { still, useFrames } from "../clock";
-import { useSceneKeys } from "../keys";
+import { useFrames } from "../clock";
 import { PlayBar, Slider } from "../parts/controls";
 import {
   ChainSlider,
@@ -10,7 +9,7 @@ import {
   SeedField,
   SigmaSlider,
 } from "../sampling/Controls";
-import { useOwn, useSession } from "../sampling/session";
+import { useGrowing } from "../sampling/growing";
 import { LESSON_SAMPLERS, SCENE_PARAMS, STAR_PAIRS } from "../scenes";
 import { params, resetScene, setParams } from "../state";
 import { FallChart } from "./cloud/FallChart";
@@ -24,30 +23,19 @@ import "../../../styles/learn-samplers.css";
 export function CloudScene() {
   const run = useMemo(() => new CloudRun(), []);
   const values = params("cloud").value;
-  const { revision, own } = useOwn(values.draws);
   const { pair, sigma, sampler, chains, seed, draws } = values;
-  // A link that says how many draws there are shows these; otherwise they pile up before the eye.
-  const grows = useRef(draws === SCENE_PARAMS.cloud.draws.standard);
-  useSession([pair, sigma, sampler, chains, seed, revision].join(), async (ask) => {
-    const growing = grows.current && !still.peek();
-    grows.current = false;
-    await run.open(ask, params("cloud").peek(), growing);
+  const { again, toggle } = useGrowing(run, {
+    of: [pair, sigma, sampler, chains, seed].join(),
+    far: draws,
+    standard: SCENE_PARAMS.cloud.draws.standard,
+    open: (ask, growing) => run.open(ask, params("cloud").peek(), growing),
+    write: (found) => setParams("cloud", { draws: found }),
   });
   useFrames(run.moving, (elapsed) => run.frame(elapsed));
   const change = (part: Partial<CloudValues>) => {
-    grows.current = true;
+    again();
     setParams("cloud", part);
   };
-  const write = (found: number) => {
-    if (found === 0) return;
-    own(found);
-    setParams("cloud", { draws: found });
-  };
-  const toggle = () => {
-    if (run.playing.peek()) void run.pause().then(write);
-    else run.run(write);
-  };
-  useSceneKeys(toggle, null);
   return (
     <>
       <p class="lead">

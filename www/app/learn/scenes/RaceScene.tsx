@@ -1,11 +1,10 @@
-import { useMemo, useRef } from "preact/hooks";
+import { useMemo } from "preact/hooks";
 import { count } from "../../format";
 import { AdviceLine } from "../../views/Chart";
-import { still, useFrames } from "../clock";
-import { useSceneKeys } from "../keys";
+import { useFrames } from "../clock";
 import { PlayBar, Slider } from "../parts/controls";
 import { ChainSlider, PairChoice, SeedField, SideChoice, SigmaSlider } from "../sampling/Controls";
-import { useOwn, useSession } from "../sampling/session";
+import { useGrowing } from "../sampling/growing";
 import { BREAKS, PAIRS, SCENE_PARAMS } from "../scenes";
 import { params, resetScene, setParams } from "../state";
 import { BREAK_WORDS, raceVerdict } from "./race/broken";
@@ -23,30 +22,19 @@ const USUAL_SIGMA = { planes: 0.3, stars: 0.003 };
 export function RaceScene() {
   const run = useMemo(() => new RaceRun(), []);
   const values = params("race").value;
-  const { revision, own } = useOwn(values.steps);
   const { pair, sigma, side, chains, seed, steps, break: what } = values;
-  // A link that says how far the race is shows that; otherwise it is run before the eye.
-  const grows = useRef(steps === SCENE_PARAMS.race.steps.standard);
-  useSession([pair, sigma, side, chains, seed, what, revision].join(), async (ask) => {
-    const growing = grows.current && !still.peek();
-    grows.current = false;
-    await run.open(ask, params("race").peek(), growing);
+  const { again, toggle } = useGrowing(run, {
+    of: [pair, sigma, side, chains, seed, what].join(),
+    far: steps,
+    standard: SCENE_PARAMS.race.steps.standard,
+    open: (ask, growing) => run.open(ask, params("race").peek(), growing),
+    write: (found) => setParams("race", { steps: found }),
   });
   useFrames(run.playing, (elapsed) => run.frame(elapsed));
   const change = (part: Partial<RaceValues>) => {
-    grows.current = true;
+    again();
     setParams("race", part);
   };
-  const write = (found: number) => {
-    if (found === 0) return;
-    own(found);
-    setParams("race", { steps: found });
-  };
-  const toggle = () => {
-    if (run.playing.peek()) void run.pause().then(write);
-    else run.run(write);
-  };
-  useSceneKeys(toggle, null);
   return (
     <>
       <p class="lead">
