@@ -2,6 +2,7 @@
 import "../../styles/learn.css";
 import { useEffect, useRef } from "preact/hooks";
 import { Notices } from "../views/Notices";
+import { useHands } from "./hands";
 import { useKeys } from "./keys";
 import { SceneList, StepAlong } from "./parts/SceneList";
 import { SCENES, TEACHER, titleOf } from "./scenes";
@@ -13,6 +14,7 @@ export function Learn() {
   const top = useRef<HTMLElement>(null);
   const name = scene.value;
   useKeys();
+  useHands();
   // A new scene is read from its top.
   useEffect(() => {
     top.current?.scrollTo(0, 0);
