@@ -4,6 +4,7 @@ import { useEffect, useRef } from "preact/hooks";
 import { sharedAddress } from "../history";
 import { embedded } from "../state";
 import { Notices } from "../views/Notices";
+import { useHands } from "./hands";
 import { useKeys } from "./keys";
 import { SceneList, StepAlong } from "./parts/SceneList";
 import { SCENES, TEACHER, titleOf } from "./scenes";
@@ -15,6 +16,7 @@ export function Learn() {
   const top = useRef<HTMLElement>(null);
   const name = scene.value;
   useKeys();
+  useHands();
   // A new scene is read from its top.
   useEffect(() => {
     top.current?.scrollTo(0, 0);

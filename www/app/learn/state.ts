@@ -26,6 +26,9 @@ export const settledLesson: ReadonlySignal<LessonState> = settled;
 
 const SETTLE_MS = 400;
 let timer: ReturnType<typeof setTimeout> | undefined;
+/** Something was changed and not written down yet. */
+let pending = false;
+let held = false;
 
 /** What is chosen in a scene. */
 export function params<N extends SceneName>(name: N): ReadonlySignal<SceneValues<N>> {
@@ -36,13 +39,25 @@ export function params<N extends SceneName>(name: N): ReadonlySignal<SceneValues
 export function setParams<N extends SceneName>(name: N, part: Partial<SceneValues<N>>): void {
   const values = live[name] as unknown as Signal<SceneValues<N>>;
   values.value = { ...values.peek(), ...part };
+  pending = true;
+  wait();
+}
+
+/** While something is held nothing is written down: a drag is one step of Back, however slow. */
+export function hold(now: boolean): void {
+  held = now;
+  if (pending) wait();
+}
+
+function wait(): void {
   clearTimeout(timer);
-  timer = setTimeout(settle, SETTLE_MS);
+  if (!held) timer = setTimeout(settle, SETTLE_MS);
 }
 
 /** Writes down what is chosen now. */
 export function settle(): void {
   clearTimeout(timer);
+  pending = false;
   settled.value = {
     scene: scene.peek(),
     values: live[scene.peek()].peek(),
@@ -73,6 +88,7 @@ export const resets = signal(0);
 /** As a link or a step of Back has it. */
 export function applyLesson(lesson: LessonState): void {
   clearTimeout(timer);
+  pending = false;
   batch(() => {
     scene.value = lesson.scene;
     large.value = lesson.large;

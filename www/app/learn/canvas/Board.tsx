@@ -91,8 +91,10 @@ export function Board(props: Props) {
     undecided.current = null;
     latest.current.onDrag?.(now);
   };
-  const up = () => {
+  const up = (event: PointerEvent) => {
     if (!held.current) return;
+    // A browser in a hurry tells where it was let go, and not how it came there.
+    if (event.type === "pointerup") move(event);
     held.current = false;
     latest.current.onDrop?.();
   };

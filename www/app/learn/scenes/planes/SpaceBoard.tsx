@@ -63,7 +63,7 @@ export function SpaceBoard(props: Props) {
   const view = viewFrom(...turn);
   const held = useRef<{ apart: Flat } | { at: Flat; turn: Flat } | null>(null);
   const draw = (pen: CanvasRenderingContext2D, size: Size, palette: Palette) => {
-    const to = boardOf(view, size);
+    const { to } = boardOf(view, size, sheets);
     const one = (which: LessonSide) => ({
       sheet: sheets[which],
       colour: palette[which],
@@ -76,7 +76,7 @@ export function SpaceBoard(props: Props) {
     write(pen, palette, "B", cornerOf(sheets.b, to, 1), { ...letter, colour: palette.b });
     drawPoint(pen, palette, to, sheets, side, place, point);
   };
-  const spot = (size: Size): Flat => boardOf(view, size)(pointAt(sheets[side], place));
+  const spot = (size: Size): Flat => boardOf(view, size, sheets).to(pointAt(sheets[side], place));
   const grab = ({ x, y, size }: Pointer) => {
     const [u, v] = spot(size);
     const near = Math.hypot(u - x, v - y) < REACH;
@@ -87,8 +87,9 @@ export function SpaceBoard(props: Props) {
     const { current } = held;
     if (!current) return;
     if ("apart" in current) {
-      const [u, v] = fromBoard(size, [x + current.apart[0], y + current.apart[1]]);
-      const found = under(sheets[side], view, [u, v]);
+      const { from } = boardOf(view, size, sheets);
+      const seenAt = from([x + current.apart[0], y + current.apart[1]]);
+      const found = under(sheets[side], view, seenAt);
       if (found) props.onPlace(found);
     } else {
       const [yaw, pitch] = current.turn;
@@ -128,17 +129,18 @@ const upright = ([yaw, pitch]: Flat): Flat => [
 
 const scaleOf = ({ width, height }: Size) => Math.min(width / 1.25, height) / (2 * FILLED);
 
-function boardOf(view: View, size: Size): ToBoard {
+/** Between pixels and what is seen, with the middle of both sheets in the middle of the board. */
+function boardOf(view: View, size: Size, { a, b }: Record<LessonSide, Sheet>) {
   const scale = scaleOf(size);
-  return (point) => {
+  const [[ax, ay], [bx, by]] = [seen(view, a.middle), seen(view, b.middle)];
+  const left = size.width / 2 - (scale * (ax + bx)) / 2;
+  const top = size.height / 2 + (scale * (ay + by)) / 2;
+  const to: ToBoard = (point) => {
     const [x, y] = seen(view, point);
-    return [size.width / 2 + scale * x, size.height / 2 - scale * y];
+    return [left + scale * x, top - scale * y];
   };
-}
-
-function fromBoard(size: Size, [x, y]: Flat): Flat {
-  const scale = scaleOf(size);
-  return [(x - size.width / 2) / scale, (size.height / 2 - y) / scale];
+  const from = ([x, y]: Flat): Flat => [(x - left) / scale, (top - y) / scale];
+  return { to, from };
 }
 
 /** Pictures of the fields, made once they are first drawn: then the colours are known. */
