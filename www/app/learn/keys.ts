@@ -25,17 +25,17 @@ export function useKeys(): void {
   }, []);
 }
 
-/** Within these, keys have a meaning of their own. */
-const OWN = "input, select, textarea, button, summary, dialog, [role=application], [role=slider]";
+/** Within these, keys have a meaning of their own, and within the former so have letters. */
+const TYPED = "input[type=text], select, textarea, dialog";
+const OWN = "input, button, summary, [role=application], [role=slider]";
 
 function press(event: KeyboardEvent): void {
   if (event.ctrlKey || event.metaKey || event.altKey) return;
   const { target } = event;
-  const own = target instanceof Element && target.closest(OWN) !== null;
-  const always = event.key === "PageDown" || event.key === "PageUp";
-  const letter =
-    /^[srpf]$/i.test(event.key) && !(target instanceof HTMLInputElement && target.type === "text");
-  if (own && !always && !letter) return;
+  const isIn = (kind: string) => target instanceof Element && target.closest(kind) !== null;
+  if (isIn(TYPED)) return;
+  const isTurn = event.key === "PageDown" || event.key === "PageUp";
+  if (isIn(OWN) && !isTurn && !/^[srpf]$/i.test(event.key)) return;
   const act = actionOf(event.key);
   if (!act) return;
   event.preventDefault();

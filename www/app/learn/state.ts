@@ -1,5 +1,5 @@
 /** Which scene is on, and what is chosen in each. */
-import { batch, computed, type ReadonlySignal, type Signal, signal } from "@preact/signals";
+import { batch, type ReadonlySignal, type Signal, signal } from "@preact/signals";
 import type { LessonState } from "./link";
 import { defaultLesson } from "./link";
 import { standardValues } from "./params";
@@ -96,6 +96,3 @@ export function applyLesson(lesson: LessonState): void {
     settled.value = lesson;
   });
 }
-
-/** What identifies a state of the present scene that an engine was asked about. */
-export const sceneKey = computed(() => `${scene.value} ${resets.value}`);
