@@ -43,7 +43,7 @@ export function subject(): Subject {
 const GALLERY: Subject = {
   title: "Share the gallery",
   name: "Shapevenn: gallery",
-  framed: "A frame with a first comparison and a link to here.",
+  framed: "A frame with the gallery.",
   holds: ["The link leads to the gallery."],
   copied: copiedWords(NOTHING),
   lost: NOTHING,

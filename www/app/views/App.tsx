@@ -30,7 +30,7 @@ export function App() {
   return embedded.value ? (
     <>
       <Spoken />
-      {page.value === "learn" ? <Later load={learn} /> : <Embedded />}
+      <PageShown framed />
     </>
   ) : (
     <WholePage />
@@ -41,9 +41,7 @@ function WholePage() {
   return (
     <>
       <Header />
-      {page.value === "compare" && <Comparison />}
-      {page.value === "learn" && <Later load={learn} />}
-      {page.value === "gallery" && <Later load={gallery} />}
+      <PageShown framed={false} />
       <DropOverlay />
       <Chooser />
       <Taking />
@@ -51,6 +49,18 @@ function WholePage() {
       <Spoken />
     </>
   );
+}
+
+/** What the page is for just now; of a comparison, in a frame only the shapes. */
+function PageShown({ framed }: { framed: boolean }) {
+  switch (page.value) {
+    case "learn":
+      return <Later key="learn" load={learn} />;
+    case "gallery":
+      return <Later key="gallery" load={gallery} />;
+    case "compare":
+      return framed ? <Embedded /> : <Comparison />;
+  }
 }
 
 const learn = () => import("../learn/Learn").then(({ Learn }) => Learn);

@@ -1,4 +1,5 @@
 import { type Exhibit, HALLS, linkTo } from "../gallery";
+import { embedded } from "../state";
 import { isDark } from "../theme";
 import "../../styles/gallery.css";
 
@@ -32,7 +33,13 @@ export function Gallery() {
 function Card({ exhibit }: { exhibit: Exhibit }) {
   const { name, title, see } = exhibit;
   return (
-    <a class="exhibit" href={linkTo(exhibit)}>
+    // Out of a frame, which has no way back.
+    <a
+      class="exhibit"
+      href={linkTo(exhibit)}
+      target={embedded.value ? "_blank" : undefined}
+      rel="noopener"
+    >
       <img
         src={`gallery/${name}-${isDark() ? "dark" : "light"}.webp`}
         alt=""
