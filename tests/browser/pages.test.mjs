@@ -129,3 +129,21 @@ test("what is shared of a lesson is the scene: link, frame and command", async (
     await page.getByRole("link", { name: "Open in Shapevenn" }).waitFor();
   });
 });
+
+test("at no width does any page scroll sideways", async () => {
+  await withPage({}, async ({ url, page }) => {
+    for (const link of ["demo=stars-1&sigma=0.003", "page=learn&scene=model", "page=gallery"]) {
+      await page.goto(`${url}#v=1&${link}`);
+      await untilState(page, "done");
+      for (const width of [1600, 1440, 1400, 1280, 1200, 1100, 1024, 861, 860, 600, 390, 320]) {
+        await page.setViewportSize({ width, height: 800 });
+        const beyond = await page.evaluate(() => {
+          const { scrollWidth, clientWidth } = document.querySelector("header.top");
+          const whole = document.documentElement;
+          return Math.max(scrollWidth - clientWidth, whole.scrollWidth - whole.clientWidth);
+        });
+        assert.equal(beyond, 0, `${link} at ${width}`);
+      }
+    }
+  });
+});
