@@ -172,14 +172,22 @@ export class RaceRun {
       const goal = Math.round((steps * part) / parts);
       // The last of them one by one: their trails are seen.
       const single = part === parts ? Math.min(TRAIL, goal - this.step.peek()) : 0;
-      await this.#advance(goal - this.step.peek() - single);
-      for (let i = 0; i < single; i += 1) await this.#advance(1);
+      const before = goal - this.step.peek() - single;
+      await this.#move(before);
+      for (let i = 0; i < single; i += 1) await this.#move(1);
+      this.step.value = goal;
       await this.#look();
     }
     lessonState.value = "done";
   }
 
   async #advance(steps: number): Promise<void> {
+    await this.#move(steps);
+    this.step.value += steps;
+  }
+
+  /** So many steps of every runner; what is shown of them comes after, or each would be drawn. */
+  async #move(steps: number): Promise<void> {
     const ask = this.#ask;
     if (steps <= 0 || !ask) return;
     const answers = await Promise.all(
@@ -189,7 +197,6 @@ export class RaceRun {
       const states = answers[i]?.states;
       if (states) trail.push(states);
     });
-    this.step.value += steps;
   }
 
   async #look(): Promise<void> {
