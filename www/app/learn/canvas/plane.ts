@@ -101,6 +101,28 @@ export function dots(
   pen.fill();
 }
 
+/** A shape filled and drawn over its mean, which is dashed. */
+export function drawOverMean(
+  pen: CanvasRenderingContext2D,
+  plane: Plane,
+  { mean, shape }: { mean: ArrayLike<number>; shape: ArrayLike<number> },
+  { fill, line, meanLine }: { fill: string; line: string; meanLine: string },
+): void {
+  traceOutline(pen, plane, shape);
+  pen.fillStyle = fill;
+  pen.fill();
+  traceOutline(pen, plane, mean);
+  pen.setLineDash([5, 6]);
+  pen.lineWidth = 1.5;
+  pen.strokeStyle = meanLine;
+  pen.stroke();
+  pen.setLineDash([]);
+  traceOutline(pen, plane, shape);
+  pen.lineWidth = 3;
+  pen.strokeStyle = line;
+  pen.stroke();
+}
+
 /** How far below its maximum a density is still coloured, in units of log. */
 const DEPTH = 8;
 

@@ -11,7 +11,7 @@ export function tintedField(
 }
 
 /** Any field as a picture of one colour; `share` says how much of it a value has, 0 … 1. */
-export function tinted(
+function tinted(
   values: Float32Array,
   colour: string,
   share: (value: number) => number,

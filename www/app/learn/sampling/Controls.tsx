@@ -1,7 +1,15 @@
 /** What the scenes that sample let one choose, each with its value beside it. */
+import { count } from "../../format";
 import { parseSeed } from "../../settings";
 import { Slider } from "../parts/controls";
+import { PAIRS } from "../scenes";
 import { PAIR_NAMES, SAMPLER_NAMES } from "./names";
+
+type Pair = (typeof PAIRS)[number];
+
+const PLANE_SIGMA = 0.3;
+/** As few draws or steps as a scene shows. */
+const LEAST_COUNT = 16;
 
 interface SelectProps<T extends string> {
   label: string;
@@ -38,6 +46,24 @@ export function PairChoice<T extends string>(props: Common<T>) {
   return <Select label="Models" names={PAIR_NAMES} {...props} />;
 }
 
+interface AnyPairProps {
+  value: Pair;
+  /** What may differ by so much is called near, where the pair is stars; scenes look at them differently. */
+  starSigma: number;
+  onChange: (chosen: { pair: Pair; sigma: number }) => void;
+}
+
+/** Stars or planes, each with the σ at which there is something to see. */
+export function AnyPairChoice({ value, starSigma, onChange }: AnyPairProps) {
+  return (
+    <PairChoice
+      value={value}
+      options={PAIRS}
+      onChange={(pair) => onChange({ pair, sigma: pair === "planes" ? PLANE_SIGMA : starSigma })}
+    />
+  );
+}
+
 export function SamplerChoice<T extends string>(props: Common<T>) {
   return <Select label="Sampler" names={SAMPLER_NAMES} {...props} />;
 }
@@ -46,6 +72,20 @@ const SIDE_NAMES = { a: "of A, near B", b: "of B, near A" };
 
 export function SideChoice(props: { value: "a" | "b"; onChange: (value: "a" | "b") => void }) {
   return <Select label="Shapes" options={["a", "b"]} names={SIDE_NAMES} {...props} />;
+}
+
+/** Draws or steps, over the logarithm. */
+export function CountSlider({ onChange, ...rest }: NumberProps & { label: string; most: number }) {
+  return (
+    <Slider
+      least={LEAST_COUNT}
+      step={0}
+      logarithmic
+      show={count}
+      onChange={(value) => onChange(Math.round(value))}
+      {...rest}
+    />
+  );
 }
 
 interface NumberProps {

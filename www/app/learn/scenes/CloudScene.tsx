@@ -1,9 +1,10 @@
 import { useMemo } from "preact/hooks";
 import { count } from "../../format";
 import { useFrames } from "../clock";
-import { PlayBar, Slider } from "../parts/controls";
+import { PlayBar } from "../parts/controls";
 import {
   ChainSlider,
+  CountSlider,
   PairChoice,
   SamplerChoice,
   SeedField,
@@ -61,15 +62,11 @@ export function CloudScene() {
         </div>
       </div>
       <div class="scene-settings">
-        <Slider
+        <CountSlider
           label="Draws"
-          least={16}
           most={MOST_DRAWS}
-          step={0}
-          logarithmic
           value={draws}
-          show={count}
-          onChange={(next) => change({ draws: Math.round(next) })}
+          onChange={(next) => change({ draws: next })}
         />
         <ChainSlider value={chains} onChange={(next) => change({ chains: next })} />
         <SigmaSlider

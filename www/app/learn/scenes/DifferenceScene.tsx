@@ -1,12 +1,16 @@
 import { useEffect, useMemo, useRef } from "preact/hooks";
-import { count } from "../../format";
 import { Segments } from "../../views/Segments";
 import { useFrames } from "../clock";
 import { useSceneKeys } from "../keys";
-import { PlayBar, Slider } from "../parts/controls";
-import { PairChoice, SeedField, SideChoice, SigmaSlider } from "../sampling/Controls";
+import { PlayBar } from "../parts/controls";
+import {
+  AnyPairChoice,
+  CountSlider,
+  SeedField,
+  SideChoice,
+  SigmaSlider,
+} from "../sampling/Controls";
 import { useSession } from "../sampling/session";
-import { PAIRS } from "../scenes";
 import { params, resetScene, setParams } from "../state";
 import type { DifferenceValues } from "./difference/asks";
 import { Figures } from "./difference/Figures";
@@ -16,7 +20,7 @@ import { DifferenceRun } from "./difference/run";
 import { ShareChart } from "./difference/ShareChart";
 import "../../../styles/learn-samplers.css";
 
-const USUAL_SIGMA = { planes: 0.3, stars: 0.03 };
+const STAR_SIGMA = 0.03;
 
 /** The likelihood upside down: what one model can make and the other cannot. */
 export function DifferenceScene() {
@@ -80,23 +84,13 @@ export function DifferenceScene() {
         </div>
       </div>
       <div class="scene-settings">
-        <Slider
+        <CountSlider
           label="Draws"
-          least={16}
           most={5000}
-          step={0}
-          logarithmic
           value={draws}
-          show={count}
-          onChange={(next) => change({ draws: Math.round(next) })}
+          onChange={(next) => change({ draws: next })}
         />
-        <PairChoice
-          value={pair}
-          options={PAIRS}
-          onChange={(next) =>
-            change({ pair: next, sigma: USUAL_SIGMA[next === "planes" ? "planes" : "stars"] })
-          }
-        />
+        <AnyPairChoice value={pair} starSigma={STAR_SIGMA} onChange={change} />
         <SideChoice value={side} onChange={(next) => change({ side: next })} />
         <SeedField value={seed} onChange={(next) => change({ seed: next })} />
       </div>

@@ -2,10 +2,17 @@ import { useMemo } from "preact/hooks";
 import { count } from "../../format";
 import { AdviceLine } from "../../views/Chart";
 import { useFrames } from "../clock";
-import { PlayBar, Slider } from "../parts/controls";
-import { ChainSlider, PairChoice, SeedField, SideChoice, SigmaSlider } from "../sampling/Controls";
+import { PlayBar } from "../parts/controls";
+import {
+  AnyPairChoice,
+  ChainSlider,
+  CountSlider,
+  SeedField,
+  SideChoice,
+  SigmaSlider,
+} from "../sampling/Controls";
 import { useGrowing } from "../sampling/growing";
-import { BREAKS, PAIRS, SCENE_PARAMS } from "../scenes";
+import { BREAKS, SCENE_PARAMS } from "../scenes";
 import { params, resetScene, setParams } from "../state";
 import { BREAK_WORDS, raceVerdict } from "./race/broken";
 import { Distance, Squares } from "./race/Figures";
@@ -16,7 +23,7 @@ import { MOST_STEPS, RaceRun, type RaceValues } from "./race/run";
 import { SquareChart } from "./race/SquareChart";
 import "../../../styles/learn-samplers.css";
 
-const USUAL_SIGMA = { planes: 0.3, stars: 0.003 };
+const STAR_SIGMA = 0.003;
 
 /** Samplers that race for effective draws, and four ways to go wrong. */
 export function RaceScene() {
@@ -83,15 +90,11 @@ export function RaceScene() {
         </div>
       </div>
       <div class="scene-settings">
-        <Slider
+        <CountSlider
           label="Steps"
-          least={16}
           most={MOST_STEPS}
-          step={0}
-          logarithmic
           value={steps}
-          show={count}
-          onChange={(next) => change({ steps: Math.round(next) })}
+          onChange={(next) => change({ steps: next })}
         />
         <ChainSlider value={chains} onChange={(next) => change({ chains: next })} />
         <SigmaSlider
@@ -100,13 +103,7 @@ export function RaceScene() {
           most={3}
           onChange={(next) => change({ sigma: next })}
         />
-        <PairChoice
-          value={pair}
-          options={PAIRS}
-          onChange={(next) =>
-            change({ pair: next, sigma: USUAL_SIGMA[next === "planes" ? "planes" : "stars"] })
-          }
-        />
+        <AnyPairChoice value={pair} starSigma={STAR_SIGMA} onChange={change} />
         <SideChoice value={side} onChange={(next) => change({ side: next })} />
         <SeedField value={seed} onChange={(next) => change({ seed: next })} />
       </div>

@@ -4,8 +4,8 @@ import { useFrames } from "../clock";
 import { useSceneKeys } from "../keys";
 import { PlayBar, Slider } from "../parts/controls";
 import {
+  AnyPairChoice,
   ChainSlider,
-  PairChoice,
   SamplerChoice,
   SeedField,
   SideChoice,
@@ -13,7 +13,7 @@ import {
 } from "../sampling/Controls";
 import { isTold, SPEEDS } from "../sampling/pacing";
 import { useOwn, useSession } from "../sampling/session";
-import { PAIRS, WALKS } from "../scenes";
+import { WALKS } from "../scenes";
 import { params, resetScene, setParams } from "../state";
 import { ChainFigures, Traces } from "./step/ChainFigures";
 import { Pictures } from "./step/Pictures";
@@ -24,8 +24,8 @@ import "../../../styles/learn-samplers.css";
 
 /** As many chains, and as fast, as it takes to see whether they agree. */
 const MANY = { chains: 8, speed: 1000 };
-/** What may differ by so much is called near, on stars of ten points and on planes of one. */
-const USUAL_SIGMA = { planes: 0.3, stars: 0.03 };
+/** Ten times the paper’s. */
+const STAR_SIGMA = 0.03;
 
 /** One Metropolis–Hastings step at a time, then many chains. */
 export function StepScene() {
@@ -95,13 +95,7 @@ export function StepScene() {
         </div>
       </section>
       <div class="scene-settings">
-        <PairChoice
-          value={pair}
-          options={PAIRS}
-          onChange={(next) =>
-            change({ pair: next, sigma: USUAL_SIGMA[next === "planes" ? "planes" : "stars"] })
-          }
-        />
+        <AnyPairChoice value={pair} starSigma={STAR_SIGMA} onChange={change} />
         <SideChoice value={side} onChange={(next) => change({ side: next })} />
         <SamplerChoice
           value={sampler}

@@ -2,7 +2,7 @@ import { useMemo } from "preact/hooks";
 import type { LessonModel } from "../../../../worker/lessons";
 import { Board, type Size } from "../../canvas/Board";
 import { faded, type Palette } from "../../canvas/palette";
-import { planeOf, traceOutline } from "../../canvas/plane";
+import { drawOverMean, planeOf, traceOutline } from "../../canvas/plane";
 import { shapeAt } from "../../shape";
 import { alone, REACH, seenModes, sweepAt } from "./sweep";
 
@@ -35,19 +35,12 @@ export function MovingStar({ model, whose, seconds, label }: Props) {
     }
     const { mode, coefficient } = sweepAt(seconds, seenModes(model.standardDeviations));
     const shape = shapeAt(model, alone(mode, coefficient));
-    traceOutline(pen, plane, shape);
-    pen.fillStyle = faded(colour, 0.15);
-    pen.fill();
-    traceOutline(pen, plane, model.mean);
-    pen.setLineDash([5, 6]);
-    pen.lineWidth = 1.5;
-    pen.strokeStyle = palette.dim;
-    pen.stroke();
-    pen.setLineDash([]);
-    traceOutline(pen, plane, shape);
-    pen.lineWidth = 3;
-    pen.strokeStyle = colour;
-    pen.stroke();
+    drawOverMean(
+      pen,
+      plane,
+      { mean: model.mean, shape },
+      { fill: faded(colour, 0.15), line: colour, meanLine: palette.dim },
+    );
   };
   return <Board label={label} aspect={ASPECT} draw={draw} />;
 }

@@ -2,7 +2,7 @@ import type { LessonModel, LessonSide } from "../../../../worker/lessons";
 import { Board, type Size } from "../../canvas/Board";
 import { arrow, write } from "../../canvas/marks";
 import { faded, type Palette } from "../../canvas/palette";
-import { type Plane, planeOf, traceOutline } from "../../canvas/plane";
+import { drawOverMean, type Plane, planeOf, traceOutline } from "../../canvas/plane";
 import { modeOf, pointOf, shapeAt } from "../../shape";
 
 /** As far as a star of these models goes, in its own units. */
@@ -24,19 +24,12 @@ export function StarBoard({ model, coefficients, side, cloud }: Props) {
     const length = model.mean.length;
     if (cloud) drawCloud(pen, plane, cloud, length, faded(palette[side], 0.13));
     const shape = shapeAt(model, coefficients);
-    traceOutline(pen, plane, shape);
-    pen.fillStyle = faded(palette[side], 0.16);
-    pen.fill();
-    traceOutline(pen, plane, model.mean);
-    pen.setLineDash([5, 6]);
-    pen.lineWidth = 1.5;
-    pen.strokeStyle = palette.dim;
-    pen.stroke();
-    pen.setLineDash([]);
-    traceOutline(pen, plane, shape);
-    pen.lineWidth = 3;
-    pen.strokeStyle = palette[side];
-    pen.stroke();
+    drawOverMean(
+      pen,
+      plane,
+      { mean: model.mean, shape },
+      { fill: faded(palette[side], 0.16), line: palette[side], meanLine: palette.dim },
+    );
     drawSums(pen, plane, palette, model, coefficients);
     name(pen, plane, palette, model.mean, shape, side);
   };
