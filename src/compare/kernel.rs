@@ -230,7 +230,7 @@ impl Block<'_> {
             }
         }
         let mut norms = Aligned::<f32>::new(group.stride);
-        f32::vectors_mut::<S>(&mut norms)[..V].copy_from_slice(&pass.norms);
+        f32::store::<S, V>(pass.norms, &mut norms);
         part.norms.iter_mut().zip(norms.iter()).for_each(|(sum, &norm)| *sum = norm.double());
         part
     }
@@ -254,27 +254,32 @@ impl<S: Simd, const V: usize> Pass<S, V> {
         place: usize,
     ) {
         let DistanceKernel { modes, ref rows, .. } = *group.kernel;
-        let start = &group.offset[vertex * D..vertex * D + R];
-        let start = core::array::from_fn(|row| [simd.splat_f32s(start[row]); V]);
+        let offset = &group.offset[vertex * D..vertex * D + R];
+        let mut start = [[simd.splat_f32s(0.0); V]; R];
+        for row in 0..R {
+            start[row] = [simd.splat_f32s(offset[row]); V];
+        }
         let part = (&rows[vertex * D * modes..(vertex * D + R) * modes], modes);
         let residual = f32::rows::<S, R, V>(simd, start, part, (&group.lanes, group.stride), modes);
         for point in 0..R / D {
             for vector in 0..V {
-                let axes: [S::f32s; D] =
-                    core::array::from_fn(|axis| residual[point * D + axis][vector]);
+                let mut axes = [simd.splat_f32s(0.0); D];
+                for axis in 0..D {
+                    axes[axis] = residual[point * D + axis][vector];
+                }
                 let mut square = simd.mul_f32s(axes[0], axes[0]);
-                for &axis in &axes[1..] {
-                    square = simd.add_f32s(square, simd.mul_f32s(axis, axis));
+                for axis in 1..D {
+                    square = simd.add_f32s(square, simd.mul_f32s(axes[axis], axes[axis]));
                 }
                 let norm = simd.sqrt_f32s(square);
                 self.norms[vector] = simd.add_f32s(self.norms[vector], norm);
                 if group.gradients {
                     let divisor = simd.max_f32s(norm, simd.splat_f32s(SMALLEST_NORM));
                     let inverse = simd.div_f32s(simd.splat_f32s(1.0), divisor);
-                    for (axis, &value) in axes.iter().enumerate() {
+                    for axis in 0..D {
                         let row = ((place + point) * D + axis) * group.stride;
                         let target = &mut self.directions[row..row + group.stride];
-                        f32::vectors_mut::<S>(target)[vector] = simd.mul_f32s(value, inverse);
+                        f32::vectors_mut::<S>(target)[vector] = simd.mul_f32s(axes[axis], inverse);
                     }
                 }
             }

@@ -257,10 +257,9 @@ fn multiply<S: Simd>(
             let part = (&a.0[first * a.1..], a.1);
             let other = (&b.0[column..], b.1);
             let sums = f64::rows::<S, ROWS, VECTORS>(simd, zero, part, other, a.1);
-            for (row, sums) in sums.iter().enumerate() {
+            for row in 0..ROWS {
                 let place = (first + row) * b.1 + column;
-                let line = &mut target[place..place + width];
-                f64::vectors_mut::<S>(line)[..VECTORS].copy_from_slice(sums);
+                f64::store::<S, VECTORS>(sums[row], &mut target[place..place + width]);
             }
         }
     }
@@ -322,8 +321,7 @@ impl WithSimd for SomePlausibilities<'_> {
                 let start = [[simd.splat_f64s(shift[mode]); VECTORS]];
                 let other = (&lanes[first..], stride);
                 let [sums] = f64::rows::<S, 1, VECTORS>(simd, start, row, other, modes);
-                let line = &mut half[first..first + width];
-                f64::vectors_mut::<S>(line)[..VECTORS].copy_from_slice(&sums);
+                f64::store::<S, VECTORS>(sums, &mut half[first..first + width]);
             }
             for lane in 0..count {
                 let value = lanes[mode * stride + lane];

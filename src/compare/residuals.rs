@@ -126,15 +126,16 @@ impl<'a, T: Real> Picked<'a, T> {
     ///
     /// Loops over tiles call this and hold no closure: one that is not inlined would leave the vectors.
     #[inline(always)]
-    fn rows_of<'b, const D: usize>(
+    fn rows_of<'b>(
         &self,
         tile: &core::ops::Range<usize>,
+        dimension: usize,
         gathered: &'b mut Vec<T>,
     ) -> &'b [T]
     where
         'a: 'b,
     {
-        let size = D * self.modes;
+        let size = dimension * self.modes;
         if self.vertices.stride == 1 {
             return &self.rows[tile.start * size..tile.end * size];
         }
@@ -167,15 +168,16 @@ impl<T: Real, const D: usize> WithSimd for Laws<'_, T, D> {
         let mut product = Aligned::<T>::new(TILE * D * stride);
         let mut gathered = Vec::new();
         for strata in self.rows.tiles() {
-            let rows = self.rows.rows_of::<D>(&strata, &mut gathered);
+            let rows = self.rows.rows_of(&strata, D, &mut gathered);
             transformed(simd, rows, modes, self.transform, &mut product);
             for (index, stratum) in strata.enumerate() {
                 let vertex = self.rows.vertices.at(stratum);
                 let row = |axis: usize| &rows[(index * D + axis) * modes..][..modes];
                 let wide = |axis: usize| &product[(index * D + axis) * stride..][..stride];
-                let mean = core::array::from_fn(|axis| {
-                    self.offset[vertex * D + axis] + dot(row(axis), self.mean)
-                });
+                let mut mean = [0.0; D];
+                for axis in 0..D {
+                    mean[axis] = self.offset[vertex * D + axis] + dot(row(axis), self.mean);
+                }
                 let mut covariance = [[0.0; D]; D];
                 for axis in 0..D {
                     for other in 0..=axis {
@@ -213,10 +215,9 @@ fn transformed<T: Real, S: Simd>(
                 ($rows:expr) => {{
                     let zero = [[T::splat(simd, T::default()); VECTORS]; $rows];
                     let sums = T::rows::<S, { $rows }, VECTORS>(simd, zero, part, other, terms);
-                    for (index, sums) in sums.iter().enumerate() {
+                    for index in 0..$rows {
                         let place = (row + index) * stride + column;
-                        let line = &mut product[place..place + width];
-                        T::vectors_mut::<S>(line)[..VECTORS].copy_from_slice(sums);
+                        T::store::<S, VECTORS>(sums[index], &mut product[place..place + width]);
                     }
                     $rows
                 }};
@@ -244,40 +245,48 @@ fn gram_of<T: Real, const D: usize>(
     let pieces = vertices.pieces();
     let stride = padded(modes);
     let parts = parallel::map(pieces.len(), |piece| {
-        let rows = Picked { rows, modes, vertices, piece: pieces[piece].clone() };
-        lanes::dispatch(Gram { rows, weight: &weight })
+        let piece = pieces[piece].clone();
+        let mut weights = Vec::with_capacity(piece.len() * D * D);
+        for stratum in piece.clone() {
+            weights.extend(weight(stratum).as_flattened().iter().map(|&value| T::of(value)));
+        }
+        let rows = Picked { rows, modes, vertices, piece };
+        lanes::dispatch(Gram { rows, dimension: D, weights: &weights })
     });
     let mut sum = vec![0.0; modes * stride];
     parts.iter().for_each(|part| add(&mut sum, part));
     symmetric(&sum, modes, stride)
 }
 
-/// Σ_v R_vᵀW_vR_v over some vertices: the upper triangle, with padded rows.
-struct Gram<'a, T, W> {
+/// Σ_v R_vᵀW_vR_v over some vertices: the upper triangle, with padded rows. Not generic in d or in what gives the
+/// weights: the products are most of it, and compiled once for each precision.
+struct Gram<'a, T> {
     rows: Picked<'a, T>,
-    weight: &'a W,
+    dimension: usize,
+    /// W_v of each stratum of the piece (d × d, row-major).
+    weights: &'a [T],
 }
 
-impl<T: Real, const D: usize, W: Fn(usize) -> [[f64; D]; D]> WithSimd for Gram<'_, T, W> {
+impl<T: Real> WithSimd for Gram<'_, T> {
     type Output = Vec<f64>;
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> Vec<f64> {
-        let modes = self.rows.modes;
+        let (modes, dimension) = (self.rows.modes, self.dimension);
         let stride = padded(modes);
         let mut sum = vec![0.0; modes * stride];
-        let mut weighted = Aligned::<T>::new(TILE * D * stride);
+        let mut weighted = Aligned::<T>::new(TILE * dimension * stride);
         let mut gathered = Vec::new();
+        let mut matrices = self.weights.chunks_exact(dimension * dimension);
         for strata in self.rows.tiles() {
-            let rows = self.rows.rows_of::<D>(&strata, &mut gathered);
-            for (index, stratum) in strata.enumerate() {
-                let matrix = (self.weight)(stratum).map(|row| row.map(T::of));
-                let vertex = &rows[index * D * modes..(index + 1) * D * modes];
-                for (axis, weights) in matrix.iter().enumerate() {
-                    let target = &mut weighted[(index * D + axis) * stride..][..modes];
+            let rows = self.rows.rows_of(&strata, dimension, &mut gathered);
+            let vertices = rows.chunks_exact(dimension * modes);
+            for (index, (vertex, matrix)) in vertices.zip(&mut matrices).enumerate() {
+                for (axis, weights) in matrix.chunks_exact(dimension).enumerate() {
+                    let target = &mut weighted[(index * dimension + axis) * stride..][..modes];
                     for (mode, target) in target.iter_mut().enumerate() {
                         let mut value = weights[0].times(vertex[mode]);
-                        for other in 1..D {
+                        for other in 1..dimension {
                             value = value.plus(weights[other].times(vertex[other * modes + mode]));
                         }
                         *target = value;
@@ -305,7 +314,7 @@ pub(super) fn weighted_sum<const D: usize>(
         let picked = Picked { rows, modes, vertices, piece: pieces[piece].clone() };
         let mut gathered = Vec::new();
         for strata in picked.tiles() {
-            let rows = picked.rows_of::<D>(&strata, &mut gathered);
+            let rows = picked.rows_of(&strata, D, &mut gathered);
             for (index, stratum) in strata.enumerate() {
                 for (axis, weight) in weight(stratum).into_iter().enumerate() {
                     let row = &rows[(index * D + axis) * modes..][..modes];

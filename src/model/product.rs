@@ -203,10 +203,10 @@ impl WithSimd for Block<'_> {
                     (panel, PANEL),
                     inner,
                 );
-                for (row, sums) in (first..self.present).zip(sums) {
-                    f64::vectors_mut::<S>(&mut tile[..width]).copy_from_slice(&sums);
+                for row in 0..ROWS.min(self.present - first) {
+                    f64::store::<S, VECTORS>(sums[row], &mut tile[..width]);
                     for (column, value) in (column..columns).zip(&tile[..width]) {
-                        result[column * self.present + row] = *value;
+                        result[column * self.present + first + row] = *value;
                     }
                 }
             }
