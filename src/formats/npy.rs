@@ -62,7 +62,7 @@ struct Element {
 }
 
 /// Reads the header of an array.
-pub(super) fn read_header(source: &mut impl Read) -> Result<Header, NpyError> {
+pub(super) fn read_header(source: &mut dyn Read) -> Result<Header, NpyError> {
     const SHORT: NpyError = NpyError::Damaged("its header is cut off");
     let mut start = [0; 8];
     source.read_exact(&mut start).map_err(|_| SHORT)?;
@@ -160,7 +160,7 @@ impl Header {
 /// Reads the values behind `header`, at most `limit` bytes of them, in memory and in the file.
 pub(super) fn read_values(
     header: &Header,
-    source: &mut impl Read,
+    source: &mut dyn Read,
     limit: u64,
 ) -> Result<Array, NpyError> {
     let element = header.element()?;
@@ -183,7 +183,7 @@ pub(super) fn read_values(
     Ok(Array { shape, data })
 }
 
-fn decode(element: Element, count: usize, source: &mut impl Read) -> Result<Data, NpyError> {
+fn decode(element: Element, count: usize, source: &mut dyn Read) -> Result<Data, NpyError> {
     let Element { class, width, big } = element;
     Ok(match (class, width) {
         (b'f', 2) => Data::F32(blocks::<2, _>(count, big, source, |b| {
@@ -217,7 +217,7 @@ fn decode(element: Element, count: usize, source: &mut impl Read) -> Result<Data
 fn blocks<const N: usize, T>(
     count: usize,
     big: bool,
-    source: &mut impl Read,
+    source: &mut dyn Read,
     value: impl Fn([u8; N]) -> T,
 ) -> Result<Vec<T>, NpyError> {
     const BLOCK: usize = 1 << 13;
@@ -250,7 +250,7 @@ fn blocks<const N: usize, T>(
 }
 
 /// Fills `block` as far as the source reaches; returns how far that is.
-fn fill(source: &mut impl Read, block: &mut [u8]) -> Result<usize, NpyError> {
+fn fill(source: &mut dyn Read, block: &mut [u8]) -> Result<usize, NpyError> {
     let mut present = 0;
     while present < block.len() {
         match source.read(&mut block[present..]) {
@@ -264,7 +264,7 @@ fn fill(source: &mut impl Read, block: &mut [u8]) -> Result<usize, NpyError> {
 }
 
 /// Text of fixed width, padded with NULs: UCS-4 or bytes.
-fn texts(element: Element, count: usize, source: &mut impl Read) -> Result<Vec<String>, NpyError> {
+fn texts(element: Element, count: usize, source: &mut dyn Read) -> Result<Vec<String>, NpyError> {
     let mut found = Vec::new();
     let mut bytes = vec![0; element.width];
     for index in 0..count {

@@ -140,7 +140,8 @@ impl Sample {
         }
         let mut order: Vec<Entry> =
             values.iter().enumerate().map(|(place, &value)| (value, place)).collect();
-        order.sort_unstable_by(|x, y| x.0.total_cmp(&y.0));
+        // Ties too have one order, whichever algorithm the standard library was built with.
+        order.sort_unstable_by(|x, y| x.0.total_cmp(&y.0).then(x.1.cmp(&y.1)));
         let all = (kept < values.len()).then(|| order.clone());
         order.retain(|entry| entry.1 < kept);
         Self { values, half, halves: 2 * chains.len(), order, all }
