@@ -3,8 +3,8 @@ import { extname, join, resolve } from "node:path";
 import { defineConfig, type Plugin } from "vite";
 
 /**
- * Without these two headers on every response, worker scripts included, browsers give no shared
- * memory and the page falls back to the serial engine.
+ * Without these two headers on every response, worker scripts included, workers cannot share the engine's
+ * memory, and it runs alone in one.
  */
 const isolation = {
   "Cross-Origin-Opener-Policy": "same-origin",

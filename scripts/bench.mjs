@@ -1,9 +1,9 @@
 /**
  * `npm run bench`: the comparison that the paper took 110 minutes for in size (5,764 points, 50 + 50
- * modes; synthetic models), natively and in Chromium with both builds of the engine. Prints medians.
+ * modes; synthetic models), natively and in Chromium, with threads and serially. Prints medians.
  *
  * `npm run bench -- --sizes` instead compares pairs of the size of FLAME and BFM, natively (see
- * benches/sizes.rs) and once in Chromium with each build, with the peak of resident memory of the page's process.
+ * benches/sizes.rs) and once each way in Chromium, with the peak of resident memory of the page's process.
  *
  * `npm run bench -- --morph` times the frames of the explorer.
  *
@@ -201,7 +201,7 @@ async function roofInChromium() {
         distances: rate(() => work.distances()),
         gradients: rate(() => work.gradients()),
       };
-    }, new URL("engine/serial/shapevenn.js", url).href);
+    }, new URL("engine/shapevenn.js", url).href);
     console.log("\nIn Chromium, one thread, 5,764 × 50, best of 20 windows");
     console.log(`multiplies and adds in registers ${rates.roof.toFixed(1)} Gflop/s`);
     for (const name of ["distances", "gradients"]) {

@@ -1,12 +1,17 @@
-/** Builds what is out of date: the two engines, then the page into dist/. */
+/** Builds what is out of date: the engine, then the page into dist/. */
+import { statSync } from "node:fs";
+import { join } from "node:path";
 import { ensureBuild, ensureNode } from "./setup.mjs";
-import { isMain, main, must, step } from "./steps/run.mjs";
+import { compileEngine, compileTool, packageEngine } from "./steps/engine.mjs";
+import { isMain, main, root, step } from "./steps/run.mjs";
 import { isFresh, setStamp, takeStamp } from "./steps/stamps.mjs";
 
 const engine = {
   name: "engine",
-  sources: ["Cargo.toml", "Cargo.lock", "src", "xtask", "package-lock.json"],
-  products: ["www/public/engine/serial", "www/public/engine/threads"],
+  sources: ["Cargo.toml", "Cargo.lock", "src", "xtask", "scripts/steps/engine.mjs"],
+  // Of the command line only.
+  skip: ["src/bin"],
+  products: ["www/public/engine"],
 };
 
 const page = {
@@ -22,25 +27,20 @@ const page = {
   products: ["dist"],
 };
 
-export async function buildEngine() {
-  if (isFresh(engine)) return false;
-  const env = await ensureBuild();
-  const hint = "read what the compiler says above.";
-  await step("Compiling the tool that builds the engines", async () => {
-    await must("cargo", ["build", "--locked", "-p", "xtask"], { hint });
+/** `quick`: as while somebody edits, see `compileEngine`. */
+export async function buildEngine({ quick = false } = {}) {
+  const wanted = quick ? { ...engine, name: "engine-quick" } : engine;
+  if (isFresh(engine) || isFresh(wanted)) return false;
+  const wasm = await ensureBuild();
+  const before = takeStamp(wanted);
+  await step("Compiling the engine (minutes the first time)", async () => {
+    // The compiler works on our crate with one processor; the other makes the tool meanwhile.
+    const [module] = await Promise.all([compileEngine(wasm, { quick }), compileTool()]);
+    await packageEngine(module);
+    const { size } = statSync(join(root, "www/public/engine/shapevenn_bg.wasm"));
+    return `${Math.round(size / 1000)} kB`;
   });
-  const before = takeStamp(engine);
-  for (const variant of ["serial", "threads"]) {
-    await step(`Compiling the engine, ${variant} (minutes the first time)`, async () => {
-      const output = await must(
-        "cargo",
-        ["run", "--locked", "-p", "xtask", "--", "wasm", variant],
-        { env, hint },
-      );
-      return output.match(/engine: (\d+ KiB)/)?.[1];
-    });
-  }
-  setStamp(engine, before);
+  setStamp(wanted, before);
   return true;
 }
 
@@ -57,8 +57,8 @@ export async function buildPage() {
 
 export async function build() {
   await ensureNode();
-  const engines = await buildEngine();
-  return (await buildPage()) || engines;
+  const engine = await buildEngine();
+  return (await buildPage()) || engine;
 }
 
 if (isMain(import.meta.url)) {

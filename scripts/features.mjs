@@ -13,14 +13,7 @@ const forbidden = [
 
 const builds = {
   "native program": [],
-  "serial engine": ["--no-default-features", "--target", "wasm32-unknown-unknown"],
-  "threads engine": [
-    "--no-default-features",
-    "--features",
-    "threads",
-    "--target",
-    "wasm32-unknown-unknown",
-  ],
+  engine: ["--no-default-features", "--target", "wasm32-unknown-unknown"],
 };
 
 /** One check: `{passed, failed, output}`. */

@@ -1,5 +1,5 @@
 /**
- * Serves dist/ the way a host with threads must: its headers on every response, worker scripts
+ * Serves dist/ the way a host must for threads: its headers on every response, worker scripts
  * included, and .wasm under its own type. `--no-isolation` leaves them out, as most
  * static hosts do.
  */

@@ -72,7 +72,7 @@ export async function ensureSystem({ tests = false } = {}) {
   );
 }
 
-/** Everything that building needs; resolves to the environment for xtask. */
+/** Everything that building needs; resolves to what builds the engine, see toolchain.mjs. */
 export async function ensureBuild(options) {
   await ensureSystem();
   await ensureRust();

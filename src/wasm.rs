@@ -10,9 +10,11 @@ mod exploring;
 mod lessons;
 
 use std::collections::BTreeMap;
+use std::fmt::Display;
 
-use js_sys::{Array, Float32Array, Function, Object, Reflect, Uint8Array, Uint32Array};
+use js_sys::{Array, Float32Array, Function, Object, Promise, Reflect, Uint8Array, Uint32Array};
 use serde::Serialize;
+use serde::de::DeserializeOwned;
 use wasm_bindgen::prelude::*;
 
 use crate::compare::{PairError, PointSelection};
@@ -23,11 +25,17 @@ use crate::files::{self, Described, Download, Error, ShownShape};
 use crate::formats::{self, Options, Origin};
 use crate::lessons::Lesson;
 use crate::model::{Cells, LinearModel};
+use crate::parallel;
 use crate::report::{ModelReport, Seconds};
 use crate::roofline::{self, Workload};
 
-#[cfg(feature = "threads")]
-pub use wasm_bindgen_rayon::init_thread_pool;
+/// Starts as many threads, each a worker of its own that shares this memory; resolves once they run. Needs
+/// a page that is cross-origin isolated; without it, and until this is called, the engine runs on one.
+#[wasm_bindgen(js_name = startThreads)]
+pub fn start_threads(threads: usize) -> Promise {
+    parallel::use_pool();
+    wasm_bindgen_rayon::init_thread_pool(threads)
+}
 
 /// Writes the text of a panic to the console before the instance dies.
 #[wasm_bindgen(start)]
@@ -149,10 +157,14 @@ fn indices<const N: usize>(cells: &[[u32; N]]) -> JsValue {
     Uint32Array::from(cells.as_flattened()).into()
 }
 
-fn parsed<T: for<'de> serde::Deserialize<'de>>(value: JsValue, what: &str) -> Result<T, JsValue> {
-    serde_wasm_bindgen::from_value(value).map_err(|error| {
+/// By way of a JSON value: every type is then read by one reader, which files and links need as well.
+fn parsed<T: DeserializeOwned>(value: JsValue, what: &str) -> Result<T, JsValue> {
+    let refused = |error: &dyn Display| {
         fault("settings", format!("The {what} cannot be read: {error}."), "Reload the page.")
-    })
+    };
+    let value: serde_json::Value =
+        serde_wasm_bindgen::from_value(value).map_err(|error| refused(&error))?;
+    serde_json::from_value(value).map_err(|error| refused(&error))
 }
 
 fn geometry_of(model: &LinearModel) -> JsValue {

@@ -1,9 +1,7 @@
 //! Pairs whose intersection is known exactly: what is fitted and what is drawn must be that.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod common;
-
-use common::{
+use crate::common::{
     compared, draws_of, face_like_pair, log_posterior, model, random_orthonormal, report,
     standard_errors_from, warns,
 };

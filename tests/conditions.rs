@@ -2,9 +2,7 @@
 //! answer them.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod common;
-
-use common::{compared, face_like_pair, model, random_orthonormal, report, warns};
+use crate::common::{compared, face_like_pair, model, random_orthonormal, report, warns};
 use nalgebra::DVector;
 use shapevenn::comparison::{
     Comparison, Plausibility, Pooling, Region, Sampler, Settings, ShapeSource,
@@ -157,7 +155,7 @@ fn the_variational_sampler_is_the_closed_form_and_its_draws_are_the_fits() {
     assert_eq!(inference.a.sampler, Sampler::Variational, "{inference:?}");
     assert_eq!(found.diagnostics.acceptance, 1.0, "nothing is rejected");
     let [fit, _] = run.fits().unwrap();
-    let off = common::standard_errors_from(&run.results().intersection[0], fit);
+    let off = crate::common::standard_errors_from(&run.results().intersection[0], fit);
     assert!(off < 5.0, "{off} standard errors from the fit");
 }
 

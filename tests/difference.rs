@@ -1,9 +1,7 @@
 //! Draws of the difference, which rejection makes exactly, against laws known in closed form.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod common;
-
-use common::{compared, face_like_pair, model, random_orthonormal, report, warns};
+use crate::common::{compared, face_like_pair, model, random_orthonormal, report, warns};
 use nalgebra::{DMatrix, DVector};
 use shapevenn::compare::{Criterion, Difference, DifferenceDefinition, Level, Pair, Side};
 use shapevenn::comparison::Settings;
@@ -142,7 +140,7 @@ fn the_share_of_a_that_b_cannot_make_and_its_draws_have_their_closed_form() {
             assert!(off < 5.0 * found.standard_error, "{name}: {} ± {}", found.probability, off);
             let distances = &run.results().differences[0].statistics[0];
             let squares: Vec<f64> = distances.iter().map(|d| d * d).collect();
-            let (mean, error) = common::mean_and_error(&[squares]);
+            let (mean, error) = crate::common::mean_and_error(&[squares]);
             assert!(
                 (mean - law.mean_square()).abs() < 5.0 * error,
                 "{name}: E d² {mean} ± {error}"
@@ -176,7 +174,7 @@ fn where_nothing_is_within_tolerance_the_tilt_is_the_square_of_the_distance() {
         let run = rejected(&side, &criterion, None, 2000, 3);
         let squares: Vec<f64> =
             run.draws().iter_slices().map(|a| a.iter().map(|x| x * x).sum()).collect();
-        let (mean, error) = common::mean_and_error(&[squares]);
+        let (mean, error) = crate::common::mean_and_error(&[squares]);
         let expected = 2.0 + 2.0 * spread / (spread + side.gram_constant());
         // Next order: 1 − e^−t = t (1 − t/2 …), t ≤ 1/800 on average, six times that in the tail.
         let bound = 5.0 * error + 0.01 * expected;

@@ -2,9 +2,7 @@
 //! against whole covariance matrices and projections by definition, which only small models allow.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod common;
-
-use common::{compared, model, random_orthonormal, report};
+use crate::common::{compared, model, random_orthonormal, report};
 use nalgebra::{DMatrix, DVector};
 use shapevenn::comparison::{
     AxesKind, Comparison, ComparisonError, MapName, Region, Sampler, Settings, Space, Stage, relate,
@@ -570,7 +568,7 @@ fn a_relation_is_what_a_comparison_reports_without_drawing() {
         assert_eq!(found.bhattacharyya, Some(expected.overlap.bhattacharyya), "Bhattacharyya");
         assert_eq!(found.angles_degrees, expected.overlap.principal_angles_degrees, "angles");
         assert_eq!(found.mean_to_mean, expected.overlap.mean_to_mean, "means");
-        let direct = common::grassmann(&a, &b, 5);
+        let direct = crate::common::grassmann(&a, &b, 5);
         assert!((found.grassmann - direct).abs() < 1e-9, "{}, not {direct}", found.grassmann);
         let back = relate(&b, &a, &Settings { sigma: Some(0.2), ..Settings::default() });
         assert_eq!(back.variance_of_a_in_b, found.variance_of_b_in_a, "and back");

@@ -1,9 +1,7 @@
 //! How good the Gaussian fits are on face-like models: everything downstream rests on them.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod common;
-
-use common::{
+use crate::common::{
     compared, draws_of, face_like_pair, log_posterior, model, random_orthonormal, report,
 };
 use nalgebra::{DMatrix, DVector};

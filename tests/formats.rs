@@ -2,13 +2,10 @@
 //! files against the sentences that they must give, and our own exports against ourselves, h5py
 //! and numpy.
 
-#[path = "common/files.rs"]
-mod files;
-
 use std::collections::BTreeMap;
 use std::process::Command;
 
-use files::{
+use crate::common::files::{
     Expected, Failure, Row, assert_close, cell_count, covariance_of_probe, fixture, json, tests,
 };
 use proptest::prelude::*;

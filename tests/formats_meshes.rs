@@ -2,13 +2,12 @@
 //! writer noted, broken ones against the sentences that they must give.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-#[path = "common/files.rs"]
-mod files;
-
 use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
 
-use files::{Failure, assert_close, cell_count, covariance_of_probe, fixture, json, tests};
+use crate::common::files::{
+    Failure, assert_close, cell_count, covariance_of_probe, fixture, json, tests,
+};
 use proptest::prelude::*;
 use serde::Deserialize;
 use shapevenn::formats::{self, FormatError, Input, Opened, Options, Origin, groups};

@@ -3,13 +3,12 @@
 //! against the sentences that they must give.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-#[path = "common/files.rs"]
-mod files;
-
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use files::{Expected, Failure, Row, assert_close, cell_count, covariance_of_probe, json};
+use crate::common::files::{
+    Expected, Failure, Row, assert_close, cell_count, covariance_of_probe, json,
+};
 use proptest::prelude::*;
 use serde::Deserialize;
 use shapevenn::formats::{self, FormatError, Input, Opened, Options, Origin};
@@ -27,7 +26,7 @@ fn folder() -> PathBuf {
 }
 
 fn fixture(name: &str) -> Vec<u8> {
-    files::fixture(&format!("small/{name}"))
+    crate::common::files::fixture(&format!("small/{name}"))
 }
 
 fn expected() -> BTreeMap<String, ExpectedFiles> {

@@ -2,18 +2,17 @@
 //! writer noted, the broken ones against their sentences, and what hostile files may not do.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-#[path = "common/files.rs"]
-mod files;
-
 use std::collections::BTreeMap;
 
-use files::{Expected, Failure, Row, assert_close, cell_count, covariance_of_probe, json, tests};
+use crate::common::files::{
+    Expected, Failure, Row, assert_close, cell_count, covariance_of_probe, json, tests,
+};
 use proptest::prelude::*;
 use shapevenn::formats::{self, Array, Data, FormatError, Input, Opened, Options, Part};
 use shapevenn::model::Cells;
 
 fn fixture(name: &str) -> Vec<u8> {
-    files::fixture(&format!("tables/{name}"))
+    crate::common::files::fixture(&format!("tables/{name}"))
 }
 
 fn read(file: &str, bytes: &[u8], part: Option<&str>) -> Result<Opened, FormatError> {

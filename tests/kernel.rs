@@ -2,9 +2,7 @@
 //! distance to.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod common;
-
-use common::{draws_of, face_like_pair, log_posterior, random_orthonormal};
+use crate::common::{draws_of, face_like_pair, log_posterior, random_orthonormal};
 use nalgebra::DVector;
 use proptest::prelude::*;
 use shapevenn::compare::{DistanceKernel, Intersection, Side, fit_rms, fit_variational_step};

@@ -1,9 +1,7 @@
 //! Measures and principal components against NumPy and SciPy, and against brute force.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod common;
-
-use common::{compared, face_like_pair, model, random_orthonormal, report};
+use crate::common::{compared, face_like_pair, model, random_orthonormal, report};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use shapevenn::compare::{Moments, Pair};

@@ -1,9 +1,7 @@
 //! Moments of the intersection from weighted draws and their gradients: right, and as right as they say.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod common;
-
-use common::{compared, identity_expression_like_pair, report, standard_errors_from};
+use crate::common::{compared, identity_expression_like_pair, report, standard_errors_from};
 use nalgebra::{DMatrix, DVector};
 use shapevenn::compare::{Intersection, Pair, Side, fit_rms, fit_variational_step};
 use shapevenn::comparison::{Sampler, Settings};
@@ -122,7 +120,7 @@ fn gradients_beat_weighted_moments_with_a_control_variate() {
 /// Weighted minus unweighted moments of antithetic draws, on top of the fit's own.
 fn control_variate(side: &Side, fit: &Gaussian, draws: usize, seed: u64) -> ImportanceEstimate {
     use shapevenn::sampling::Target;
-    let half = common::draws_of(fit, draws / 2, 100 + seed);
+    let half = crate::common::draws_of(fit, draws / 2, 100 + seed);
     let points: Vec<Vec<f64>> = half
         .into_iter()
         .flat_map(|point| {

@@ -1,9 +1,7 @@
 //! The resumable run: the same however it is cut, ended early, stored or described.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod common;
-
-use common::{compared, face_like_pair, model, random_orthonormal, report, warns};
+use crate::common::{compared, face_like_pair, model, random_orthonormal, report, warns};
 use nalgebra::DVector;
 use serde_json::json;
 use shapevenn::comparison::{

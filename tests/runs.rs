@@ -1,12 +1,10 @@
 //! What is behind a run: figures of its chains, fingerprints of its models, tables of its modes.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod common;
-
 use std::path::Path;
 use std::process::Command;
 
-use common::{along, compared, face_like_pair, report};
+use crate::common::{along, compared, face_like_pair, report};
 use nalgebra::DMatrix;
 use shapevenn::comparison::{Comparison, ComparisonError, Sampler, Settings, Stage};
 use shapevenn::files::{self, Download};

@@ -1,9 +1,7 @@
 //! The samplers against each other, on posteriors of shape models.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod common;
-
-use common::{along, face_like_pair, mean_and_error, model};
+use crate::common::{along, face_like_pair, mean_and_error, model};
 use nalgebra::{DMatrix, DVector};
 use shapevenn::compare::{Intersection, Side, fit_rms, fit_variational_step, without_distance};
 use shapevenn::sampling::{
@@ -110,7 +108,7 @@ fn all_samplers_agree_on_a_posterior_of_faces() {
 }
 
 /// Effective draws for 1000 evaluations:
-/// `cargo test --test samplers effective_draws -- --ignored --nocapture`.
+/// `cargo test --test all samplers::effective_draws -- --ignored --nocapture`.
 #[test]
 #[ignore = "a measurement, not a claim"]
 fn effective_draws() {

@@ -6,9 +6,7 @@
 //! modes exactly; the figures printed in the paper measure the error of sampling alone.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-mod common;
-
-use common::{compared, grassmann, random_orthonormal};
+use crate::common::{compared, grassmann, random_orthonormal};
 use nalgebra::{DMatrix, DVector};
 use shapevenn::compare::{Joint, Moments, Pair, fit_rms, fit_variational_step};
 use shapevenn::comparison::{Comparison, Sampler, Settings};

@@ -1,8 +1,6 @@
 //! The paper's stars: recovered as well as the method allows, and better than the paper's sampler does.
 
-mod common;
-
-use common::{compared, grassmann, report};
+use crate::common::{compared, grassmann, report};
 use shapevenn::comparison::{Sampler, Settings};
 use shapevenn::demos::{STAR_ROWS, star_intersection, star_pair};
 

@@ -1,7 +1,7 @@
 /** How every script runs commands and says what it is doing: one line a step. */
 import { spawn, spawnSync } from "node:child_process";
-import { accessSync, constants, existsSync } from "node:fs";
-import { homedir } from "node:os";
+import { accessSync, existsSync, constants as files } from "node:fs";
+import { constants, homedir, setPriority } from "node:os";
 import { delimiter, dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -34,7 +34,7 @@ export function which(program) {
     for (const ending of endings) {
       const path = join(folder, program + ending);
       try {
-        accessSync(path, constants.X_OK);
+        accessSync(path, files.X_OK);
         return path;
       } catch {
         // Look on.
@@ -50,8 +50,11 @@ export function ask(program, ...args) {
   return result.status === 0 ? result.stdout.trim() : null;
 }
 
-/** Runs a command to its end and keeps what it prints. Never throws. */
-export function attempt(program, args, { env = {} } = {}) {
+/**
+ * Runs a command to its end and keeps what it prints: all of it in `output`, what is meant for programs also in `stdout`.
+ * Never throws. A variable of `env` that is undefined is taken away. `yielding`: only with what others leave of the processors.
+ */
+export function attempt(program, args, { env = {}, yielding = false } = {}) {
   return new Promise((done) => {
     const child = spawn(program, args, {
       cwd: root,
@@ -59,20 +62,24 @@ export function attempt(program, args, { env = {} } = {}) {
       shell: windows,
       stdio: ["ignore", "pipe", "pipe"],
     });
-    let output = "";
-    const keep = (chunk) => {
+    if (yielding && child.pid) setPriority(child.pid, constants.priority.PRIORITY_LOW);
+    let [output, stdout, stderr] = ["", "", ""];
+    child.stdout.setEncoding("utf8").on("data", (chunk) => {
       output += chunk;
-    };
-    child.stdout.setEncoding("utf8").on("data", keep);
-    child.stderr.setEncoding("utf8").on("data", keep);
-    child.on("error", (error) => done({ ok: false, output: output + error.message }));
-    child.on("close", (code) => done({ ok: code === 0, output }));
+      stdout += chunk;
+    });
+    child.stderr.setEncoding("utf8").on("data", (chunk) => {
+      output += chunk;
+      stderr += chunk;
+    });
+    child.on("error", ({ message }) => done({ ok: false, output: output + message, stdout, stderr }));
+    child.on("close", (code) => done({ ok: code === 0, output, stdout, stderr }));
   });
 }
 
 /** As `attempt`, but a failure is thrown with `hint`. */
-export async function must(program, args, { env, hint } = {}) {
-  const { ok, output } = await attempt(program, args, { env });
+export async function must(program, args, { env, hint, yielding } = {}) {
+  const { ok, output } = await attempt(program, args, { env, yielding });
   if (!ok) throw new StepError(`\`${[program, ...args].join(" ")}\` failed.`, hint, output);
   return output;
 }

@@ -13,7 +13,7 @@ import { aptOffers, change, dryRun, installPackages, isDebian, isDebianRoot } fr
 
 const target = "wasm32-unknown-unknown";
 const debianRustc = process.env.SETUP_DEBIAN_RUSTC ?? "/usr/bin/rustc";
-const linkerVariable = "CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER";
+const debianClippy = "/usr/bin/cargo-clippy";
 
 /** The oldest compiler that will do, from Cargo.toml. */
 function oldest() {
@@ -78,10 +78,10 @@ function linkerOf(found) {
 }
 
 /**
- * The environment that makes `cargo run -p xtask` use a compiler that can build both engines;
- * null where there is none yet.
+ * What can build the engine: `{rustc, linker, clippy}`, of which whatever is missing is the active toolchain's own;
+ * null where there is nothing yet.
  */
-export function wasmEnvironment() {
+export function wasmToolchain() {
   const active = compiler("rustc");
   const debian = isDebian() ? compiler(debianRustc) : null;
   for (const found of [active, debian]) {
@@ -90,34 +90,31 @@ export function wasmEnvironment() {
     if (found === active && linkerOf(active)) return {};
     const linker = linkerOf(found) ?? linkerOf(active) ?? which("rust-lld") ?? which("wasm-ld");
     if (linker === null) continue;
-    const environment = { WASM_RUSTC: found.path, [linkerVariable]: linker };
-    if (found === debian && existsSync("/usr/bin/cargo-clippy")) {
-      environment.WASM_CARGO_CLIPPY = "/usr/bin/cargo-clippy";
-    }
-    return environment;
+    const clippy = found === debian && existsSync(debianClippy) ? { clippy: debianClippy } : {};
+    return { rustc: found.path, linker, ...clippy };
   }
   return null;
 }
 
-/** Makes sure of `wasmEnvironment` and returns it. `lint`: with a Clippy that fits. */
+/** Makes sure of `wasmToolchain` and returns it. `lint`: with a Clippy that fits. */
 export async function ensureWasm({ lint = false } = {}) {
-  let environment = wasmEnvironment();
-  if (environment === null) {
+  let toolchain = wasmToolchain();
+  if (toolchain === null) {
     await installWasm(lint);
-    environment = wasmEnvironment();
-    if (environment === null && dryRun) return {};
-    if (environment === null) {
+    toolchain = wasmToolchain();
+    if (toolchain === null && dryRun) return {};
+    if (toolchain === null) {
       throw new StepError(
         "No Rust compiler here can build WebAssembly with threads.",
         "`rustup component add rust-src` must succeed, or Debian's rustc-web and rust-web-src.",
       );
     }
   }
-  if (lint && environment.WASM_RUSTC === debianRustc && !environment.WASM_CARGO_CLIPPY) {
+  if (lint && toolchain.rustc === debianRustc && !toolchain.clippy) {
     await installPackages(["rust-web-clippy"], "Clippy for Debian's compiler", "");
-    environment = wasmEnvironment() ?? environment;
+    toolchain = wasmToolchain() ?? toolchain;
   }
-  return environment;
+  return toolchain;
 }
 
 /** Debian's packages as root, else rustup's components, else one sentence. */

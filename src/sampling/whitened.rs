@@ -15,7 +15,7 @@
 //! product T z (and Tᵀ ∇) of q²/2 multiplications. A gradient counts as two evaluations.
 //!
 //! Effective draws of the worst coefficient or its square for 1000 evaluations, with the variational
-//! fit, by `cargo test --test samplers effective_draws -- --ignored --nocapture`:
+//! fit, by `cargo test --test all samplers::effective_draws -- --ignored --nocapture`:
 //!
 //! | posterior | independence | Hamiltonian | its L = 1 | Langevin | Crank–Nicolson |
 //! |---|---|---|---|---|---|

@@ -68,7 +68,7 @@ test("unzipped, `python3 serve.py` serves the page with all processors, to this 
   const { line } = python(t, folder, "serve.py", "0");
   const address = /http:\/\/localhost:\d+\//.exec(await line)?.[0];
   assert.ok(address, await line);
-  const response = await fetch(`${address}engine/serial/${await wasm(address)}`);
+  const response = await fetch(`${address}engine/${await wasm(address)}`);
   assert.equal(response.headers.get("content-type"), "application/wasm");
   await compares(address, true);
 });
@@ -96,6 +96,6 @@ test("a port that is none or taken is said in words", async (t) => {
 
 /** The name of the engine's file, as the folder lists it. */
 async function wasm(address) {
-  const listing = await (await fetch(`${address}engine/serial/`)).text();
+  const listing = await (await fetch(`${address}engine/`)).text();
   return /href="([^"]+\.wasm)"/.exec(listing)?.[1];
 }

@@ -78,8 +78,8 @@ test("a run says how far it is and whether its draws can be believed yet", async
 });
 
 for (const { build, query, link } of [
-  { build: "build with threads", query: "", link: ENDLESS_HEADS },
-  { build: "serial build", query: "?serial", link: ENDLESS_STARS },
+  { build: "engine with threads", query: "", link: ENDLESS_HEADS },
+  { build: "engine alone", query: "?serial", link: ENDLESS_STARS },
 ]) {
   test(`cancelling the ${build} keeps the draws, rests the processor, and lets the next run begin`, async (t) => {
     await withPage({}, async ({ url, page, browser }) => {

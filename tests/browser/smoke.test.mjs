@@ -1,13 +1,13 @@
-/** Before anything else: do both engines load in a worker, from the built page, on either host? */
+/** Before anything else: does the engine load in a worker, from the built page, on either host? */
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { withPage } from "./harness.mjs";
 
 /**
- * Loads an engine in a worker of its own, started from a script that the server serves: blob
+ * Loads the engine in a worker of its own, started from a script that the server serves: blob
  * workers would not show whether worker scripts carry the headers. Resolves to what it saw.
  */
-async function loadEngine(page, url, build) {
+async function loadEngine(page, url, threads) {
   await page.route(`${url}load-engine.js`, (route) =>
     route.fulfill({
       contentType: "text/javascript",
@@ -17,8 +17,8 @@ async function loadEngine(page, url, build) {
           try {
             const glue = await import(engine);
             const { memory } = await glue.default();
-            if (threads > 0) await glue.initThreadPool(threads);
-            postMessage({ shared: memory.buffer.constructor.name, pool: "initThreadPool" in glue });
+            if (threads > 0) await glue.startThreads(threads);
+            postMessage({ shared: memory.buffer.constructor.name, version: glue.Engine.version() });
           } catch (error) {
             postMessage({ error: String(error) });
           }
@@ -33,44 +33,33 @@ async function loadEngine(page, url, build) {
         worker.onerror = ({ message }) => done({ error: message || "the worker did not start" });
         worker.postMessage({ engine, threads });
       }),
-    {
-      script: `${url}load-engine.js`,
-      engine: `${url}engine/${build}/shapevenn.js`,
-      threads: build === "threads" ? 2 : 0,
-    },
+    { script: `${url}load-engine.js`, engine: `${url}engine/shapevenn.js`, threads },
   );
 }
 
-test("an isolated page runs the engine with two threads", async () => {
-  await withPage({ isolated: true }, async ({ url, page }) => {
-    await page.goto(url);
-    assert.equal(await page.evaluate(() => crossOriginIsolated), true);
-    const seen = await loadEngine(page, url, "threads");
-    assert.deepEqual(seen, { shared: "SharedArrayBuffer", pool: true });
+for (const { host, isolated, threads } of [
+  { host: "an isolated page runs it with two threads", isolated: true, threads: 2 },
+  { host: "an isolated page runs it alone", isolated: true, threads: 0 },
+  { host: "on a host without the headers it runs alone", isolated: false, threads: 0 },
+]) {
+  test(`the one engine, in shared memory: ${host}`, async () => {
+    await withPage({ isolated }, async ({ url, page }) => {
+      await page.goto(url);
+      assert.equal(await page.evaluate(() => crossOriginIsolated), isolated);
+      const { shared, version, error } = await loadEngine(page, url, threads);
+      assert.equal(error, undefined);
+      assert.equal(shared, "SharedArrayBuffer");
+      assert.match(version, /^\d+\.\d+\.\d+$/);
+    });
   });
-});
-
-test("an isolated page runs the serial engine too", async () => {
-  await withPage({ isolated: true }, async ({ url, page }) => {
-    await page.goto(url);
-    assert.deepEqual(await loadEngine(page, url, "serial"), { shared: "ArrayBuffer", pool: false });
-  });
-});
-
-test("on a host without the headers the serial engine runs", async () => {
-  await withPage({ isolated: false }, async ({ url, page }) => {
-    await page.goto(url);
-    assert.equal(await page.evaluate(() => crossOriginIsolated), false);
-    assert.deepEqual(await loadEngine(page, url, "serial"), { shared: "ArrayBuffer", pool: false });
-  });
-});
+}
 
 test("every response of an isolated host carries the headers, worker scripts included", async () => {
   await withPage({ isolated: true }, async ({ url }) => {
     for (const path of [
       "",
-      "engine/threads/shapevenn.js",
-      "engine/threads/shapevenn_bg.wasm",
+      "engine/shapevenn.js",
+      "engine/shapevenn_bg.wasm",
       "no-such",
     ]) {
       const { headers } = await fetch(url + path);

@@ -7,7 +7,7 @@ import { compareByCommand, temporaryFolder, timeless } from "./command.mjs";
 import { download, downloadReport, untilState, withPage } from "./harness.mjs";
 
 const WAYS = [
-  { name: "the serial build", isolated: true, query: "?serial", build: "serial" },
+  { name: "the engine alone", isolated: true, query: "?serial", build: "serial" },
   { name: "a host without the headers", isolated: false, query: "", build: "serial" },
   { name: "one thread", isolated: true, query: "?threads=1", build: "threads", threads: 1 },
   { name: "two threads", isolated: true, query: "?threads=2", build: "threads", threads: 2 },

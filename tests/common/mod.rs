@@ -2,6 +2,8 @@
 #![allow(dead_code, unreachable_pub, reason = "every test file uses its own part")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+pub mod files;
+
 use nalgebra::{DMatrix, DVector};
 use shapevenn::compare::Side;
 use shapevenn::comparison::{Comparison, Settings};

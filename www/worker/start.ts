@@ -2,7 +2,7 @@
 export interface WorkerStart {
   /** Where the page is: the engine's packages lie relative to it. */
   base: string;
-  /** Never try the build with threads. */
+  /** One thread, whatever the page may have. */
   serial: boolean;
   /** How many threads; null for as many as the machine has. */
   threads: number | null;

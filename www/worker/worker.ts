@@ -1,4 +1,4 @@
-/** Entry of the engine's worker: chooses a build, then hands every message to the coordinator. */
+/** Entry of the engine’s worker: loads the engine, then hands every message to the coordinator. */
 import { Coordinator } from "./coordinator";
 import { sentenceOf } from "./engine-errors";
 import { type Loaded, loadEngine } from "./load";

@@ -114,7 +114,7 @@ function Build() {
   const how =
     info.build === "threads"
       ? `${info.threads} thread${info.threads === 1 ? "" : "s"}`
-      : "serial build, one thread";
+      : "one thread";
   return (
     <p class="build" data-build={info.build}>
       Engine {info.version} · {how}
