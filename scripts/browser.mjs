@@ -1,27 +1,45 @@
-/** Runs tests/browser on the built page: `npm run test:browser -- smoke` runs one of them. */
-import { spawnSync } from "node:child_process";
-import { existsSync, readdirSync } from "node:fs";
+/**
+ * Runs tests/browser on the built page: `npm run test:browser -- learn smoke` those of files with such a name. Two files at a
+ * time, on as many processors; each has a browser of its own.
+ */
+import { readdirSync } from "node:fs";
 import { join } from "node:path";
 import { build } from "./build.mjs";
 import { ensureBrowser } from "./setup.mjs";
-import { isMain, main, root } from "./steps/run.mjs";
+import { attempt, isMain, main, root } from "./steps/run.mjs";
 
-/** The arguments of node that run the browser tests, one file at a time. */
-export function browserTests(wanted = "") {
-  const folder = join(root, "tests/browser");
-  const names = existsSync(folder) ? readdirSync(folder) : [];
-  return names
-    .filter((name) => name.endsWith(".test.mjs") && name.includes(wanted))
-    .sort()
+const folder = join(root, "tests/browser");
+
+/** The files that take longest begin first, lest one of them runs on alone in the end. */
+const LONGEST = ["links", "learn-samplers", "models", "undo"];
+
+function files(words) {
+  const place = (name) =>
+    (LONGEST.indexOf(name.split(".")[0]) + LONGEST.length + 1) % (LONGEST.length + 1);
+  return readdirSync(folder)
+    .filter((name) => name.endsWith(".test.mjs"))
+    .filter((name) => words.length === 0 || words.some((word) => name.includes(word)))
+    .sort((one, other) => place(one) - place(other) || (one < other ? -1 : 1))
     .map((name) => join(folder, name));
+}
+
+/** `{passed, failed, output}`; `onLine` gets a line for each test as it ends. */
+export async function browserTests({ words = [], onLine } = {}) {
+  const reporter = `--test-reporter=${join(root, "scripts/steps/reporter.mjs")}`;
+  const args = ["--test", "--test-concurrency=2", "--test-timeout=240000", reporter];
+  const { ok, stdout, output } = await attempt(process.execPath, [...args, ...files(words)], {
+    onLine,
+  });
+  const count = (word) => Number(new RegExp(`^# ${word} (\\d+)`, "m").exec(stdout)?.[1] ?? 0);
+  return { passed: count("pass"), failed: ok ? count("fail") : Math.max(1, count("fail")), output };
 }
 
 if (isMain(import.meta.url)) {
   await main(async () => {
     await build();
     await ensureBrowser();
-    const args = ["--test", "--test-concurrency=1", ...browserTests(process.argv[2])];
-    const { status } = spawnSync(process.execPath, args, { cwd: root, stdio: "inherit" });
-    process.exitCode = status ?? 1;
+    const words = process.argv.slice(2);
+    const { failed } = await browserTests({ words, onLine: (line) => console.log(line) });
+    process.exitCode = failed > 0 ? 1 : 0;
   });
 }

@@ -148,7 +148,7 @@ export async function hasNextest() {
   return (await attempt("cargo", ["nextest", "--version"])).ok;
 }
 
-export { ensureLinters, ensureWasm };
+export { ensureLinters, ensureRust, ensureWasm };
 
 if (isMain(import.meta.url)) {
   await main(async () => {

@@ -1,11 +1,14 @@
 /**
- * `npm test`: installs what is missing, then runs every check and every suite, one line each.
+ * `npm test`: installs what is missing, then runs every check and every suite, what fails fast first, one line each.
  * What fails is shown in full and the rest runs on, so that the last line, `N passed, N failed`,
- * counts everything. A check such as formatting counts as one.
+ * counts everything. A check such as formatting counts as one. The engine is built meanwhile: most of the time that takes
+ * one processor.
  */
+import { audits } from "./audit.mjs";
 import { browserTests } from "./browser.mjs";
-import { buildEngine, buildPage } from "./build.mjs";
+import { buildEngine, buildPage, checkInputs } from "./build.mjs";
 import { checkFeatures } from "./features.mjs";
+import { documentationTests, rustTests } from "./rust.mjs";
 import {
   ensureBrowser,
   ensureBuild,
@@ -14,9 +17,9 @@ import {
   ensurePython,
   ensureSystem,
   ensureWasm,
-  hasNextest,
 } from "./setup.mjs";
-import { announce, attempt, explain, main, StepError } from "./steps/run.mjs";
+import { lintEngine } from "./steps/engine.mjs";
+import { announce, attempt, explain, main, note, StepError } from "./steps/run.mjs";
 import { bundleUnitTests } from "./unit.mjs";
 
 const total = { passed: 0, failed: 0 };
@@ -34,7 +37,7 @@ async function prepare(part, work) {
   }
 }
 
-/** One line for one check or suite; `work` resolves to `{passed, failed, output}`. */
+/** One line for one check or suite; `work` resolves to `{passed, failed, output}`, with `skipped` if it was not done, and why. */
 async function test(what, needs, work) {
   const close = announce(what);
   const missing = needs.filter((part) => !ready.get(part));
@@ -46,7 +49,7 @@ async function test(what, needs, work) {
   total.failed += result.failed;
   const many = result.passed + result.failed !== 1;
   if (result.failed === 0) {
-    close(many ? `${result.passed} passed` : "ok");
+    close(result.skipped ?? (many ? `${result.passed} passed` : "ok"));
     return;
   }
   close(many ? `${result.passed} passed, ${result.failed} failed` : "failed");
@@ -69,61 +72,14 @@ async function check(program, args, options) {
   return { passed: ok ? 1 : 0, failed: ok ? 0 : 1, output };
 }
 
-/**
- * A command that runs many tests; `count` reads their numbers off its output. A command that
- * fails without a failed test (it did not compile, say) counts as one failure.
- */
-async function suite(count, program, args, options) {
-  const { ok, output } = await attempt(program, args, options);
-  const { passed, failed } = count(output);
-  return { passed, failed: ok ? failed : Math.max(1, failed), output };
-}
+const node = (...args) => check(process.execPath, args);
 
-function sum(output, pattern) {
-  let number = 0;
-  for (const match of output.matchAll(pattern)) number += Number(match[1]);
-  return number;
-}
-
-const counts = {
-  nextest: (output) => ({
-    passed: sum(output, /^\s*Summary .*?(\d+) passed/gm),
-    failed:
-      sum(output, /^\s*Summary .*?(\d+) failed/gm) +
-      sum(output, /^\s*Summary .*?(\d+) timed out/gm),
-  }),
-  cargo: (output) => ({
-    passed: sum(output, /^test result: .*?(\d+) passed/gm),
-    failed: sum(output, /^test result: .*?(\d+) failed/gm),
-  }),
-  node: (output) => ({
-    passed: sum(output, /^# pass (\d+)/gm),
-    failed: sum(output, /^# fail (\d+)/gm),
-  }),
-};
-
-function nodeTests(files, ...more) {
-  if (files.length === 0) return { passed: 0, failed: 0, output: "" };
-  const args = ["--enable-source-maps", "--test", "--test-reporter=tap", ...more, ...files];
-  return suite(counts.node, process.execPath, args);
-}
-
-function lint(variant) {
-  const args = ["run", "--quiet", "--locked", "-p", "xtask", "--", "lint", variant];
-  return check("cargo", args, { env: ready.get("Clippy for WebAssembly") });
-}
-
-async function rustTests() {
-  const env = { SHAPEVENN_PYTHON: ready.get("Python") };
-  const options = ["--locked", "--no-fail-fast", "-p", "shapevenn"];
-  return (await hasNextest())
-    ? suite(
-        counts.nextest,
-        "cargo",
-        ["nextest", "run", "--cargo-quiet", "--no-tests=pass", ...options],
-        { env },
-      )
-    : suite(counts.cargo, "cargo", ["test", "--all-targets", ...options], { env });
+async function unitTests() {
+  const args = ["--enable-source-maps", "--test", "--test-reporter=tap"];
+  const files = await bundleUnitTests();
+  const { ok, output } = await attempt(process.execPath, [...args, ...files]);
+  const count = (word) => Number(new RegExp(`^# ${word} (\\d+)`, "m").exec(output)?.[1] ?? 0);
+  return { passed: count("pass"), failed: ok ? count("fail") : Math.max(1, count("fail")), output };
 }
 
 async function built(build) {
@@ -143,41 +99,49 @@ await main(async () => {
   );
   await prepare("Python", ensurePython);
 
-  console.log("Checks");
-  const locked = ["--quiet", "--locked", "--workspace"];
+  console.log("Checks of form");
   await test("Rust formatting", ["linters"], () => check("cargo", ["fmt", "--all", "--check"]));
+  await test("Biome: form and lint of the page and the scripts", ["npm"], () =>
+    node("node_modules/@biomejs/biome/bin/biome", "check"),
+  );
+  await test("TypeScript, page", ["npm"], () =>
+    node("node_modules/typescript/bin/tsc", "--noEmit"),
+  );
+  await test("TypeScript, worker", ["npm"], () =>
+    node("node_modules/typescript/bin/tsc", "--noEmit", "-p", "www/worker"),
+  );
+  await test("Features that would change numbers", [], checkFeatures);
+  for (const { name, run } of audits()) await test(name, [], run);
+  await test("Unit tests of the page and the scripts", ["npm"], unitTests);
+
+  // From here on the engine is built beside everything else. What it says comes where it is waited for.
+  const engine = ready.get("WebAssembly")
+    ? built(() => buildEngine({ say: (_, work) => work() }))
+    : Promise.reject(new StepError("No toolchain for WebAssembly."));
+  engine.catch(() => {});
+
+  console.log("Rust");
+  const locked = ["--quiet", "--locked", "--workspace"];
   await test("Clippy, native", ["linters"], () =>
     check("cargo", ["clippy", ...locked, "--all-targets", "--", "-D", "warnings"]),
   );
-  await test("Clippy, WebAssembly, serial", ["Clippy for WebAssembly"], () => lint("serial"));
-  await test("Clippy, WebAssembly, threads", ["Clippy for WebAssembly"], () => lint("threads"));
-  await test("Features that would change numbers", [], checkFeatures);
   await test("Rust documentation", [], () =>
     check("cargo", ["doc", ...locked, "--no-deps"], { env: { RUSTDOCFLAGS: "-D warnings" } }),
   );
-  await test("Biome: form and lint of the page and the scripts", ["npm"], () =>
-    check(process.execPath, ["node_modules/@biomejs/biome/bin/biome", "check"]),
-  );
-  await test("TypeScript, page", ["npm"], () =>
-    check(process.execPath, ["node_modules/typescript/bin/tsc", "--noEmit"]),
-  );
-  await test("TypeScript, worker", ["npm"], () =>
-    check(process.execPath, ["node_modules/typescript/bin/tsc", "--noEmit", "-p", "www/worker"]),
-  );
-
-  console.log("Tests");
-  await test("Rust tests", ["Python"], rustTests);
-  await test("Rust examples in the documentation", [], () =>
-    suite(counts.cargo, "cargo", ["test", "--locked", "-p", "shapevenn", "--doc"]),
-  );
-  await test("Unit tests of the page", ["npm"], async () => nodeTests(await bundleUnitTests()));
+  await test("Rust tests", ["Python"], () => rustTests({ python: ready.get("Python") }));
+  await test("Rust examples in the documentation", [], documentationTests);
 
   console.log("The built page");
-  await test("Building both engines", ["npm", "WebAssembly"], () => built(buildEngine));
-  await test("Building the page", ["npm"], () => built(buildPage));
-  await test("Browser tests", ["npm", "browser"], () =>
-    nodeTests(browserTests(), "--test-concurrency=1", "--test-timeout=240000"),
+  await test("The engine, built meanwhile", ["WebAssembly"], () => engine);
+  await test("Clippy, WebAssembly", ["Clippy for WebAssembly"], async () => {
+    const { ok, output } = await lintEngine(ready.get("Clippy for WebAssembly"));
+    return { passed: ok ? 1 : 0, failed: ok ? 0 : 1, output };
+  });
+  await test("The page, bundled", ["npm"], () =>
+    built(() => buildPage({ say: (_, work) => work() })),
   );
+  await test("Inputs that a rebuild heeds", ["WebAssembly"], checkInputs);
+  await test("Browser tests", ["npm", "browser"], () => browserTests({ onLine: note }));
 
   if (failures.length > 0) console.log(`\nFailed: ${failures.join("; ")}.`);
   console.log(`${total.passed} passed, ${total.failed} failed`);

@@ -5,8 +5,8 @@
  * in shared memory both times, which WebAssembly has without isolation too. So the standard library is compiled
  * along, with atomics: as shipped it has none.
  */
-import { existsSync, mkdirSync, renameSync, rmSync } from "node:fs";
-import { join } from "node:path";
+import { existsSync, mkdirSync, readFileSync, renameSync, rmSync } from "node:fs";
+import { join, relative } from "node:path";
 import { attempt, cache, must, root, StepError } from "./run.mjs";
 
 const target = "wasm32-unknown-unknown";
@@ -79,6 +79,19 @@ export async function compileEngine(wasm, { quick = false } = {}) {
     if (made?.name === "shapevenn" && module) return module;
   }
   throw new StepError("cargo named no .wasm file among what it built.", hint, stderr);
+}
+
+/** The files that the compiler read for our crate, relative to the checkout, by its own account. */
+export async function filesOfEngine() {
+  const metadata = await must(
+    "cargo",
+    ["metadata", "--no-deps", "--format-version=1", "--locked"],
+    { hint },
+  );
+  const { target_directory: folder } = JSON.parse(metadata);
+  const list = readFileSync(join(folder, target, "engine/shapevenn.d"), "utf8");
+  const [, files = ""] = /^\S+\.wasm: (.*)$/m.exec(list) ?? [];
+  return files.split(/(?<!\\) /).map((path) => relative(root, path.replaceAll("\\ ", " ")));
 }
 
 /** The tool that packages a module, apart from everything else: it is compiled while the engine is. */

@@ -3,6 +3,7 @@ import { spawn, spawnSync } from "node:child_process";
 import { accessSync, existsSync, constants as files } from "node:fs";
 import { constants, homedir, setPriority } from "node:os";
 import { delimiter, dirname, join, resolve } from "node:path";
+import { createInterface } from "node:readline";
 import { fileURLToPath } from "node:url";
 
 export const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
@@ -44,22 +45,31 @@ export function which(program) {
   return null;
 }
 
+/**
+ * On Windows only a shell starts npm and its like, which are scripts; it also takes arguments apart again, so that
+ * programs are started without.
+ */
+function needsShell(program) {
+  return windows && !/[\\/]/.test(program) && !(which(program) ?? "").endsWith(".exe");
+}
+
 /** What a quick command prints, trimmed; null when it fails or does not exist. */
 export function ask(program, ...args) {
-  const result = spawnSync(program, args, { cwd: root, encoding: "utf8", shell: windows });
+  const shell = needsShell(program);
+  const result = spawnSync(program, args, { cwd: root, encoding: "utf8", shell });
   return result.status === 0 ? result.stdout.trim() : null;
 }
 
 /**
  * Runs a command to its end and keeps what it prints: all of it in `output`, what is meant for programs also in `stdout`.
- * Never throws. A variable of `env` that is undefined is taken away. `yielding`: only with what others leave of the processors.
+ * Never throws. `onLine` gets each line as it comes. A variable of `env` that is undefined is taken away. `yielding`: only with what others leave of the processors.
  */
-export function attempt(program, args, { env = {}, yielding = false } = {}) {
+export function attempt(program, args, { env = {}, yielding = false, onLine } = {}) {
   return new Promise((done) => {
     const child = spawn(program, args, {
       cwd: root,
       env: { ...process.env, CARGO_TERM_COLOR: "never", ...env },
-      shell: windows,
+      shell: needsShell(program),
       stdio: ["ignore", "pipe", "pipe"],
     });
     if (yielding && child.pid) setPriority(child.pid, constants.priority.PRIORITY_LOW);
@@ -72,7 +82,14 @@ export function attempt(program, args, { env = {}, yielding = false } = {}) {
       output += chunk;
       stderr += chunk;
     });
-    child.on("error", ({ message }) => done({ ok: false, output: output + message, stdout, stderr }));
+    if (onLine) {
+      for (const stream of [child.stdout, child.stderr]) {
+        createInterface({ input: stream }).on("line", onLine);
+      }
+    }
+    child.on("error", ({ message }) =>
+      done({ ok: false, output: output + message, stdout, stderr }),
+    );
     child.on("close", (code) => done({ ok: code === 0, output, stdout, stderr }));
   });
 }
@@ -100,6 +117,13 @@ export function announce(what) {
     console.log(`${lead}${how} (${((performance.now() - begin) / 1000).toFixed(1)} s)`);
     lineIsOpen = false;
   };
+}
+
+/** A line below what is announced. */
+export function note(line) {
+  if (lineIsOpen) process.stdout.write("\n");
+  lineIsOpen = false;
+  console.log(`${"  ".repeat(depth + 1)}${line}`);
 }
 
 /** One announced step; the line ends with what `work` returns, or "done". */

@@ -1,4 +1,4 @@
-/** Remembers what was built from what, so that nothing is built twice. */
+/** Remembers what was built from what, so that nothing is built twice, and everything that must be is. */
 import { createHash } from "node:crypto";
 import {
   existsSync,
@@ -13,12 +13,12 @@ import { dirname, join } from "node:path";
 import { cache, root } from "./run.mjs";
 
 /** All files under the given files and folders, in order, except under `skip`. */
-function filesUnder(paths, skip = []) {
+function filesUnder(home, paths, skip = []) {
   const found = [];
   const visit = (path) => {
-    if (skip.includes(path) || !existsSync(join(root, path))) return;
-    if (statSync(join(root, path)).isDirectory()) {
-      for (const name of readdirSync(join(root, path)).sort()) visit(`${path}/${name}`);
+    if (skip.includes(path) || !existsSync(join(home, path))) return;
+    if (statSync(join(home, path)).isDirectory()) {
+      for (const name of readdirSync(join(home, path)).sort()) visit(`${path}/${name}`);
     } else {
       found.push(path);
     }
@@ -27,50 +27,55 @@ function filesUnder(paths, skip = []) {
   return found;
 }
 
-/** Names and contents of the sources: a new checkout with old contents needs no build. */
-function contents(sources, skip) {
-  const hash = createHash("sha256");
-  for (const path of filesUnder(sources, skip)) {
+/** Names and contents of the sources, and the tools: a new checkout with old contents needs no build. */
+function contents({ home = root, sources, skip, tools = () => "" }) {
+  const hash = createHash("sha256").update(`${tools()}\0`);
+  for (const path of filesUnder(home, sources, skip)) {
     hash
       .update(`${path}\0`)
-      .update(readFileSync(join(root, path)))
+      .update(readFileSync(join(home, path)))
       .update("\0");
   }
   return hash.digest("hex");
 }
 
 /** Names, sizes and times of the products: notices one that was deleted or written over. */
-function outline(products) {
+function outline({ home = root, products }) {
   const hash = createHash("sha256");
-  for (const path of filesUnder(products)) {
-    const { size, mtimeMs } = statSync(join(root, path));
+  for (const path of filesUnder(home, products)) {
+    const { size, mtimeMs } = statSync(join(home, path));
     hash.update(`${path}\0${size}\0${mtimeMs}\0`);
   }
   return hash.digest("hex");
 }
 
-/** `{name, sources, skip, products}`: one thing to build, its sources and where it goes. */
-export function isFresh({ name, sources, skip = [], products }) {
-  if (!products.every((path) => existsSync(join(root, path)))) return false;
+/**
+ * `{name, sources, skip, tools, products}`: one thing to build, its sources, what says which tools build it, and where it
+ * goes. `home`: the folder that all of them are in, else the checkout.
+ */
+export function isFresh(thing) {
+  const { home = root, products } = thing;
+  if (!products.every((path) => existsSync(join(home, path)))) return false;
   try {
-    const stamp = JSON.parse(readFileSync(stampFile(name), "utf8"));
-    return stamp.sources === contents(sources, skip) && stamp.products === outline(products);
+    const stamp = JSON.parse(readFileSync(stampFile(thing), "utf8"));
+    return stamp.sources === contents(thing) && stamp.products === outline(thing);
   } catch {
     return false;
   }
 }
 
 /** Call after building; `before` is `takeStamp`'s answer from before, lest an edit go unseen. */
-export function setStamp({ name, products }, before) {
-  mkdirSync(dirname(stampFile(name)), { recursive: true });
-  writeFileSync(stampFile(name), JSON.stringify({ sources: before, products: outline(products) }));
+export function setStamp(thing, before) {
+  mkdirSync(dirname(stampFile(thing)), { recursive: true });
+  writeFileSync(stampFile(thing), JSON.stringify({ sources: before, products: outline(thing) }));
 }
 
-export function takeStamp({ name, sources, skip = [] }) {
-  rmSync(stampFile(name), { force: true });
-  return contents(sources, skip);
+/** Call before building: while it goes on, and if it fails, nothing counts as fresh. */
+export function takeStamp(thing) {
+  rmSync(stampFile(thing), { force: true });
+  return contents(thing);
 }
 
-function stampFile(name) {
-  return join(cache, "stamps", `${name}.json`);
+function stampFile({ home, name }) {
+  return join(home ? join(home, ".setup") : cache, "stamps", `${name}.json`);
 }

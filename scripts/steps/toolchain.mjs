@@ -96,6 +96,12 @@ export function wasmToolchain() {
   return null;
 }
 
+/** What the compiler of the engine says of itself; empty where there is none yet. */
+export function wasmCompiler() {
+  const toolchain = wasmToolchain();
+  return toolchain === null ? "" : ask(toolchain.rustc ?? "rustc", "-vV");
+}
+
 /** Makes sure of `wasmToolchain` and returns it. `lint`: with a Clippy that fits. */
 export async function ensureWasm({ lint = false } = {}) {
   let toolchain = wasmToolchain();

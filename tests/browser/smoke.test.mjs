@@ -56,12 +56,7 @@ for (const { host, isolated, threads } of [
 
 test("every response of an isolated host carries the headers, worker scripts included", async () => {
   await withPage({ isolated: true }, async ({ url }) => {
-    for (const path of [
-      "",
-      "engine/shapevenn.js",
-      "engine/shapevenn_bg.wasm",
-      "no-such",
-    ]) {
+    for (const path of ["", "engine/shapevenn.js", "engine/shapevenn_bg.wasm", "no-such"]) {
       const { headers } = await fetch(url + path);
       assert.equal(headers.get("cross-origin-opener-policy"), "same-origin", path);
       assert.equal(headers.get("cross-origin-embedder-policy"), "require-corp", path);
