@@ -34,5 +34,7 @@ pub mod report;
 pub mod reproduce;
 pub mod roofline;
 pub mod sampling;
+#[cfg(test)]
+mod testing;
 #[cfg(target_arch = "wasm32")]
 pub mod wasm;

@@ -1,7 +1,9 @@
 //! Draws of the difference, which rejection makes exactly, against laws known in closed form.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use crate::common::{compared, face_like_pair, model, random_orthonormal, report, warns};
+use crate::common::{
+    compared, face_like_pair, model, random_orthonormal, repetitions, report, warns,
+};
 use nalgebra::{DMatrix, DVector};
 use shapevenn::compare::{Criterion, Difference, DifferenceDefinition, Level, Pair, Side};
 use shapevenn::comparison::Settings;
@@ -185,7 +187,7 @@ fn where_nothing_is_within_tolerance_the_tilt_is_the_square_of_the_distance() {
 
 #[test]
 fn the_standard_error_is_the_spread_over_repeats() {
-    const REPEATS: usize = 400;
+    let repeats = repetitions(400);
     let lines = lines(0.3, 1.0, 0.7);
     let side = Side::new(&lines.a, &lines.b);
     let law = Tilted::new(&lines, 0.5);
@@ -193,14 +195,14 @@ fn the_standard_error_is_the_spread_over_repeats() {
         Criterion::new(DifferenceDefinition::Soft, Level::Value(0.5), &side, &lines.a, 1, 0);
     assert!(matches!(criterion.envelope(), Envelope::Tilted(_)), "E t = 0.96");
     for envelope in [None, Some(Envelope::Prior(1))] {
-        let scores: Vec<f64> = (0..REPEATS)
+        let scores: Vec<f64> = (0..repeats)
             .map(|seed| {
                 let run = rejected(&side, &criterion, envelope.clone(), 500, 100 + seed as u64);
                 let (share, error) = run.probability();
                 (share - law.probability()) / error
             })
             .collect();
-        let count = REPEATS as f64;
+        let count = repeats as f64;
         let mean = scores.iter().sum::<f64>() / count;
         let square = scores.iter().map(|z| z * z).sum::<f64>() / count;
         assert!(mean.abs() < 5.0 / count.sqrt(), "biased by {mean} standard errors");

@@ -1,7 +1,9 @@
 //! Moments of the intersection from weighted draws and their gradients: right, and as right as they say.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use crate::common::{compared, identity_expression_like_pair, report, standard_errors_from};
+use crate::common::{
+    compared, identity_expression_like_pair, repetitions, report, standard_errors_from,
+};
 use nalgebra::{DMatrix, DVector};
 use shapevenn::compare::{Intersection, Pair, Side, fit_rms, fit_variational_step};
 use shapevenn::comparison::{Sampler, Settings};
@@ -72,18 +74,18 @@ fn the_moments_are_those_of_the_target_and_not_those_of_the_fit() {
 
 #[test]
 fn the_error_is_as_large_as_it_says_and_falls_with_the_root_of_the_draws() {
-    const REPEATS: u64 = 12;
+    let repeats = repetitions(12) as u64;
     let (side, fit) = fitted();
     let long = estimate(&side, &fit, 1 << 16, 1);
     let mean_square = |draws: usize| {
-        let squares = (2..2 + REPEATS).map(|seed| {
+        let squares = (2..2 + repeats).map(|seed| {
             let found = estimate(&side, &fit, draws, seed);
             let size = error(&found, &long, &fit);
             let predicted = found.standard_error();
             (size * size, predicted * predicted)
         });
         let (found, predicted): (Vec<f64>, Vec<f64>) = squares.unzip();
-        let mean = |values: Vec<f64>| values.iter().sum::<f64>() / REPEATS as f64;
+        let mean = |values: Vec<f64>| values.iter().sum::<f64>() / repeats as f64;
         (mean(found), mean(predicted))
     };
     let (few, predicted) = mean_square(1024);

@@ -5,6 +5,8 @@
 import { basename } from "node:path";
 
 const SLOWEST = 20;
+/** What the runner says of a test that `--test-name-pattern` leaves out. */
+const UNNAMED = "test name does not match pattern";
 
 const seconds = (milliseconds) => `${(milliseconds / 1000).toFixed(1).padStart(6)} s`;
 const nameOf = ({ file, name }) => (file ? `${basename(file)}: ${name}` : name);
@@ -28,6 +30,7 @@ export default async function* report(events) {
       if (isOfFile(data)) continue;
       const passed = type === "test:pass";
       const skipped = data.skip !== undefined && data.skip !== false;
+      if (data.skip === UNNAMED) continue;
       const milliseconds = data.details.duration_ms;
       ended.push({ name: nameOf(data), milliseconds, passed, skipped, data });
       yield lineOf(ended.at(-1));

@@ -228,6 +228,7 @@ mod tests {
     use nalgebra::{DMatrix, DVector};
 
     use super::*;
+    use crate::testing::repetitions;
 
     /// g(a) = 1 − exp(−½ t a²): E g = 1 − (1 + t)^−½, and under g·N the mean of a² is known.
     struct Square(f64);
@@ -318,9 +319,9 @@ mod tests {
 
     #[test]
     fn the_error_of_the_overlap_is_its_spread_over_repeats() {
-        const REPEATS: usize = 400;
+        let repeats = repetitions(400);
         for envelope in [Envelope::Prior(1), square_envelope(1.0)] {
-            let found: Vec<(f64, f64)> = (0..REPEATS)
+            let found: Vec<(f64, f64)> = (0..repeats)
                 .map(|seed| {
                     let mut run = Rejection::new(envelope.clone(), 500, u64::MAX, seed as u64, 1);
                     while !run.is_done() {
@@ -329,7 +330,7 @@ mod tests {
                     run.overlap()
                 })
                 .collect();
-            let count = REPEATS as f64;
+            let count = repeats as f64;
             let mean = found.iter().map(|(value, _)| value).sum::<f64>() / count;
             let square = found
                 .iter()

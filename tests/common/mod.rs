@@ -3,6 +3,10 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 pub mod files;
+#[path = "../../src/testing.rs"]
+mod testing;
+
+pub(crate) use testing::repetitions;
 
 use nalgebra::{DMatrix, DVector};
 use shapevenn::compare::Side;

@@ -100,6 +100,12 @@ async function restore(key: string): Promise<void> {
     held.value = { key, base, selects: false };
     await showRegions(REGIONS);
   } catch (thrown) {
+    restoring = false;
+    // Other models have come meanwhile: the stored comparison is as good as it was, for whoever comes back to it.
+    if (slots.a.peek() !== a || slots.b.peek() !== b) {
+      if (currentKey.peek() === key) void restore(key);
+      return;
+    }
     // A stored comparison that cannot be restored is no use: draw it again.
     stored = null;
     if (!wasAborted(thrown)) void start();
