@@ -33,7 +33,7 @@ const everywhere = [
 const released = [
   ["-C", "opt-level=2"],
   ["-C", "codegen-units=1"],
-  ["-C", "llvm-args=-inline-threshold=20"],
+  ["-C", "llvm-args=-inline-threshold=16"],
   ["-C", "llvm-args=-unroll-runtime=false"],
   ["-C", "no-vectorize-loops"],
 ].flat();

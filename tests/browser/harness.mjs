@@ -52,19 +52,31 @@ export async function closeBrowser() {
 
 after(closeBrowser);
 
+/** Edges are smoothed by drawing four times as many pixels, which takes software four times as long. */
+function drawWithoutSmoothing() {
+  for (const { prototype } of [HTMLCanvasElement, OffscreenCanvas]) {
+    const { getContext } = prototype;
+    prototype.getContext = function (kind, options) {
+      const plain = String(kind).startsWith("webgl") ? { ...options, antialias: false } : options;
+      return getContext.call(this, kind, plain);
+    };
+  }
+}
+
 /**
  * Serves dist/, opens an empty page, runs `test` with `{url, page, browser, errors}`, and puts
- * everything away. `errors` collects what the page's console and uncaught exceptions say; unless
+ * everything away. `smooth`: with smooth edges. `errors` collects what the page's console and uncaught exceptions say; unless
  * the test empties it, anything in it fails the test.
  */
 export async function withPage(
-  { isolated = true, viewport = { width: 1280, height: 800 }, ...context },
+  { isolated = true, viewport = { width: 1280, height: 800 }, smooth = false, ...context },
   test,
 ) {
   const browser = await launch();
   const server = await serve({ folder: join(root, "dist"), isolated, port: 0 });
   try {
     const page = await browser.newPage({ viewport, acceptDownloads: true, ...context });
+    if (!smooth) await page.addInitScript(drawWithoutSmoothing);
     const errors = [];
     page.on("pageerror", (error) => errors.push(String(error.stack ?? error)));
     page.on("console", (message) => {

@@ -1,7 +1,7 @@
 /** Before anything else: does the engine load in a worker, from the built page, on either host? */
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { withPage } from "./harness.mjs";
+import { untilState, withPage } from "./harness.mjs";
 
 /**
  * Loads the engine in a worker of its own, started from a script that the server serves: blob
@@ -74,5 +74,51 @@ test("the server gives away nothing outside its folder", async () => {
     ]) {
       assert.equal((await fetch(url + path)).status, 404, path);
     }
+  });
+});
+
+/** Runs `script` in the engine's worker before the worker's own. */
+async function inWorker(page, script) {
+  await page.route("**/assets/worker-*.js", async (route) => {
+    const response = await route.fetch();
+    await route.fulfill({ response, body: `${script};\n${await response.text()}` });
+  });
+}
+
+const LINK = "#v=1&demo=stars-1&draws=400&seed=3";
+const refusing = (most) => `{
+  const Memory = WebAssembly.Memory;
+  WebAssembly.Memory = function (wanted) {
+    if (wanted.maximum > ${most}) throw new RangeError("could not allocate memory");
+    return new Memory(wanted);
+  };
+}`;
+
+test("a phone that refuses memory for the worst case gets a lower ceiling", async () => {
+  await withPage({ isolated: false }, async ({ url, page }) => {
+    await inWorker(page, refusing(16384));
+    await page.goto(url + LINK);
+    await untilState(page, "done");
+    assert.equal(await page.locator("[data-build]").getAttribute("data-build"), "serial");
+  });
+});
+
+test("a browser without such memory is told which ones have it", async () => {
+  await withPage({ isolated: false }, async ({ url, page, errors }) => {
+    await inWorker(page, refusing(0));
+    await page.goto(url);
+    const notice = page.locator('.notice[data-code="engine-gone"]');
+    await notice.getByText(/Chrome and Edge do from version 91 on, Firefox from 89/).waitFor();
+    await untilState(page, "done");
+    errors.length = 0;
+  });
+});
+
+test("where threads do not come up, the engine runs alone", async () => {
+  await withPage({ isolated: true }, async ({ url, page }) => {
+    await inWorker(page, "delete globalThis.Worker");
+    await page.goto(`${url}?threads=2${LINK}`);
+    await untilState(page, "done");
+    assert.equal(await page.locator("[data-build]").getAttribute("data-build"), "serial");
   });
 });

@@ -99,6 +99,7 @@ async function restore(key: string): Promise<void> {
     await engineClient().restore(signal, a.model, b.model, stored.text, draws);
     held.value = { key, base, selects: false };
     await showRegions(REGIONS);
+    restoring = false;
   } catch (thrown) {
     restoring = false;
     // Other models have come meanwhile: the stored comparison is as good as it was, for whoever comes back to it.
@@ -109,8 +110,6 @@ async function restore(key: string): Promise<void> {
     // A stored comparison that cannot be restored is no use: draw it again.
     stored = null;
     if (!wasAborted(thrown)) void start();
-  } finally {
-    restoring = false;
   }
 }
 
