@@ -111,7 +111,7 @@ await main(async () => {
     node("node_modules/typescript/bin/tsc", "--noEmit", "-p", "www/worker"),
   );
   await test("Features that would change numbers", [], checkFeatures);
-  for (const { name, run } of audits()) await test(name, [], run);
+  for (const { name, run } of await audits()) await test(name, [], run);
   await test("Unit tests of the page and the scripts", ["npm"], unitTests);
 
   // From here on the engine is built beside everything else. What it says comes where it is waited for.
