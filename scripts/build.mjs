@@ -1,5 +1,5 @@
 /** Builds what is out of date: the engine, then the page into dist/. */
-import { statSync } from "node:fs";
+import { existsSync, statSync } from "node:fs";
 import { join, relative } from "node:path";
 import { ensureBuild, ensureNode } from "./setup.mjs";
 import { compileEngine, compileTool, filesOfEngine, packageEngine } from "./steps/engine.mjs";
@@ -72,7 +72,9 @@ export async function checkInputs() {
     .flatMap(({ output }) => output)
     .flatMap((chunk) => Object.keys(chunk.modules ?? {}))
     .map((module) => relative(root, module.split("?")[0].replaceAll("\0", "")))
-    .filter((path) => !path.startsWith("..") && !path.includes("node_modules"));
+    .filter((path) => !path.startsWith("..") && !path.includes("node_modules"))
+    // The bundler adds modules of its own, which are no files.
+    .filter((path) => existsSync(join(root, path)));
   const sentences = [
     ...unnamed(engine, engineReads).map((path) => `The engine is made of ${path} too.`),
     ...unnamed(page, pageReads).map((path) => `The page is made of ${path} too.`),

@@ -73,6 +73,7 @@ pub(crate) trait Real: Copy + Default + Send + Sync + core::fmt::Debug + 'static
 
     /// Writes vectors side by side; what follows them in `target` stays.
     #[inline(always)]
+    #[allow(clippy::manual_memcpy, reason = "copy_from_slice takes them out of the registers")]
     fn store<S: Simd, const V: usize>(vectors: [Self::Vector<S>; V], target: &mut [Self]) {
         let target = &mut Self::vectors_mut::<S>(target)[..V];
         for vector in 0..V {

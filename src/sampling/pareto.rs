@@ -213,7 +213,7 @@ mod tests {
         // Target: exponential of mean 1; proposal: of mean 0.6, so w has a tail of shape 0.4 and
         // E w x = 1. Root mean square errors over repetitions.
         let mut errors = [0.0; 2];
-        for repetition in 0..repetitions(400) as u64 {
+        for repetition in 0..repetitions(400) {
             let mut random = stream(4, Stream::Display, 1, repetition);
             let draws: Vec<f64> =
                 (0..500).map(|_| -0.6 * libm::log(1.0 - uniform(&mut random))).collect();

@@ -1,5 +1,10 @@
 //! What several tests need: runs, spaces, synthetic models.
-#![allow(dead_code, unreachable_pub, reason = "every test file uses its own part")]
+#![allow(
+    dead_code,
+    unreachable_pub,
+    unused_imports,
+    reason = "tests and benchmarks use their own part"
+)]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 pub mod files;
