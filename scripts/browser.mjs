@@ -10,16 +10,10 @@ import { attempt, isMain, main, root } from "./steps/run.mjs";
 
 const folder = join(root, "tests/browser");
 
-/** The files that take longest begin first, lest one of them runs on alone in the end. */
-const LONGEST = ["links", "learn-samplers", "models", "undo"];
-
 function files(words) {
-  const place = (name) =>
-    (LONGEST.indexOf(name.split(".")[0]) + LONGEST.length + 1) % (LONGEST.length + 1);
   return readdirSync(folder)
     .filter((name) => name.endsWith(".test.mjs"))
     .filter((name) => words.length === 0 || words.some((word) => name.includes(word)))
-    .sort((one, other) => place(one) - place(other) || (one < other ? -1 : 1))
     .map((name) => join(folder, name));
 }
 
