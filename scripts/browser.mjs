@@ -20,7 +20,7 @@ function files(words) {
 /** `{passed, failed, output}`; `onLine` gets a line for each test as it ends. */
 export async function browserTests({ words = [], onLine } = {}) {
   const reporter = `--test-reporter=${join(root, "scripts/steps/reporter.mjs")}`;
-  const args = ["--test", "--test-concurrency=2", "--test-timeout=240000", reporter];
+  const args = ["--test", "--test-concurrency=2", "--test-timeout=600000", reporter];
   const { ok, stdout, output } = await attempt(process.execPath, [...args, ...files(words)], {
     onLine,
   });
