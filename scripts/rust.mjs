@@ -22,19 +22,19 @@ const counts = {
 };
 
 /**
- * A cargo command that runs tests: `{ok, passed, failed, output}`. One that fails without a failed test (it did not compile,
+ * A cargo command that runs tests: `{passed, failed, output}`. One that fails without a failed test (it did not compile,
  * say) counts as one failure.
  */
 async function run(runner, args, options) {
   const { ok, output } = await attempt("cargo", args, options);
   const { passed, failed } = counts[runner](output);
-  return { ok, passed, failed: ok ? failed : Math.max(1, failed), output };
+  return { passed, failed: ok ? failed : Math.max(1, failed), output };
 }
 
-/** `python`: what they compare with. `words`: parts of names. `more`: for cargo, such as a profile. */
-export async function rustTests({ python, words = [], more = [], env = {}, onLine } = {}) {
-  const options = { env: { SHAPEVENN_PYTHON: python, ...env }, onLine };
-  const args = ["--locked", "--no-fail-fast", "-p", "shapevenn", ...more];
+/** `python`: what they compare with. `words`: parts of names. */
+export async function rustTests({ python, words = [], onLine } = {}) {
+  const options = { env: { SHAPEVENN_PYTHON: python }, onLine };
+  const args = ["--locked", "--no-fail-fast", "-p", "shapevenn"];
   if (!(await hasNextest())) {
     return run("cargo", ["test", "--lib", "--bins", "--tests", ...args, ...words], options);
   }

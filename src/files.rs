@@ -473,7 +473,7 @@ pub fn restore(
     report: &str,
     draws: &[u8],
 ) -> Result<(Comparison, Seconds), Error> {
-    // By way of a value, whose reader the settings need as well: one for all these types is a tenth of the engine less.
+    // By way of a value, whose reader the settings need as well: none is compiled twice.
     let report: Report = serde_json::from_str::<serde_json::Value>(report)
         .and_then(serde_json::from_value)
         .map_err(|fault| Error::StoredReport { reason: fault.to_string() })?;

@@ -65,18 +65,18 @@ function drawWithoutSmoothing() {
 
 /**
  * Serves dist/, opens an empty page, runs `test` with `{url, page, browser, errors}`, and puts
- * everything away. `smooth`: with smooth edges. `errors` collects what the page's console and uncaught exceptions say; unless
+ * everything away. `errors` collects what the page's console and uncaught exceptions say; unless
  * the test empties it, anything in it fails the test.
  */
 export async function withPage(
-  { isolated = true, viewport = { width: 1280, height: 800 }, smooth = false, ...context },
+  { isolated = true, viewport = { width: 1280, height: 800 }, ...context },
   test,
 ) {
   const browser = await launch();
   const server = await serve({ folder: join(root, "dist"), isolated, port: 0 });
   try {
     const page = await browser.newPage({ viewport, acceptDownloads: true, ...context });
-    if (!smooth) await page.addInitScript(drawWithoutSmoothing);
+    await page.addInitScript(drawWithoutSmoothing);
     const errors = [];
     page.on("pageerror", (error) => errors.push(String(error.stack ?? error)));
     page.on("console", (message) => {
