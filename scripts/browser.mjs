@@ -6,7 +6,8 @@ import { readdirSync } from "node:fs";
 import { join } from "node:path";
 import { build } from "./build.mjs";
 import { ensureBrowser } from "./setup.mjs";
-import { attempt, isMain, main, root } from "./steps/run.mjs";
+import { nodeTests } from "./steps/node-tests.mjs";
+import { isMain, main, root } from "./steps/run.mjs";
 
 const folder = join(root, "tests/browser");
 
@@ -18,14 +19,9 @@ function files(words) {
 }
 
 /** `{passed, failed, output}`; `onLine` gets a line for each test as it ends. */
-export async function browserTests({ words = [], onLine } = {}) {
-  const reporter = `--test-reporter=${join(root, "scripts/steps/reporter.mjs")}`;
-  const args = ["--test", "--test-concurrency=2", "--test-timeout=600000", reporter];
-  const { ok, stdout, output } = await attempt(process.execPath, [...args, ...files(words)], {
-    onLine,
-  });
-  const count = (word) => Number(new RegExp(`^# ${word} (\\d+)`, "m").exec(stdout)?.[1] ?? 0);
-  return { passed: count("pass"), failed: ok ? count("fail") : Math.max(1, count("fail")), output };
+export function browserTests({ words = [], onLine } = {}) {
+  const options = ["--test-concurrency=2", "--test-timeout=600000"];
+  return nodeTests(files(words), { options, onLine });
 }
 
 if (isMain(import.meta.url)) {

@@ -19,6 +19,7 @@ import {
   ensureWasm,
 } from "./setup.mjs";
 import { lintEngine } from "./steps/engine.mjs";
+import { nodeTests } from "./steps/node-tests.mjs";
 import { announce, attempt, explain, main, note, StepError } from "./steps/run.mjs";
 import { bundleUnitTests } from "./unit.mjs";
 
@@ -75,11 +76,7 @@ async function check(program, args, options) {
 const node = (...args) => check(process.execPath, args);
 
 async function unitTests() {
-  const args = ["--enable-source-maps", "--test", "--test-reporter=tap"];
-  const files = await bundleUnitTests();
-  const { ok, output } = await attempt(process.execPath, [...args, ...files]);
-  const count = (word) => Number(new RegExp(`^# ${word} (\\d+)`, "m").exec(output)?.[1] ?? 0);
-  return { passed: count("pass"), failed: ok ? count("fail") : Math.max(1, count("fail")), output };
+  return nodeTests(await bundleUnitTests(), { options: ["--enable-source-maps"] });
 }
 
 async function built(build) {

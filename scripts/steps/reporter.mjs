@@ -1,6 +1,6 @@
 /**
  * A reporter for node's test runner: a line for each test as it ends, with what it took; where a terminal looks on, also which
- * runs now. At the end the slowest twenty, every failure in full, and the counts that scripts/browser.mjs reads.
+ * runs now. At the end the slowest twenty, every failure in full, and the counts that node-tests.mjs reads.
  */
 import { basename } from "node:path";
 
