@@ -65,7 +65,7 @@ async function morph() {
 }
 
 async function morphInChromium(build, files) {
-  await withPage({ viewport: { width: 1440, height: 900 } }, async ({ url, page }) => {
+  await withPage({ fresh: true, viewport: { width: 1440, height: 900 } }, async ({ url, page }) => {
     // Whoever finds this list on the page notes in it how long things take.
     await page.addInitScript(() => {
       globalThis.timings = {};
@@ -115,7 +115,7 @@ async function openFiles() {
   await must(python, [join(root, "benches/opening_files.py"), folder], { hint });
   for (const build of ["threads", "serial"]) {
     for (const name of ["bfm-2019.h5", "flame.pkl"]) {
-      await withPage({}, async ({ url, page, browser }) => {
+      await withPage({ fresh: true }, async ({ url, page }) => {
         await page.goto(`${url}${build === "serial" ? "?serial" : ""}#v=1&sigma=${SIGMA}`);
         await untilState(page, "done");
         const card = page.getByRole("region", { name: "Model A" });
@@ -131,7 +131,7 @@ async function openFiles() {
         await card.getByRole("combobox", { name: `Part of ${name}` }).selectOption("expression");
         await card.getByText(/^100$/).waitFor({ timeout: 60_000 });
         show("to its expression part", "s", [(performance.now() - part) / 1000]);
-        const memory = await largestMemory(browser);
+        const memory = await largestMemory(page.context().browser());
         const { size } = statSync(join(folder, name));
         show("peak of resident memory of the page", "MB", [memory / 1e6]);
         show("beside the size of the file", "times", [memory / size]);
@@ -143,7 +143,7 @@ async function openFiles() {
 
 /** One comparison from the files to the report: large models are compared once. */
 async function sizeInChromium(build, name, folder) {
-  await withPage({}, async ({ url, page, browser }) => {
+  await withPage({ fresh: true }, async ({ url, page }) => {
     await page.goto(`${url}${build === "serial" ? "?serial" : ""}#v=1&sigma=${SIGMA}`);
     await untilState(page, "done");
     const before = await downloadReport(page);
@@ -162,7 +162,7 @@ async function sizeInChromium(build, name, folder) {
     console.log(`\nIn Chromium, ${build}, ${name}`);
     show("opening the files", "s", [seconds.load]);
     show("to the report, differences included", "s", [seconds.total - seconds.load]);
-    const memory = await largestMemory(browser);
+    const memory = await largestMemory(page.context().browser());
     if (memory) show("peak of resident memory of the page", "MB", [memory / 1e6]);
   });
 }
@@ -180,7 +180,7 @@ async function largestMemory(browser) {
 
 /** The kernel beside separate multiplies and adds in registers, one thread, as benches/kernel.rs does natively. */
 async function roofInChromium() {
-  await withPage({}, async ({ url, page }) => {
+  await withPage({ fresh: true }, async ({ url, page }) => {
     await page.goto(url);
     const rates = await page.evaluate(async (address) => {
       const engine = await import(address);
@@ -212,7 +212,7 @@ async function roofInChromium() {
 }
 
 async function inChromium(build, files) {
-  await withPage({}, async ({ url, page }) => {
+  await withPage({ fresh: true }, async ({ url, page }) => {
     const query = build === "serial" ? "?serial" : "";
     await page.goto(`${url}${query}#v=1&sigma=${SIGMA}`);
     await untilState(page, "done");

@@ -5,9 +5,9 @@
 import { readdirSync } from "node:fs";
 import { join } from "node:path";
 import { build } from "./build.mjs";
-import { ensureBrowser } from "./setup.mjs";
+import { ensureBrowser, ensureRust } from "./setup.mjs";
 import { nodeTests } from "./steps/node-tests.mjs";
-import { isMain, main, root } from "./steps/run.mjs";
+import { isMain, main, must, root } from "./steps/run.mjs";
 
 const folder = join(root, "tests/browser");
 
@@ -18,14 +18,23 @@ function files(words) {
     .map((name) => join(folder, name));
 }
 
+/** The command line of these sources, whose numbers the page must show. */
+async function buildCommand() {
+  const args = ["build", "--quiet", "--locked", "--bin", "shapevenn", "--message-format=json"];
+  const lines = (await must("cargo", args)).split("\n").filter((line) => line.startsWith("{"));
+  return lines.map((line) => JSON.parse(line).executable).find((path) => path);
+}
+
 /** `{passed, failed, output}`; `onLine` gets a line for each test as it ends. */
-export function browserTests({ words = [], onLine } = {}) {
+export async function browserTests({ words = [], onLine } = {}) {
   const options = ["--test-concurrency=2", "--test-timeout=600000"];
-  return nodeTests(files(words), { options, onLine });
+  const env = { SHAPEVENN_BIN: await buildCommand() };
+  return nodeTests(files(words), { options, env, onLine });
 }
 
 if (isMain(import.meta.url)) {
   await main(async () => {
+    await ensureRust();
     await build();
     await ensureBrowser();
     const words = process.argv.slice(2);

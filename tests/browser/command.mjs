@@ -1,29 +1,15 @@
 /** The command line, as the page's tests compare with it. */
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync, statSync } from "node:fs";
+import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { root } from "../../scripts/steps/run.mjs";
 
-const ending = process.platform === "win32" ? ".exe" : "";
-
-/** SHAPEVENN_BIN, or whichever build is the newest. */
+/** Set by scripts/browser.mjs, which builds it. */
 function command() {
-  const named = process.env.SHAPEVENN_BIN;
-  if (named) {
-    assert.ok(existsSync(named), `SHAPEVENN_BIN names ${named}, which does not exist.`);
-    return named;
-  }
-  const builds = ["debug", "release"]
-    .map((profile) => join(root, "target", profile, `shapevenn${ending}`))
-    .filter((path) => existsSync(path))
-    .sort((one, other) => statSync(other).mtimeMs - statSync(one).mtimeMs);
-  assert.ok(
-    builds[0],
-    "There is no command line to compare with: run cargo build, or set SHAPEVENN_BIN to it.",
-  );
-  return builds[0];
+  const path = process.env.SHAPEVENN_BIN;
+  assert.ok(path, "Run the browser tests by npm run test:browser, which builds the command line.");
+  return path;
 }
 
 /** What the command prints; it must end well. */

@@ -7,6 +7,7 @@ import {
   accessibilityFaults,
   downloadReport,
   dropFiles,
+  leave,
   shownMetrics,
   typeSetting,
   untilDrawn,
@@ -102,7 +103,7 @@ test("typed vertices are compared alone, drawn alone, in the link, and undone in
     await page.goBack();
     await undone();
 
-    await page.goto("about:blank");
+    await leave(page, url);
     await page.goto(link);
     await untilState(page, "done");
     assert.deepEqual((await downloadReport(page)).overlap, report.overlap);

@@ -172,7 +172,7 @@ test("a walk that is too short is not believed, and each plot says what to do", 
 });
 
 test("side and coefficient are in the link, and Back undoes the choice", async () => {
-  await withPage({}, async ({ url, page, browser }) => {
+  await withPage({}, async ({ url, page, another }) => {
     await openRoom(page, url, `${STARS}&side=a&coefficient=1`);
     const heading = (of) =>
       room(page).getByRole("heading", { name: `Trace of ${of}`, exact: true });
@@ -196,7 +196,7 @@ test("side and coefficient are in the link, and Back undoes the choice", async (
     await heading("mode 1 of A").waitFor();
     assert.equal(await chosen.inputValue(), "0");
 
-    const other = await browser.newPage();
+    const other = await another();
     await other.goto(link);
     await untilState(other, "done");
     await other

@@ -18,7 +18,7 @@ const stored = await readFile(join(root, "dist/first/report.json"), "utf8");
 const report = JSON.parse(stored);
 
 test("the first paint is the stored comparison of male and female heads, not a run", async (t) => {
-  await withPage({}, async ({ url, page }) => {
+  await withPage({ fresh: true }, async ({ url, page }) => {
     const states = await recordStates(page);
     const begun = performance.now();
     await page.goto(url);
@@ -39,7 +39,7 @@ test("the first paint is the stored comparison of male and female heads, not a r
 });
 
 test("it says which settings it was made with, and its report is the stored one", async () => {
-  await withPage({}, async ({ url, page }) => {
+  await withPage({ fresh: true }, async ({ url, page }) => {
     await page.goto(url);
     await untilState(page, "done");
     const run = page.getByRole("region", { name: "Run", exact: true });
@@ -54,7 +54,7 @@ test("it says which settings it was made with, and its report is the stored one"
 });
 
 test("the numbers stay readable where the engine cannot start", async () => {
-  await withPage({}, async ({ url, page, errors }) => {
+  await withPage({ fresh: true }, async ({ url, page, errors }) => {
     await page.route("**/engine/**", (route) => route.abort());
     await page.goto(url);
     const alert = page.getByRole("alert").filter({ hasText: "engine cannot be started" });
@@ -71,18 +71,21 @@ for (const [width, height] of [
 ]) {
   for (const colorScheme of ["light", "dark"]) {
     test(`at ${width} × ${height}, ${colorScheme}: all panes drawn, no sideways scrolling, accessible`, async () => {
-      await withPage({ viewport: { width, height }, colorScheme }, async ({ url, page }) => {
-        await page.goto(url);
-        await untilState(page, "done");
-        const theme = await page.evaluate(() => document.documentElement.dataset.theme);
-        assert.equal(theme, colorScheme);
-        await untilDrawn(page);
-        const beyond = await page.evaluate(
-          () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
-        );
-        assert.equal(beyond, 0, "the page scrolls sideways");
-        assert.deepEqual(await accessibilityFaults(page), []);
-      });
+      await withPage(
+        { fresh: true, viewport: { width, height }, colorScheme },
+        async ({ url, page }) => {
+          await page.goto(url);
+          await untilState(page, "done");
+          const theme = await page.evaluate(() => document.documentElement.dataset.theme);
+          assert.equal(theme, colorScheme);
+          await untilDrawn(page);
+          const beyond = await page.evaluate(
+            () => document.documentElement.scrollWidth - document.documentElement.clientWidth,
+          );
+          assert.equal(beyond, 0, "the page scrolls sideways");
+          assert.deepEqual(await accessibilityFaults(page), []);
+        },
+      );
     });
   }
 }

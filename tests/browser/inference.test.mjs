@@ -5,6 +5,7 @@ import {
   accessibilityFaults,
   assertShows,
   downloadReport,
+  leave,
   nextRun,
   shownMetrics,
   untilDrawn,
@@ -290,7 +291,7 @@ for (const [label, name] of [
 }
 
 test("exclusive modes and exaggeration are other pictures of the same run, and are in the link", async () => {
-  await withPage({}, async ({ url, page, browser }) => {
+  await withPage({}, async ({ url, page, another }) => {
     await openPage(page, url, HEADS);
     const report = await downloadReport(page);
     const seen = await untilDrawn(page);
@@ -312,7 +313,7 @@ test("exclusive modes and exaggeration are other pictures of the same run, and a
     assert.deepEqual(await downloadReport(page), report, "nothing ran");
     await page.waitForURL(/picture=exclusiveModes.*exaggerate=3/);
 
-    const other = await browser.newPage();
+    const other = await another();
     await other.goto(page.url());
     await untilState(other, "done");
     await other
@@ -330,7 +331,7 @@ test("a link of an older page runs what it says; one of a newer page falls back 
     assert.match(await page.locator(".settings-line").innerText(), /^σ 0\.200.*independence/);
     assert.equal(await page.locator('[data-code="link-setting"]').count(), 0);
     const before = await shownMetrics(page);
-    await page.goto("about:blank");
+    await leave(page, url);
     await openPage(page, url, `v=2&demo=stars-1&draws=800&sampler=telepathy`);
     await page.getByRole("alert").filter({ hasText: "sampler=telepathy" }).waitFor();
     assert.match(await page.locator(".settings-line").innerText(), /automatic sampler/);

@@ -1,7 +1,14 @@
 /** Lessons that sample: one step, the cloud, the difference and the race, driven as a student would. */
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { accessibilityFaults, metric, shownMetrics, untilState, withPage } from "./harness.mjs";
+import {
+  accessibilityFaults,
+  leave,
+  metric,
+  shownMetrics,
+  untilState,
+  withPage,
+} from "./harness.mjs";
 
 const LINKS = {
   step: "scene=step&chains=4&seed=7&steps=400",
@@ -16,7 +23,7 @@ const addressOf = (page) => page.evaluate(() => location.hash);
 
 /** Goes to a scene as somebody who follows a link does: nothing of before is there any more. */
 async function follow(page, url, link) {
-  await page.goto("about:blank");
+  await leave(page, url);
   await page.goto(`${url}${fragment(link)}`);
   await untilState(page, "done");
 }

@@ -5,6 +5,7 @@ import { shapevenn } from "./command.mjs";
 import {
   accessibilityFaults,
   dropFiles,
+  leave,
   shownMetrics,
   untilCompared,
   untilState,
@@ -24,7 +25,7 @@ const LINKS = {
 };
 
 async function open(page, url, link) {
-  await page.goto("about:blank");
+  await leave(page, url);
   await page.goto(`${url}#v=1&page=learn&${link}`);
   await page.locator(".scene").waitFor();
   await untilState(page, "done");
@@ -60,11 +61,11 @@ async function untilOther(page, before) {
   assert.fail("the picture stays as it was");
 }
 
-/** Whether the page ever looks the same half a second later: the first looks may be at its last letters. */
+/** Whether the page ever looks the same a quarter of a second later: the first looks may be at its last letters. */
 async function standsStill(page) {
   let before = await look(page);
-  for (let looks = 0; looks < 4; looks += 1) {
-    await page.waitForTimeout(500);
+  for (let looks = 0; looks < 3; looks += 1) {
+    await page.waitForTimeout(250);
     const now = await look(page);
     if (now === before) return true;
     before = now;
@@ -106,7 +107,7 @@ test("the point roams until it is stopped, and a link has where it was stopped",
     await untilState(page, "done");
     const shown = await shownMetrics(page);
     const stopped = page.url();
-    await page.goto("about:blank");
+    await leave(page, url);
     await page.goto(stopped);
     await untilState(page, "done");
     await page.waitForTimeout(300);

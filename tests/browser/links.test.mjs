@@ -21,13 +21,13 @@ async function linksOf(name) {
 const isLesson = (link) => /[#&]page=learn/.test(link);
 const isComparison = (link) => !/[#&]page=/.test(link) && !/[#&][ab]=https/.test(link);
 
+/** A lesson that plays by itself would be at another number with every look. */
+const STILL = { reducedMotion: "reduce" };
+
 /** Opens a link as somebody would who has never been here. */
-async function open(browser, url, link) {
-  // A lesson that plays by itself would be at another number with every look.
-  const page = await browser.newPage({ reducedMotion: "reduce" });
+async function open(page, url, link) {
   await page.goto(`${url}${link}`);
   await untilState(page, "done");
-  return page;
 }
 
 const documents = ["README.md", "docs/links.md"];
@@ -77,8 +77,8 @@ for (const [name, claims] of Object.entries(CLAIMS)) {
 
 for (const link of comparisons) {
   test(`the same report from ${link}`, async () => {
-    await withPage({}, async ({ url, browser }) => {
-      const page = await open(browser, url, link);
+    await withPage(STILL, async ({ url, page }) => {
+      await open(page, url, link);
       const report = await downloadReport(page);
       assert.deepEqual(timeless(report), timeless(compareByCommand("--link", link)));
     });
@@ -87,8 +87,8 @@ for (const link of comparisons) {
 
 for (const link of lessons) {
   test(`the same numbers from ${link}`, async () => {
-    await withPage({}, async ({ url, browser }) => {
-      const page = await open(browser, url, link);
+    await withPage(STILL, async ({ url, page }) => {
+      await open(page, url, link);
       const shown = await page
         .locator("[data-metric][data-value]")
         .evaluateAll((elements) => elements.map(({ dataset }) => [dataset.metric, dataset.value]));

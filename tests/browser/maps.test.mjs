@@ -133,7 +133,7 @@ test("the ratio has a scale that is centred at 0 and says which end is which", a
 });
 
 test("a locked scale stays for maps of one kind, is in the link, and goes with another kind", async () => {
-  await withPage({}, async ({ url, page, browser }) => {
+  await withPage({}, async ({ url, page, another }) => {
     await open(page, url, "demo=stars-1&view=sd&vertex=0");
     const high = await scale(page).getAttribute("data-high");
     await page.getByRole("checkbox", { name: "Lock scale" }).check();
@@ -141,7 +141,7 @@ test("a locked scale stays for maps of one kind, is in the link, and goes with a
     await page.getByRole("figure", { name: /along the normal.*\(locked\)/ }).waitFor();
     assert.equal(await scale(page).getAttribute("data-high"), high);
     await page.waitForURL(/scale=[^&,]+,[\d.]+(&|$)/);
-    const other = await browser.newPage();
+    const other = await another();
     await other.goto(page.url());
     await other.getByRole("figure", { name: /along the normal.*\(locked\)/ }).waitFor();
     const kept = Number(await scale(other).getAttribute("data-high"));

@@ -40,8 +40,8 @@ async function cancel(page) {
 }
 
 /** Seconds of processor time that the browser's processes take in one second. */
-async function processorLoad(browser, page) {
-  const session = await browser.newBrowserCDPSession();
+async function processorLoad(page) {
+  const session = await page.context().browser().newBrowserCDPSession();
   const spent = async () => {
     const { processInfo } = await session.send("SystemInfo.getProcessInfo");
     const pages = processInfo.filter(({ type }) => type === "renderer");
@@ -82,17 +82,17 @@ for (const { build, query, link } of [
   { build: "engine alone", query: "?serial", link: ENDLESS_STARS },
 ]) {
   test(`cancelling the ${build} keeps the draws, rests the processor, and lets the next run begin`, async (t) => {
-    await withPage({}, async ({ url, page, browser }) => {
+    await withPage({}, async ({ url, page }) => {
       await page.goto(`${url}${query}#${link}`);
       await untilDrawing(page);
-      const running = await processorLoad(browser, page);
+      const running = await processorLoad(page);
       t.diagnostic(`done ${await cancel(page)} ms after Cancel`);
       const report = await downloadReport(page);
       assert.ok(report.warnings.some(({ code }) => code === "cancelled"));
       assert.ok(report.intersection.diagnostics.draws > 0, "no draws were kept");
       assert.match(await panel(page).innerText(), /the draws so far are kept/);
       await untilDrawn(page, ["a", "intersection", "b"]);
-      const resting = await processorLoad(browser, page);
+      const resting = await processorLoad(page);
       t.diagnostic(`load ${running.toFixed(2)} running, ${resting.toFixed(2)} after Cancel`);
       assert.ok(resting < running / 2, `load ${resting} after Cancel, ${running} before`);
 
@@ -199,7 +199,7 @@ test("a value that is none is refused in words and changes nothing", async () =>
 });
 
 test("a link opened again gives the same numbers and the same view", async () => {
-  await withPage({}, async ({ url, page, browser }) => {
+  await withPage({}, async ({ url, page, another }) => {
     await page.goto(`${url}#v=1&demo=stars-2`);
     await untilState(page, "done");
     await typeSetting(page, "Seed", "11");
@@ -207,7 +207,7 @@ test("a link opened again gives the same numbers and the same view", async () =>
     await page.getByRole("radio", { name: "Samples" }).check({ force: true });
     await page.waitForURL(/seed=11&.*view=samples/);
     const [link, shown] = [page.url(), await shownMetrics(page)];
-    const other = await browser.newPage();
+    const other = await another();
     await other.goto(link);
     await untilState(other, "done");
     assert.deepEqual(await shownMetrics(other), shown);

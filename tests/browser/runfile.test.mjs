@@ -46,7 +46,7 @@ async function openFiles(page, url) {
 }
 
 test("a run file of examples brings models and settings back, and every number is the same", async () => {
-  await withPage({}, async ({ url, page, browser }) => {
+  await withPage({}, async ({ url, page, another }) => {
     await page.goto(`${url}#${STARS}`);
     await untilState(page, "done");
     const before = await downloadReport(page);
@@ -57,7 +57,7 @@ test("a run file of examples brings models and settings back, and every number i
     assert.equal(run.models.a.source, "demo:stars-2-a");
     assert.equal(run.models.a.fingerprint, before.models.a.fingerprint);
 
-    const other = await browser.newPage();
+    const other = await another();
     await other.goto(`${url}#v=1&demo=heads-sex`);
     await untilState(other, "done");
     await dropFiles(other, "body", [file]);

@@ -48,7 +48,7 @@ test("two models by address are compared, and the link says which content they h
     "/x/double.h5": await bytesOf("double.h5"),
     "/groups.h5": await bytesOf("bfm-groups.h5"),
   });
-  await withPage({}, async ({ url, page, browser }) => {
+  await withPage({}, async ({ url, page, another }) => {
     const [a, b] = [`${files.url}/x/double.h5?download=1`, `${files.url}/groups.h5`];
     await page.goto(`${url}#v=1&a=${a}&b=${b}&part-b=expression&${RUN}`);
     await untilCompared(page, { a: "double.h5", b: "groups.h5" });
@@ -60,11 +60,11 @@ test("two models by address are compared, and the link says which content they h
     await dialog.getByText("The link holds the models, every setting").waitFor();
 
     // The same content later: nothing to say. Another one: it is told, and stays open.
-    const later = await browser.newPage();
+    const later = await another();
     await later.goto(link);
     await untilCompared(later, { a: "double.h5", b: "groups.h5" });
     assert.equal(await notice(later, "other-content").count(), 0);
-    const changed = await browser.newPage();
+    const changed = await another();
     const other = "0123456789abcdef";
     await changed.goto(link.replace(/hash-a=\w+/, `hash-a=${other}`));
     await untilCompared(changed, { a: "double.h5", b: "groups.h5" });
@@ -239,7 +239,7 @@ test("a pointer of Git LFS on GitHub is followed, and what arrives is checked", 
 });
 
 test("a link of local files waits for the same files, and every number comes back", async () => {
-  await withPage({}, async ({ url, page, browser }) => {
+  await withPage({}, async ({ url, page, another }) => {
     await page.goto(`${url}#${PLANES}&seed=3&weighted=2048`);
     await untilState(page, "done");
     await dropFiles(page, "body", [fixture("double.h5"), fixture("bfm-groups.h5")]);
@@ -262,7 +262,7 @@ test("a link of local files waits for the same files, and every number comes bac
     await page.waitForTimeout(1300);
     assert.doesNotMatch(await fragment(page), /double|groups/, "the address bar has them no more");
 
-    const other = await browser.newPage();
+    const other = await another();
     await other.goto(link);
     const hash = before.models.a.fingerprint.slice(0, 4);
     await waiting(other)
@@ -291,7 +291,7 @@ test("a link of local files waits for the same files, and every number comes bac
     await other.reload();
     await waiting(other).getByText("“double.h5”").waitFor();
 
-    const third = await browser.newPage();
+    const third = await another();
     await third.goto(nameless);
     await waiting(third).getByText(`The link was made with a file (${hash}…)`).waitFor();
     await dropFiles(third, "body", [fixture("double.h5"), fixture("bfm-groups.h5")]);
@@ -301,7 +301,7 @@ test("a link of local files waits for the same files, and every number comes bac
 });
 
 test("one file and one example: the example is there, the file is waited for", async () => {
-  await withPage({}, async ({ url, page, browser }) => {
+  await withPage({}, async ({ url, page, another }) => {
     await page.goto(`${url}#v=1&demo=heads-sex&${RUN}`);
     await untilState(page, "done");
     const link = `${url}#v=1&a=demo:planes-a&name-b=mine.h5&hash-b=0123456789abcdef&${RUN}`;
@@ -312,7 +312,7 @@ test("one file and one example: the example is there, the file is waited for", a
     await waiting(page).getByRole("button", { name: "Forget it" }).click();
     assert.equal(await waiting(page).count(), 0);
 
-    const other = await browser.newPage();
+    const other = await another();
     await other.goto(link);
     await card(other, "A").getByRole("heading", { name: "planes-a" }).waitFor();
     await card(other, "B").getByRole("heading", { name: "mine.h5" }).waitFor();

@@ -43,7 +43,7 @@ for (const { host, isolated, threads } of [
   { host: "on a host without the headers it runs alone", isolated: false, threads: 0 },
 ]) {
   test(`the one engine, in shared memory: ${host}`, async () => {
-    await withPage({ isolated }, async ({ url, page }) => {
+    await withPage({ fresh: true, isolated }, async ({ url, page }) => {
       await page.goto(url);
       assert.equal(await page.evaluate(() => crossOriginIsolated), isolated);
       const { shared, version, error } = await loadEngine(page, url, threads);
@@ -55,7 +55,7 @@ for (const { host, isolated, threads } of [
 }
 
 test("every response of an isolated host carries the headers, worker scripts included", async () => {
-  await withPage({ isolated: true }, async ({ url }) => {
+  await withPage({ fresh: true, isolated: true }, async ({ url }) => {
     for (const path of ["", "engine/shapevenn.js", "engine/shapevenn_bg.wasm", "no-such"]) {
       const { headers } = await fetch(url + path);
       assert.equal(headers.get("cross-origin-opener-policy"), "same-origin", path);
@@ -66,7 +66,7 @@ test("every response of an isolated host carries the headers, worker scripts inc
 });
 
 test("the server gives away nothing outside its folder", async () => {
-  await withPage({}, async ({ url }) => {
+  await withPage({ fresh: true }, async ({ url }) => {
     for (const path of [
       "..%2fpackage.json",
       "%2e%2e/package.json",
@@ -95,7 +95,7 @@ const refusing = (most) => `{
 }`;
 
 test("a phone that refuses memory for the worst case gets a lower ceiling", async () => {
-  await withPage({ isolated: false }, async ({ url, page }) => {
+  await withPage({ fresh: true, isolated: false }, async ({ url, page }) => {
     await inWorker(page, refusing(16384));
     await page.goto(url + LINK);
     await untilState(page, "done");
@@ -104,7 +104,7 @@ test("a phone that refuses memory for the worst case gets a lower ceiling", asyn
 });
 
 test("a browser without such memory is told which ones have it", async () => {
-  await withPage({ isolated: false }, async ({ url, page, errors }) => {
+  await withPage({ fresh: true, isolated: false }, async ({ url, page, errors }) => {
     await inWorker(page, refusing(0));
     await page.goto(url);
     const notice = page.locator('.notice[data-code="engine-gone"]');
@@ -115,7 +115,7 @@ test("a browser without such memory is told which ones have it", async () => {
 });
 
 test("where threads do not come up, the engine runs alone", async () => {
-  await withPage({ isolated: true }, async ({ url, page }) => {
+  await withPage({ fresh: true, isolated: true }, async ({ url, page }) => {
     await inWorker(page, "delete globalThis.Worker");
     await page.goto(`${url}?threads=2${LINK}`);
     await untilState(page, "done");

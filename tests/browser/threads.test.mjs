@@ -4,7 +4,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { compareByCommand, temporaryFolder, timeless } from "./command.mjs";
-import { download, downloadReport, untilState, withPage } from "./harness.mjs";
+import { download, downloadReport, leave, untilState, withPage } from "./harness.mjs";
 
 const WAYS = [
   { name: "the engine alone", isolated: true, query: "?serial", build: "serial" },
@@ -53,7 +53,7 @@ for (const { name, isolated, query, build, threads } of WAYS) {
     const wanted = CASES.map((one) => byCommand(t, one));
     await withPage({ isolated, viewport: { width: 700, height: 500 } }, async ({ url, page }) => {
       for (const [i, one] of CASES.entries()) {
-        await page.goto("about:blank");
+        await leave(page, url);
         await page.goto(`${url}${query}#v=1&${one.link}`);
         await untilState(page, "done");
         const engine = page.locator("[data-build]");
