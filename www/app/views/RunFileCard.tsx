@@ -8,7 +8,7 @@ import {
   sameModels,
   useSettingsAnyway,
 } from "../runfile/run";
-import { outOfDate, run, SIDES, slots } from "../state";
+import { opening, outOfDate, run, SIDES, slots } from "../state";
 import { CloseIcon } from "./icons";
 import { showNotice } from "./Notices";
 
@@ -48,6 +48,8 @@ function label({ link }: ExpectedRun): string {
 
 function Awaited({ run }: { run: ExpectedRun }) {
   const empty = SIDES.every((side) => slots[side].value === null);
+  // While one is being opened, "these" would be others a moment later.
+  const complete = SIDES.every((side) => slots[side].value && opening[side].value === null);
   const sentences = [advice.value.a, advice.value.b].flatMap((sentence) => sentence ?? []);
   return (
     <section ref={showNotice} class="run-file" aria-label={label(run)} data-about="awaited">
@@ -64,12 +66,12 @@ function Awaited({ run }: { run: ExpectedRun }) {
           Once they are open it runs by itself{!empty && "; until then nothing changes"}.
         </p>
         <div class="card-row">
-          {!empty && (
+          {complete && (
             <button type="button" onClick={useSettingsAnyway}>
               Use its settings for these
             </button>
           )}
-          <button type="button" class={empty ? "" : "quiet"} onClick={forgetRunFile}>
+          <button type="button" class={complete ? "quiet" : ""} onClick={forgetRunFile}>
             Forget it
           </button>
         </div>
