@@ -10,10 +10,10 @@
 mod common;
 
 use nalgebra::DMatrix;
-use shapevenn::compare::{Intersection, Joint, Moments, Pair, Side, fit_rms, fit_variational_step};
-use shapevenn::comparison::{Sampler, Settings};
 use shapevenn::model::{Alignment, LinearModel};
+use shapevenn::pair::{Intersection, Joint, Moments, Pair, Side, fit_rms, fit_variational_step};
 use shapevenn::sampling::{Draws, Gaussian, Importance, summarise};
+use shapevenn::settings::{Sampler, Settings};
 
 /// Weighted draws of each side for the reference.
 const REFERENCE: usize = 200_704;

@@ -12,11 +12,11 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use nalgebra::{DMatrix, DVector};
-use shapevenn::compare::{
+use shapevenn::model::LinearModel;
+use shapevenn::pair::{
     Side, expected_distance, fit_laplace, fit_reweighted, fit_rms, fit_variational_step,
     fit_variational_step_every,
 };
-use shapevenn::model::LinearModel;
 use shapevenn::roofline::{Workload, peak};
 
 /// Seconds that one measurement takes. The best of its windows counts, since others use the machine.

@@ -11,11 +11,12 @@ mod common;
 
 use std::time::Instant;
 
-use shapevenn::compare::{Intersection, Pair};
-use shapevenn::comparison::{Comparison, Settings, Stage};
+use shapevenn::comparison::{Comparison, Stage};
 use shapevenn::model::{Alignment, LinearModel};
+use shapevenn::pair::{Intersection, Pair};
 use shapevenn::report::ModelReport;
 use shapevenn::sampling::{Stream, Target, fill_normal, stream};
+use shapevenn::settings::Settings;
 
 const POINTS: usize = 5764;
 const MODES: usize = 50;

@@ -16,12 +16,13 @@ use std::process::Command;
 use std::time::Instant;
 
 use nalgebra::{DMatrix, DVector};
-use shapevenn::comparison::{Comparison, Settings, Stage};
+use shapevenn::comparison::{Comparison, Stage};
 use shapevenn::files;
 use shapevenn::formats::{Array, Input, Options, write_arrays};
 use shapevenn::model::LinearModel;
 use shapevenn::report::ModelReport;
 use shapevenn::sampling::{Stream, fill_normal, stream};
+use shapevenn::settings::Settings;
 
 /// Name, points, modes of either model.
 const SIZES: [(&str, usize, [usize; 2]); 3] =

@@ -1,13 +1,13 @@
 //! Shapevenn: given two linear statistical shape models, which shapes can both make, and which
 //! can only one of them make?
 //!
-//! Data flows one way: bytes → [`formats`] → [`model`] → [`compare`] → [`sampling`] → [`measure`] →
+//! Data flows one way: bytes → [`formats`] → [`model`] → [`pair`] → [`sampling`] → [`measure`] →
 //! [`report`], driven by a [`comparison`]. The method is that of Weiherer, Klein & Egger,
 //! "Approximating Intersections and Differences Between Linear Statistical Shape Models Using
 //! Markov Chain Monte Carlo", WACV 2024.
 //!
 //! ```
-//! use shapevenn::comparison::{Comparison, Settings};
+//! use shapevenn::{comparison::Comparison, settings::Settings};
 //! use shapevenn::{demos, report::{ModelReport, Seconds}};
 //!
 //! let [a, b] = ["stars-1-a", "stars-1-b"].map(|name| demos::generated(name).expect("a demo"));
@@ -17,23 +17,26 @@
 //! run.run()?;
 //! let report = run.report(Seconds::default()).expect("it is done");
 //! assert!(report.intersection.diagnostics.converged);
-//! # Ok::<(), shapevenn::comparison::ComparisonError>(())
+//! # Ok::<(), shapevenn::error::ComparisonError>(())
 //! ```
 
-pub mod compare;
 pub mod comparison;
 pub mod demos;
+pub mod error;
 pub mod files;
 pub mod formats;
-mod lanes;
+pub mod inspect;
 pub mod lessons;
+pub mod linalg;
 pub mod measure;
 pub mod model;
-mod parallel;
+pub mod pair;
+pub mod relate;
 pub mod report;
 pub mod reproduce;
 pub mod roofline;
 pub mod sampling;
+pub mod settings;
 #[cfg(test)]
 mod testing;
 #[cfg(target_arch = "wasm32")]

@@ -22,7 +22,7 @@ pub struct Report {
     /// The two models.
     pub models: Models,
     /// Everything needed to run again.
-    pub settings: crate::comparison::Settings,
+    pub settings: crate::settings::Settings,
     /// The allowable shapes of both.
     pub intersection: IntersectionReport,
     /// The shapes of one that the other cannot make.
@@ -240,11 +240,11 @@ pub enum MomentSource {
 #[serde(rename_all = "camelCase")]
 pub struct InferenceReport {
     /// The sampler that ran.
-    pub sampler: crate::comparison::Sampler,
+    pub sampler: crate::settings::Sampler,
     /// Why, in a sentence.
     pub reason: String,
     /// The Gaussian fit that it builds on.
-    pub fit: crate::compare::FitMethod,
+    pub fit: crate::pair::FitMethod,
     /// What the moments are made of.
     pub moments: MomentSource,
 }
@@ -405,7 +405,7 @@ pub struct DifferenceReport {
     pub vertex_sd: Spread,
     /// What counts as a difference.
     #[serde(default)]
-    pub definition: crate::compare::DifferenceDefinition,
+    pub definition: crate::pair::DifferenceDefinition,
     /// σ of the soft difference, the threshold of the score of the others.
     #[serde(default)]
     pub threshold: Option<f64>,

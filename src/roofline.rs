@@ -3,14 +3,14 @@
 //! The engine never fuses a multiplication with an addition, because a fused one rounds differently and
 //! wasm's plain SIMD has none. Its roof is therefore the rate of separate single-precision multiplications
 //! and additions, which [`peak`] keeps going in registers, through the same vectors as
-//! [`crate::compare::DistanceKernel`]. Both run in the browser too.
+//! [`crate::pair::DistanceKernel`]. Both run in the browser too.
 
 use core::hint::black_box;
 
 use pulp::{Simd, WithSimd};
 
-use crate::compare::DistanceKernel;
-use crate::lanes::{self, Real};
+use crate::linalg::simd::{self, Real};
+use crate::pair::DistanceKernel;
 
 /// Chains of multiplications, and as many of additions: enough to hide their latency, and they fit
 /// 16 registers.
@@ -18,7 +18,7 @@ const CHAINS: usize = 6;
 
 /// Multiplies and adds in registers `rounds` times; floating-point operations done.
 pub fn peak(rounds: usize) -> f64 {
-    let (width, rest) = lanes::dispatch(Peak(rounds));
+    let (width, rest) = simd::dispatch(Peak(rounds));
     black_box(rest);
     (2 * CHAINS * width) as f64 * rounds as f64
 }

@@ -17,17 +17,17 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use wasm_bindgen::prelude::*;
 
-use crate::compare::{PairError, PointSelection};
-use crate::comparison::{
-    self, Comparison, ComparisonError, Region, RegionShapes, Settings, ShapeSource, Stage,
-};
+use crate::comparison::{self, Comparison, Region, RegionShapes, ShapeSource, Stage};
+use crate::error::ComparisonError;
 use crate::files::{self, Described, Download, Error, ShownShape};
 use crate::formats::{self, Options, Origin};
 use crate::lessons::Lesson;
+use crate::linalg::parallel;
 use crate::model::{Cells, LinearModel};
-use crate::parallel;
+use crate::pair::{PairError, PointSelection};
 use crate::report::{ModelReport, Seconds};
 use crate::roofline::{self, Workload};
+use crate::settings::Settings;
 
 /// Starts as many threads, each a worker of its own that shares this memory; resolves once they run. Needs
 /// a page that is cross-origin isolated; without it, and until this is called, the engine runs on one.

@@ -6,13 +6,13 @@ use crate::common::{
     standard_errors_from, warns,
 };
 use nalgebra::{DMatrix, DVector};
-use shapevenn::compare::{
-    Intersection, Side, fit_reweighted, fit_rms, fit_variational_step, without_distance,
-};
-use shapevenn::comparison::Settings;
 use shapevenn::demos::{self, STAR_ROWS, star_pair};
 use shapevenn::model::LinearModel;
+use shapevenn::pair::{
+    Intersection, Side, fit_reweighted, fit_rms, fit_variational_step, without_distance,
+};
 use shapevenn::sampling::{Chains, Gaussian, IndependenceChains, Schedule};
+use shapevenn::settings::Settings;
 
 /// The intersection posterior of models of one point, from its definition: there d = ‖r‖, and
 /// everything is quadratic. U₂⁺ by normal equations, which the engine does not use.

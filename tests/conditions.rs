@@ -6,11 +6,10 @@ use crate::common::{
     compared, face_like_pair, model, random_orthonormal, repetitions, report, warns,
 };
 use nalgebra::DVector;
-use shapevenn::comparison::{
-    Comparison, Plausibility, Pooling, Region, Sampler, Settings, ShapeSource,
-};
+use shapevenn::comparison::{Comparison, Region, ShapeSource};
 use shapevenn::model::LinearModel;
 use shapevenn::report::{MomentSource, Report};
+use shapevenn::settings::{Plausibility, Pooling, Sampler, Settings};
 
 const POINTS: usize = 60;
 const MODES: usize = 6;
@@ -69,7 +68,7 @@ fn the_recommended_tolerance_heeds_the_noise_and_takes_it_from_modes_that_are_cu
 
 #[test]
 fn the_predicted_distance_is_that_of_the_draws() {
-    // method.md 9: E d ≈ √(d(μ)² + q_eff σ²) within 2 %.
+    // docs/method.md, “Fits”: E d ≈ √(d(μ)² + q_eff σ²) within 2 %.
     let (a, b) = face_like_pair(400, 12);
     for sigma in [0.05, 0.3, 2.0] {
         let found =
@@ -124,7 +123,7 @@ fn modes_of_nearly_equal_variance_are_named() {
 
 #[test]
 fn the_predicted_error_of_the_grassmann_distance_is_that_of_repeated_runs() {
-    // Independent draws alone: Var(Dᵢⱼ) = λᵢλⱼ/N, which method.md 5.3 sums.
+    // Independent draws alone: Var(Dᵢⱼ) = λᵢλⱼ/N, which docs/method.md, “Splits of a basis”, sums.
     let repeats = repetitions(12);
     let basis = random_orthonormal(60, 3, 6);
     let m = model(3, DVector::zeros(60), &basis, &[4.0, 3.0, 1.0]);
@@ -248,11 +247,11 @@ fn chains_that_are_too_short_are_not_called_converged() {
 
 #[test]
 fn a_fit_that_misses_is_named_where_the_sampler_depends_on_it() {
-    // method.md 2.5: the rms fit at a small σ has Pareto k above 2.
+    // docs/method.md, “Fits”: the rms fit at a small σ has Pareto k above 2.
     let (a, b) = face_like_pair(200, 20);
     let settings = Settings {
         sampler: Sampler::Variational,
-        fit: shapevenn::comparison::FitChoice::Rms,
+        fit: shapevenn::settings::FitChoice::Rms,
         sigma: Some(0.003),
         ..few()
     };

@@ -5,10 +5,10 @@ use crate::common::{
     compared, face_like_pair, model, random_orthonormal, repetitions, report, warns,
 };
 use nalgebra::{DMatrix, DVector};
-use shapevenn::compare::{Criterion, Difference, DifferenceDefinition, Level, Pair, Side};
-use shapevenn::comparison::Settings;
 use shapevenn::model::{Alignment, LinearModel};
+use shapevenn::pair::{Criterion, Difference, DifferenceDefinition, Level, Pair, Side};
 use shapevenn::sampling::{Envelope, Rejection, Stream, fill_normal, stream};
+use shapevenn::settings::Settings;
 
 /// Two lines in a plane, one point: A along x through (0, h) with deviation s, B through the origin at
 /// the angle t. The residual of A is one number, r = h cos t − s a sin t, normal about h cos t.

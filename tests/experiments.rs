@@ -5,11 +5,13 @@
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
-use shapevenn::comparison::{Agreement, Comparison, Settings, inspect};
+use shapevenn::comparison::Comparison;
 use shapevenn::files::{self, Described};
 use shapevenn::formats::{Input, Options};
+use shapevenn::inspect::{Agreement, inspect};
 use shapevenn::model::{Kind, Unit};
 use shapevenn::report::Seconds;
+use shapevenn::settings::Settings;
 
 /// What `make_experiments.py` computed of one pair.
 #[derive(Debug, Deserialize)]

@@ -4,12 +4,13 @@
 
 use crate::common::{compared, model, random_orthonormal, report};
 use nalgebra::{DMatrix, DVector};
-use shapevenn::comparison::{
-    AxesKind, Comparison, ComparisonError, MapName, Region, Sampler, Settings, Space, Stage, relate,
-};
+use shapevenn::comparison::{AxesKind, Comparison, MapName, Region, Space, Stage};
 use shapevenn::demos;
+use shapevenn::error::ComparisonError;
 use shapevenn::model::{Cells, Kind, LinearModel};
+use shapevenn::relate::relate;
 use shapevenn::report::ModelReport;
+use shapevenn::settings::{Sampler, Settings};
 
 const POINTS: usize = 24;
 

@@ -5,13 +5,13 @@ use crate::common::{
     compared, draws_of, face_like_pair, log_posterior, model, random_orthonormal, report,
 };
 use nalgebra::{DMatrix, DVector};
-use shapevenn::compare::{
+use shapevenn::model::LinearModel;
+use shapevenn::pair::{
     Intersection, Side, effective_dimensions, expected_distance, fit_laplace, fit_rms,
     fit_variational_step, fit_variational_step_every, without_distance,
 };
-use shapevenn::comparison::Settings;
-use shapevenn::model::LinearModel;
 use shapevenn::sampling::{Chains, Gaussian, IndependenceChains, Schedule};
+use shapevenn::settings::Settings;
 
 const SIGMAS: [f64; 5] = [0.01, 0.03, 0.1, 0.3, 1.0];
 

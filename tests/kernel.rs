@@ -5,8 +5,8 @@
 use crate::common::{draws_of, face_like_pair, log_posterior, random_orthonormal};
 use nalgebra::DVector;
 use proptest::prelude::*;
-use shapevenn::compare::{DistanceKernel, Intersection, Side, fit_rms, fit_variational_step};
 use shapevenn::model::LinearModel;
+use shapevenn::pair::{DistanceKernel, Intersection, Side, fit_rms, fit_variational_step};
 use shapevenn::sampling::{Stream, Target, fill_normal, stream};
 
 /// A kernel with its inputs.

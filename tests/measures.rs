@@ -4,14 +4,14 @@
 use crate::common::{compared, face_like_pair, model, random_orthonormal, report};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
-use shapevenn::compare::{Moments, Pair};
-use shapevenn::comparison::{Sampler, Settings};
 use shapevenn::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, bhattacharyya_distance, principal_angles,
     vertex_standard_deviations,
 };
 use shapevenn::model::{Alignment, LinearModel, principal_components};
+use shapevenn::pair::{Moments, Pair};
 use shapevenn::sampling::{pareto_k, summarise};
+use shapevenn::settings::{Sampler, Settings};
 
 #[test]
 fn principal_components_equal_numpys() {

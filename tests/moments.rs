@@ -5,12 +5,12 @@ use crate::common::{
     compared, identity_expression_like_pair, repetitions, report, standard_errors_from,
 };
 use nalgebra::{DMatrix, DVector};
-use shapevenn::compare::{Intersection, Pair, Side, fit_rms, fit_variational_step};
-use shapevenn::comparison::{Sampler, Settings};
 use shapevenn::demos::{STAR_ROWS, star_pair};
 use shapevenn::model::{Alignment, LinearModel};
+use shapevenn::pair::{Intersection, Pair, Side, fit_rms, fit_variational_step};
 use shapevenn::report::MomentSource;
 use shapevenn::sampling::{Gaussian, Importance, ImportanceEstimate};
+use shapevenn::settings::{Sampler, Settings};
 
 const POINTS: usize = 120;
 const MODES: usize = 12;

@@ -4,12 +4,14 @@
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use serde_json::{Value, json};
-use shapevenn::compare::{
+use shapevenn::comparison::Comparison;
+use shapevenn::inspect::{Agreement, guessed_unit, inspect};
+use shapevenn::model::{Alignment, Cells, Kind, LinearModel, Unit};
+use shapevenn::pair::{
     Pair, PairError, PointSelection, Preparation, SelectionError, SidePreparation,
 };
-use shapevenn::comparison::{Agreement, Comparison, Settings, guessed_unit, inspect};
-use shapevenn::model::{Alignment, Cells, Kind, LinearModel, Unit};
 use shapevenn::report::{ModelReport, Seconds};
+use shapevenn::settings::Settings;
 
 /// A closed strip of triangles round a wobbly tube, `size` across, with `modes` smooth modes.
 fn tube(rings: u32, size: f64, modes: usize, seed: f64) -> LinearModel {

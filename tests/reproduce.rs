@@ -75,7 +75,7 @@ fn rows_have_the_fields_that_are_promised() {
 #[test]
 fn the_stars_reach_their_floor_at_both_tolerances() {
     let found = stars();
-    // method.md 4.2: 0.0052 at σ = 0.003, the error of σ itself; 1e-4 at a tenth.
+    // docs/method.md, “Stars”: 0.0052 at σ = 0.003, the error of σ itself; 1e-4 at a tenth.
     assert!(found.main.mean.closed_form <= 0.006, "{:?}", found.main.mean);
     assert!(found.at_small_sigma.mean.closed_form <= 0.001, "{:?}", found.at_small_sigma.mean);
     // The default's correction of the fit is within its own error: the posterior is Gaussian.
@@ -110,7 +110,7 @@ fn the_geometry_of_the_stars_gives_the_printed_figures_but_for_two_misprints() {
 
 #[test]
 fn exact_differences_of_the_stars_lie_where_they_must() {
-    // method.md 4.2: exact d_R(D̂₁₂), from 200,000 draws. One repeat has 2,000: sd ≤ 0.27, five
+    // docs/method.md, “Stars”: exact d_R(D̂₁₂), from 200,000 draws. One repeat has 2,000: sd ≤ 0.27, five
     // standard errors are 0.03 at the most.
     let expected = [0.2185, 0.1069, 0.2081, 0.1030, 0.3031, 0.3978];
     for (row, expected) in stars().main.rows.iter().zip(expected) {
@@ -149,7 +149,7 @@ fn too_large_a_sigma_is_seen_and_the_mean_distance_of_heads_is_predicted() {
         let row = found.main.rows.iter().find(|row| row.sigma == sigma).unwrap();
         row.closed_form.distances.mean
     };
-    // method.md 9: the noise plane overtakes the second shared mode between 0.003 and 0.01.
+    // docs/method.md, “Stars”: the noise plane overtakes the second shared mode between 0.003 and 0.01.
     assert!(closed(0.0003) < 0.001 && closed(0.003) < 0.006, "small enough");
     assert!(closed(0.01) > 0.5 && closed(0.3) > 1.5, "too large");
     for row in &found.heads {

@@ -4,12 +4,12 @@
 use crate::common::{compared, face_like_pair, model, random_orthonormal, report, warns};
 use nalgebra::DVector;
 use serde_json::json;
-use shapevenn::comparison::{
-    Comparison, ComparisonError, Region, Sampler, Settings, ShapeSource, Stage,
-};
+use shapevenn::comparison::{Comparison, Region, ShapeSource, Stage};
 use shapevenn::demos;
+use shapevenn::error::ComparisonError;
 use shapevenn::model::{Alignment, Kind, LinearModel};
 use shapevenn::report::{ModelReport, Report, Seconds};
+use shapevenn::settings::{Sampler, Settings};
 
 fn started(
     a: &LinearModel,

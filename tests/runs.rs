@@ -6,12 +6,14 @@ use std::process::Command;
 
 use crate::common::{along, compared, face_like_pair, report};
 use nalgebra::DMatrix;
-use shapevenn::comparison::{Comparison, ComparisonError, Sampler, Settings, Stage};
+use shapevenn::comparison::{Comparison, Stage};
+use shapevenn::error::ComparisonError;
 use shapevenn::files::{self, Download};
 use shapevenn::formats::{self, Array, Data, Input, Options};
 use shapevenn::model::LinearModel;
 use shapevenn::report::{ModelReport, Seconds};
 use shapevenn::sampling::{autocorrelation, rank_histograms, split_r_hat};
+use shapevenn::settings::{Sampler, Settings};
 
 fn finished(settings: Settings) -> Comparison {
     let (a, b) = face_like_pair(40, 4);

@@ -3,7 +3,7 @@
 
 use crate::common::{along, face_like_pair, mean_and_error, model};
 use nalgebra::{DMatrix, DVector};
-use shapevenn::compare::{Intersection, Side, fit_rms, fit_variational_step, without_distance};
+use shapevenn::pair::{Intersection, Side, fit_rms, fit_variational_step, without_distance};
 use shapevenn::sampling::{
     Chains, Draws, Gaussian, IndependenceChains, Schedule, Stream, Target, WhitenedChains,
     fill_normal, pareto_k, stream, summarise, uniform,

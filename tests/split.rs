@@ -8,9 +8,10 @@
 
 use crate::common::{compared, grassmann, random_orthonormal};
 use nalgebra::{DMatrix, DVector};
-use shapevenn::compare::{Joint, Moments, Pair, fit_rms, fit_variational_step};
-use shapevenn::comparison::{Comparison, Sampler, Settings};
+use shapevenn::comparison::Comparison;
 use shapevenn::model::{Alignment, LinearModel};
+use shapevenn::pair::{Joint, Moments, Pair, fit_rms, fit_variational_step};
+use shapevenn::settings::{Sampler, Settings};
 
 const POINTS: usize = 400;
 const SHARED: usize = 3;

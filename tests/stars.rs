@@ -1,14 +1,14 @@
 //! The paper's stars: recovered as well as the method allows, and better than the paper's sampler does.
 
 use crate::common::{compared, grassmann, report};
-use shapevenn::comparison::{Sampler, Settings};
 use shapevenn::demos::{STAR_ROWS, star_intersection, star_pair};
+use shapevenn::settings::{Sampler, Settings};
 
 #[test]
 fn the_first_star_pair_is_recovered() {
     let (a, b) = star_pair(STAR_ROWS[0]);
     let known = star_intersection(STAR_ROWS[0]);
-    // method.md 4.2: 5,000 exact draws give d_G = 0.0121 ± 0.0051 (sd over runs); the paper 0.0260.
+    // docs/method.md, “Stars”: 5,000 exact draws give d_G = 0.0121 ± 0.0051 (sd over runs); the paper 0.0260.
     let distances: Vec<f64> = (1..=5)
         .map(|seed| {
             let settings =
@@ -43,7 +43,7 @@ fn the_papers_walk_has_not_converged_at_its_own_budget() {
         ..Settings::of(Sampler::PaperCorrected)
     };
     let found = report(&compared(&a, &b, settings)).intersection.diagnostics;
-    // method.md 4.2: R-hat 1.8 to 4.5, 17 to 25 effective draws.
+    // docs/method.md, “Stars”: R-hat 1.8 to 4.5, 17 to 25 effective draws.
     assert!(found.r_hat_max.unwrap() > 1.1, "{found:?}");
     assert!(!found.converged, "{found:?}");
 }

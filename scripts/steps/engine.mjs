@@ -26,7 +26,7 @@ const everywhere = [
 ].join(" ");
 
 /**
- * What our crate is compiled with besides. The kernels are vectors and inlined by hand (src/lanes.rs), so what the compiler
+ * What our crate is compiled with besides. The kernels are vectors and inlined by hand (src/linalg/simd.rs), so what the compiler
  * does on its own account to loops and calls makes the rest larger, a fifth all told, and hardly faster. In one unit no
  * inlined function is there twice.
  */

@@ -15,9 +15,9 @@
 use nalgebra::DMatrix;
 
 use super::inference::Estimate;
-use crate::compare::{Joint, Moments};
-use crate::model::product;
-use crate::parallel;
+use crate::linalg::parallel;
+use crate::linalg::product;
+use crate::pair::{Joint, Moments};
 use crate::report::Accuracy;
 
 /// Modes whose errors are looked at.

@@ -4,12 +4,12 @@
 //! weights, (Σw)²/(N Σw²). Only where that is low are the reweighted, Laplace and rms fits tried as well. A
 //! fit that is asked for by name is taken as it is.
 
-use super::settings::{FitChoice, Settings};
-use crate::compare::{
+use crate::pair::{
     Fit, FitMethod, Intersection, Side, fit_laplace, fit_reweighted, fit_rms,
     fit_variational_step_every,
 };
 use crate::sampling::{Gaussian, Stream, Target, fill_normal, importance_ess, stream};
+use crate::settings::{FitChoice, Settings};
 
 const MOST_ITERATIONS: usize = 12;
 /// Whitened length of a step at which the variational fit is at rest.

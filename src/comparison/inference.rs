@@ -6,13 +6,13 @@
 //! Hamiltonian Monte Carlo, which does not freeze where the fit misses a tail.
 
 use super::fitting::Fitting;
-use super::settings::{Sampler, Settings};
-use crate::compare::{Fit, Intersection, Moments, Side, without_distance};
+use crate::pair::{Fit, Intersection, Moments, Side, without_distance};
 use crate::report::{InferenceReport, MomentSource};
 use crate::sampling::{
     Chains, Draws, EndedChains, FitChains, Gaussian, Importance, ImportanceEstimate,
     ImportanceMoments, IndependenceChains, RandomWalkChains, Scaling, Schedule, WhitenedChains,
 };
+use crate::settings::{Sampler, Settings};
 
 /// Pareto k of the weights from which means over them are not to be trusted.
 pub(super) const LARGEST_PARETO_K: f64 = 0.7;

@@ -9,45 +9,33 @@
 //! intersection → rejection for the differences → measures.
 
 mod accuracy;
-mod diagnosing;
-mod error;
-mod exploring;
 mod fitting;
 mod inference;
-mod inspection;
-mod maps;
-mod preview;
-mod regions;
-mod relation;
+mod looks;
 mod results;
-mod settings;
 mod summary;
 mod warnings;
 
-pub use diagnosing::{ChainFigures, Marginal, PairFigures};
-pub use error::ComparisonError;
-pub use exploring::{Axes, AxesKind, Explored, Nearest, Space};
+use crate::error::ComparisonError;
+use crate::settings::Settings;
 pub(crate) use fitting::settled_fit;
 pub(crate) use inference::MOST_LEAPS;
-pub use inspection::{
-    Agreement, Inspection, MeanDistance, Problem, Remedy, UnitFound, guessed_unit, inspect,
-};
-pub use maps::{Ellipsoid, MapName, VertexMap};
-pub use preview::{Prediction, SweepPoint};
-pub use regions::{Picture, Region, RegionShapes, ShapeSource};
-pub use relation::{Relation, relate};
+pub use looks::diagnostics_plots::{ChainFigures, Marginal, PairFigures};
+pub use looks::exploring::{Axes, AxesKind, Explored, Nearest, Space};
+pub use looks::maps::{Ellipsoid, MapName, VertexMap};
+pub use looks::preview::{Prediction, SweepPoint};
+pub use looks::regions::{Picture, Region, RegionShapes, ShapeSource};
 pub use results::{Results, StoredArray};
-pub use settings::{FitChoice, Plausibility, Pooling, Sampler, Settings, SettingsError};
 
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::compare::{
+use crate::model::LinearModel;
+use crate::pair::{
     Criterion, Difference, DifferenceDefinition, Joint, JointModel, Level, Meeting, Moments, Pair,
     Side, Tolerance, nearest_meeting, plausible_radius, recommended_tolerance,
 };
-use crate::model::LinearModel;
 use crate::report::{Diagnostics, DifferenceReport, ModeDiagnostics, ModelReport, Report, Seconds};
 use crate::sampling::{Draws, Gaussian, Rejection};
 use inference::Inference;

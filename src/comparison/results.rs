@@ -4,21 +4,24 @@ use nalgebra::{DMatrix, DVector};
 
 use super::accuracy::accuracy;
 use super::inference::Estimate;
-use super::relation::overlap;
-use super::{Comparison, ComparisonError, Finished, Pooling, Stage, summary};
-use crate::compare::{Joint, JointModel, Moments};
+use super::{Comparison, Finished, Stage, summary};
+use crate::error::ComparisonError;
+use crate::linalg::product;
 use crate::measure::{
     AffineSpace, Displacement, ExclusiveModes, affine_grassmann_distance, compactness,
     exclusive_modes, linear_split, mean_vertex_distance, scaled_modes, unexplained_share,
     vertex_standard_deviations,
 };
-use crate::model::{LinearModel, product};
+use crate::model::LinearModel;
+use crate::pair::{Joint, JointModel, Moments};
+use crate::relate::{affine_space, overlap};
 use crate::report::{
     BothSides, Compactness, DifferenceReport, Differences, Disagreement, EnvelopeName,
     ExclusiveReport, Grassmann, InferenceReport, IntersectionReport, LinearSplitReport, MeanSd,
     Models, Report, SCHEMA, Seconds, Sides, Spread, ToleranceReport,
 };
 use crate::sampling::{Draws, Envelope};
+use crate::settings::Pooling;
 
 /// All draws of a run, as coefficients: index 0 belongs to model A, 1 to model B.
 #[derive(Debug, Clone, PartialEq)]
@@ -431,17 +434,4 @@ pub(super) fn grassmann(joint: &Joint, intersection: &JointModel) -> [Grassmann;
             [0, 1, 2].map(|k| affine_grassmann_distance(&both, &others[k], displacement));
         Grassmann { to_a, to_b, to_union }
     })
-}
-
-/// mean + span(basis) in coordinates that hold all of the spaces: the joint basis, and the direction in which
-/// A's mean leaves it. `away` is A's mean, inside and outside of the joint basis.
-pub(super) fn affine_space(
-    (inside, outside): &(DVector<f64>, f64),
-    mean: &DVector<f64>,
-    basis: DMatrix<f64>,
-) -> AffineSpace {
-    AffineSpace {
-        point: (mean + inside).insert_row(inside.len(), *outside),
-        basis: basis.insert_row(inside.len(), 0.0),
-    }
 }

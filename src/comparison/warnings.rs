@@ -1,10 +1,12 @@
 //! What the reader of a report should know before believing its numbers.
 
+use super::Comparison;
 use super::inference::LARGEST_PARETO_K;
-use super::{Comparison, Plausibility, Sampler};
+use crate::inspect::canonical;
 use crate::measure::mean_vertex_distance;
 use crate::model::{Alignment, Cells, procrustes};
 use crate::report::{Report, Warning};
+use crate::settings::{Plausibility, Sampler};
 
 /// Share of a model's shapes above which its difference is called nearly everything.
 const NEARLY_ALL: f64 = 0.99;
@@ -317,18 +319,4 @@ fn rounded(value: f64) -> String {
     #[allow(clippy::cast_sign_loss, clippy::cast_possible_truncation, reason = "clamped above")]
     let digits = digits as usize;
     format!("{value:.digits$}")
-}
-
-/// Triangles without regard to their order, first corner or winding.
-pub(super) fn canonical(triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {
-    let mut sorted: Vec<[u32; 3]> = triangles
-        .iter()
-        .map(|triangle| {
-            let mut corners = *triangle;
-            corners.sort_unstable();
-            corners
-        })
-        .collect();
-    sorted.sort_unstable();
-    sorted
 }

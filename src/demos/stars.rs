@@ -110,7 +110,7 @@ mod tests {
 
     #[test]
     fn the_papers_baselines_are_reproduced() {
-        // method.md 4.1: d_G(Q₁, I), d_G(Q₂, I) of table 1, here to four decimals; d_G(Q₁, Q₂) = 2.1211.
+        // docs/method.md, “Stars”: d_G(Q₁, I), d_G(Q₂, I) of table 1, here to four decimals; d_G(Q₁, Q₂) = 2.1211.
         let expected = [
             (1.5634, 1.5583),
             (1.5583, 1.5583),

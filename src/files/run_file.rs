@@ -15,9 +15,10 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::{Error, json};
-use crate::comparison::{Comparison, Settings};
+use crate::comparison::Comparison;
+use crate::files::{Error, json};
 use crate::report::{BothSides, ModelReport, SCHEMA};
+use crate::settings::Settings;
 
 /// Version of the layout.
 const LAYOUT: u32 = 1;

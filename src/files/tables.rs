@@ -1,11 +1,11 @@
 //! Tables with a line for each mode. `report.csv` has the same numbers one by one, under their paths.
 
-use super::formats;
 use crate::comparison::Comparison;
+use crate::files::formats;
 use crate::report::{ModeDiagnostics, Report};
 
 /// Posterior mean, standard deviation and diagnostics of each coefficient of either side.
-pub(super) fn coefficients(comparison: &Comparison, report: &Report) -> Vec<u8> {
+pub(crate) fn coefficients(comparison: &Comparison, report: &Report) -> Vec<u8> {
     let none = ModeDiagnostics::default();
     let known = report.intersection.coefficients.as_ref();
     let diagnostics = [known.map_or(&none, |both| &both.a), known.map_or(&none, |both| &both.b)];
@@ -34,7 +34,7 @@ pub(super) fn coefficients(comparison: &Comparison, report: &Report) -> Vec<u8> 
 
 /// Standard deviations and shares of variance of A, B and A∩B, how far those of A∩B may be off, principal
 /// angles and exclusive modes.
-pub(super) fn modes(report: &Report) -> Vec<u8> {
+pub(crate) fn modes(report: &Report) -> Vec<u8> {
     let both = &report.intersection;
     let deviations = [
         ("A", &report.models.a.standard_deviations),

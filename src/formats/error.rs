@@ -605,3 +605,8 @@ pub(super) fn shape_text<T: fmt::Display>(shape: &[T]) -> String {
     }
     shape.iter().map(T::to_string).collect::<Vec<_>>().join(" × ")
 }
+
+/// The fault of an array that holds something else.
+pub(crate) fn not_numbers(name: &str, found: &str) -> Fault {
+    Fault::NotNumbers { what: name.to_owned(), found: found.to_owned() }
+}

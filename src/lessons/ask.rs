@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::LessonError;
-use crate::comparison::Plausibility;
+use crate::settings::Plausibility;
 
 /// Chains of a lane at the most.
 pub const MOST_CHAINS: usize = 64;

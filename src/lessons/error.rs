@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-use crate::compare::PairError;
+use crate::pair::PairError;
 
 /// Why a lesson cannot answer.
 #[derive(Debug, Clone, PartialEq)]

@@ -15,8 +15,8 @@ use super::ask::{
 use super::models::{Opened, standard};
 use super::single;
 use super::target::LaneTarget;
-use crate::compare::{Moments, formed};
 use crate::comparison::MOST_LEAPS;
+use crate::pair::{Moments, formed};
 use crate::sampling::{
     Chains, Draws, Envelope, Gaussian, IndependenceChains, RandomWalkChains, Rejection, Scaling,
     Schedule, WhitenedChains,

@@ -9,16 +9,17 @@ use super::LessonError;
 use super::answer::{Law, LessonModel, LessonModels};
 use super::ask::{LessonSide, LessonTarget, Opening, number};
 use super::target::LaneTarget;
-use crate::compare::{
-    Criterion, Difference, DifferenceDefinition, Intersection, Joint, Level, Moments, Pair, Side,
-    expected_distance, recommended_tolerance, without_distance,
-};
-use crate::comparison::{Plausibility, Settings, settled_fit};
+use crate::comparison::settled_fit;
 use crate::demos::{self, PlanesAt, STAR_ROWS, planes_at, star_intersection};
 use crate::measure::{paper_distance, principal_angles};
 use crate::model::{Alignment, Cells, LinearModel, Similarity};
+use crate::pair::{
+    Criterion, Difference, DifferenceDefinition, Intersection, Joint, Level, Moments, Pair, Side,
+    expected_distance, recommended_tolerance, without_distance,
+};
 use crate::report::BothSides;
 use crate::sampling::{Envelope, Gaussian};
+use crate::settings::{Plausibility, Settings};
 
 /// σ of the paper for the stars, and one at which the planes' intersection has a width to look at.
 const SIGMA_OF_STARS: f64 = 0.003;

@@ -6,8 +6,8 @@ use super::LessonError;
 use super::answer::{LessonField, LessonPoint};
 use super::ask::{FieldName, LessonSide, MOST_ROWS, number, padded, within};
 use super::models::Opened;
-use crate::compare::{distance_likelihood, formed, nearest_coefficients};
 use crate::measure::chi_square_above;
+use crate::pair::{distance_likelihood, formed, nearest_coefficients};
 use crate::sampling::Target;
 
 impl Opened {

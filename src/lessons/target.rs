@@ -1,6 +1,6 @@
 //! What the chains of a lane draw from.
 
-use crate::compare::{Difference, Intersection, Side};
+use crate::pair::{Difference, Intersection, Side};
 use crate::sampling::{Evaluation, RejectionTarget, Target};
 
 /// A target of a lane, in double precision: the models are small, and every number may be looked at.

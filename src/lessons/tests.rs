@@ -3,10 +3,11 @@
 use serde_json::{Value, json};
 
 use super::*;
-use crate::comparison::{Comparison, Settings};
+use crate::comparison::Comparison;
 use crate::demos;
 use crate::report::ModelReport;
 use crate::sampling::summarise;
+use crate::settings::Settings;
 
 /// Everything goes by JSON, as from the page.
 fn asked(lesson: &mut Lesson, ask: Value) -> Result<LessonAnswer, LessonError> {
@@ -222,7 +223,7 @@ fn watched_steps_obey_the_rule_and_the_densities() {
 
 #[test]
 fn on_fifty_dimensions_the_published_walk_shrinks_and_the_corrected_does_not() {
-    // method.md 2.7: 0.532 ± 0.002.
+    // docs/method.md, “The scaling move”: 0.532 ± 0.002.
     for (sampler, expected, known_to) in [("paper", 0.532, 0.01), ("paper-corrected", 1.0, 0.0)] {
         let mut lesson = Lesson::new();
         answered(

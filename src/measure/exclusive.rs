@@ -1,6 +1,6 @@
 //! Exclusive modes: in which directions one model leaves the space of the other, in closed form.
 //!
-//! With R the residual operator of a side (d·n × q, see [`crate::compare::Side`]) and v a unit direction
+//! With R the residual operator of a side (d·n × q, see [`crate::pair::Side`]) and v a unit direction
 //! of its coefficients, a step of one prior standard deviation along v leaves a residual of root mean
 //! square ‖R v‖/√n over the points. The eigenvectors of RᵀR/n order these directions: of all, the first
 //! leaves the largest residual. The relative modes solve RᵀR v = ρ U₁ᵀU₁ v instead, ρ being the share of
@@ -14,7 +14,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::model::thin_svd;
+use crate::linalg::thin_svd;
 
 /// Directions with what each leaves outside the other model, largest first.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,9 +61,9 @@ pub fn unexplained_share(gram: &DMatrix<f64>, standard_deviations: &DVector<f64>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compare::Pair;
     use crate::measure::principal_angles;
     use crate::model::{Alignment, LinearModel};
+    use crate::pair::Pair;
     use crate::sampling::{Stream, fill_normal, stream};
 
     fn model(seed: u64, points: usize, modes: usize) -> LinearModel {

@@ -14,11 +14,11 @@
 use nalgebra::DMatrix;
 
 use super::vertices::mean_length;
+use crate::linalg::parallel;
 use crate::model::{
     Alignment, LinearModel, ModelError, generalised_procrustes, into_principal_components,
     procrustes,
 };
-use crate::parallel;
 
 /// Shapes that are taken through the modes together.
 const TOGETHER: usize = 8;

@@ -18,7 +18,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::model::{LinearModel, cross, product, singular_values};
+use crate::linalg::product;
+use crate::linalg::{cross, singular_values};
+use crate::model::LinearModel;
 
 /// Principal angles between the column spaces of two orthonormal bases (rows alike), smallest first, in
 /// radians; as many as the smaller has columns.
@@ -155,7 +157,7 @@ mod tests {
 
     #[test]
     fn parallel_planes_have_lims_distance_and_are_alike_to_the_paper() {
-        // method.md 4.3: offsets u and 2u give 0.322 by Lim's definition, 0 with unit b₀.
+        // docs/method.md, “The affine distance”: offsets u and 2u give 0.322 by Lim's definition, 0 with unit b₀.
         let lim = affine_grassmann_distance(&parallel(1.0), &parallel(2.0), Displacement::Full);
         let expected = libm::atan(2.0) - libm::atan(1.0);
         assert!((lim - expected).abs() < 1e-14, "{lim}");

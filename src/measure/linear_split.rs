@@ -20,7 +20,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::compare::{Moments, eigen};
+use crate::pair::{Moments, eigen};
 
 /// What is left, as moments.
 #[derive(Debug, Clone, PartialEq)]

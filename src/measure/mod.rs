@@ -3,12 +3,12 @@
 mod bhattacharyya;
 mod chi_square;
 mod compactness;
-mod evaluation;
 mod exclusive;
 mod generalization;
 mod grassmann;
 mod kullback_leibler;
 mod linear_split;
+mod model_quality;
 mod principal_vectors;
 mod rank_correlation;
 mod relative;
@@ -19,7 +19,6 @@ mod vertices;
 pub use bhattacharyya::bhattacharyya_distance;
 pub use chi_square::chi_square_above;
 pub use compactness::compactness;
-pub use evaluation::{Evaluation, EvaluationError, MeanError, Method, evaluate};
 pub use exclusive::{ExclusiveModes, exclusive_modes, relative_exclusive_modes, unexplained_share};
 pub use generalization::{left_out_distances, projection_distances};
 pub use grassmann::{
@@ -28,6 +27,7 @@ pub use grassmann::{
 };
 pub use kullback_leibler::kullback_leibler;
 pub use linear_split::{LinearSplit, linear_split};
+pub use model_quality::{Evaluation, EvaluationError, MeanError, Method, evaluate};
 pub use principal_vectors::principal_vectors;
 pub use rank_correlation::rank_correlation;
 pub use relative::{RelativeEigenmodes, patterns, relative_eigenmodes};

@@ -12,7 +12,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::model::{cross, thin_svd};
+use crate::linalg::cross;
+use crate::linalg::thin_svd;
 
 /// Cosines below which a partner is any direction that is left.
 const RIGHT_ANGLE: f64 = 1e-12;

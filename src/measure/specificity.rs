@@ -14,8 +14,9 @@
 use nalgebra::DMatrix;
 
 use super::vertices::mean_distance;
-use crate::model::{LinearModel, evenly_spread, product};
-use crate::parallel;
+use crate::linalg::parallel;
+use crate::linalg::product;
+use crate::model::{LinearModel, evenly_spread};
 use crate::sampling::{Stream, fill_normal, stream};
 
 /// Patches that bound distances.

@@ -10,8 +10,9 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::compare::{Joint, JointModel};
-use crate::model::{LinearModel, product, thin_svd};
+use crate::linalg::{product, thin_svd};
+use crate::model::LinearModel;
+use crate::pair::{Joint, JointModel};
 
 /// Columns of Y that are formed together.
 const BATCH: usize = 16;

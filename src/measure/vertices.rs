@@ -2,7 +2,8 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::model::{LinearModel, lengths, row_squares_of};
+use crate::linalg::row_squares_of;
+use crate::model::{LinearModel, lengths};
 
 /// Per-vertex standard deviation (n), √ of the trace of each point's covariance, of shapes of `model`
 /// whose coefficients have covariance F Fᵀ. No shape is formed: it is ‖U_v F‖.

@@ -23,7 +23,7 @@
 use sha2::{Digest, Sha256};
 
 use super::LinearModel;
-use crate::parallel;
+use crate::linalg::parallel;
 
 /// Numbers that are turned into bytes at once.
 const PIECE: usize = 512;

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector, DVectorView};
 use serde::{Deserialize, Serialize};
 
-use super::{gram, into_thin_svd};
+use crate::linalg::{gram, into_thin_svd};
 
 /// Modes whose standard deviation is below this share of the largest are dropped: a projection
 /// divides by the standard deviation.

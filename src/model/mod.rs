@@ -10,17 +10,13 @@
 //! **Limits.** All numbers are held in `f64`; a model of 53,490 points and 199 modes takes 255 MB, once
 //! for all its copies.
 
-mod combination;
 mod fingerprint;
 mod linear_model;
 mod normals;
 mod points;
 mod population;
 mod procrustes;
-mod product;
-mod thin_svd;
 
-pub(crate) use combination::{Sum, combined};
 pub(crate) use linear_model::lengths;
 pub use linear_model::{BasisCheck, Cells, Kind, LinearModel, ModelError, Unit};
 pub use normals::vertex_normals;
@@ -28,7 +24,3 @@ pub use points::evenly_spread;
 pub(crate) use population::into_principal_components;
 pub use population::{generalised_procrustes, principal_components};
 pub use procrustes::{Alignment, Similarity, align_to, procrustes};
-pub use product::{cross, gram, product};
-pub(crate) use product::{product_in_place, product_of, row_squares_of};
-pub use thin_svd::{ThinSvd, thin_svd};
-pub(crate) use thin_svd::{into_thin_svd, singular_values};

@@ -11,7 +11,8 @@
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use super::{LinearModel, thin_svd};
+use super::LinearModel;
+use crate::linalg::thin_svd;
 
 /// What may be moved when B is aligned to A.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]

@@ -29,13 +29,15 @@ pub use table2::{SplitFacts, Table2, table2};
 
 use serde::Serialize;
 
-use crate::compare::{Joint, Moments};
-use crate::comparison::{Comparison, ComparisonError, Sampler, Settings, Stage};
+use crate::comparison::{Comparison, Stage};
+use crate::error::ComparisonError;
 use crate::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, paper_distance as distance,
 };
 use crate::model::LinearModel;
+use crate::pair::{Joint, Moments};
 use crate::report::{MeanSd, ModelReport, MomentSource, Report, Seconds};
+use crate::settings::{Sampler, Settings};
 use printed::{Budget, DRAWS, Printed};
 
 /// The world outside, as an experiment needs it.

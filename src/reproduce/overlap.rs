@@ -11,12 +11,15 @@
 use serde::Serialize;
 
 use super::Observer;
-use crate::compare::Moments;
-use crate::comparison::{Comparison, ComparisonError, Settings, relate};
+use crate::comparison::Comparison;
 use crate::demos;
+use crate::error::ComparisonError;
 use crate::measure::{bhattacharyya_distance, rank_correlation};
 use crate::model::LinearModel;
+use crate::pair::Moments;
+use crate::relate::relate;
 use crate::report::{ModelReport, Seconds};
+use crate::settings::Settings;
 
 /// τ of the second Bhattacharyya distance, as a share of the size of A.
 const RELATIVE_NOISE: f64 = 0.01;

@@ -12,11 +12,12 @@ use super::printed::{Printed, TABLE_1, TABLE_1_BUDGET, TABLE_1_SIGMA};
 use super::table1::name_of;
 use super::{Gathered, Observer, Plan, Table, Task, Trial};
 use super::{distance, seed_of};
-use crate::compare::Moments;
-use crate::comparison::{ComparisonError, Settings};
 use crate::demos::{STAR_ROWS, star_intersection, star_pair};
+use crate::error::ComparisonError;
 use crate::model::LinearModel;
+use crate::pair::Moments;
 use crate::report::{Grassmann, MeanSd};
+use crate::settings::Settings;
 
 /// Values of σ for stars of radius 10.
 const SIGMAS: [f64; 7] = [0.0003, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3];

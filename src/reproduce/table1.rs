@@ -10,8 +10,8 @@ use super::printed::{Printed, TABLE_1, TABLE_1_A_TO_B, TABLE_1_BUDGET, TABLE_1_S
 use super::radial::{RadialCheck, radial_checks};
 use super::{Gathered, Observer, Plan, Row, Table, Task, Trial};
 use super::{distance, seed_of, uncut_distance};
-use crate::comparison::ComparisonError;
 use crate::demos::{STAR_ROWS, StarRow, exclusive_stars, star_intersection, star_pair};
+use crate::error::ComparisonError;
 use crate::measure::{AffineSpace, mean_vertex_distance};
 use crate::model::LinearModel;
 use crate::report::MeanSd;

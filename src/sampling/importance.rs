@@ -24,7 +24,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{Gaussian, Stream, Target, fill_normal, importance_ess, pareto_smooth, stream};
-use crate::parallel;
+use crate::linalg::parallel;
 
 /// Groups of pairs whose moments tell the error.
 const GROUPS: usize = 16;

@@ -16,7 +16,7 @@
 use rand_chacha::ChaCha8Rng;
 
 use super::{Chains, Draws, Gaussian, Schedule, Stream, Target, fill_normal, stream, uniform};
-use crate::parallel;
+use crate::linalg::parallel;
 
 /// Share of proposals that come from the defensive component.
 const DEFENSIVE_SHARE: f64 = 0.01;

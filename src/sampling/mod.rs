@@ -32,7 +32,7 @@ pub use rejection::{Envelope, Rejection, RejectionTarget};
 pub use tilted::Tilted;
 pub use whitened::WhitenedChains;
 
-use crate::parallel;
+use crate::linalg::parallel;
 
 /// What a target says of one point.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -276,7 +276,7 @@ mod tests {
 
     #[test]
     fn the_published_walk_does_not_and_misses_by_the_known_amount() {
-        // method.md 2.7: E‖a‖²/q = 0.770 ± 0.008 (q = 2), 0.596 (q = 10) without the factor.
+        // docs/method.md, “The scaling move”: E‖a‖²/q = 0.770 ± 0.008 (q = 2), 0.596 (q = 10) without the factor.
         for (dimension, known) in [(2, 0.770), (10, 0.596)] {
             let (mean, error) = mean_square(dimension, Scaling::AsPublished);
             assert!((mean - 1.0).abs() > 10.0 * error, "q = {dimension}: {mean} is not 1");

@@ -14,7 +14,7 @@
 use rand::Rng;
 
 use super::{Draws, Stream, Tilted, fill_normal, stream, uniform};
-use crate::parallel;
+use crate::linalg::parallel;
 
 /// Proposals of one random stream.
 const BLOCK: usize = 256;

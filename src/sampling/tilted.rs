@@ -114,7 +114,7 @@ fn tilted_normal(random: &mut impl Rng, (c, s): (f64, f64), normal: f64) -> f64 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::thin_svd;
+    use crate::linalg::thin_svd;
     use crate::sampling::{Stream, stream};
 
     /// κ, g and G of ‖r₀ + R a‖².

@@ -37,7 +37,7 @@ use rand_chacha::ChaCha8Rng;
 use super::{
     Chains, Draws, Evaluation, Gaussian, Schedule, Stream, Target, fill_normal, stream, uniform,
 };
-use crate::parallel;
+use crate::linalg::parallel;
 
 /// How the gain of the adaptation falls with the number of steps.
 const GAIN_DECAY: f64 = -0.6;

@@ -5,9 +5,9 @@ use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use super::{Engine, blobs, fault, object, parsed, plain, thrown};
-use crate::comparison::Settings;
 use crate::files::{self, RunFile, RunModel, Sources};
 use crate::report::BothSides;
+use crate::settings::Settings;
 
 /// What the page needs of a run file.
 #[derive(Serialize)]

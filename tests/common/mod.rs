@@ -14,12 +14,13 @@ mod testing;
 pub(crate) use testing::repetitions;
 
 use nalgebra::{DMatrix, DVector};
-use shapevenn::compare::Side;
-use shapevenn::comparison::{Comparison, Settings};
+use shapevenn::comparison::Comparison;
 use shapevenn::measure::{AffineSpace, Displacement, affine_grassmann_distance};
 use shapevenn::model::LinearModel;
+use shapevenn::pair::Side;
 use shapevenn::report::{ModelReport, Report, Seconds};
 use shapevenn::sampling::{Draws, Gaussian, Stream, fill_normal, stream, summarise};
+use shapevenn::settings::Settings;
 
 /// A comparison, run to its end.
 pub fn compared(a: &LinearModel, b: &LinearModel, settings: Settings) -> Comparison {

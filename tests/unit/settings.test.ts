@@ -24,7 +24,7 @@ import {
 } from "../../www/app/settings";
 import type { SamplerName, Settings } from "../../www/worker/protocol";
 
-const rust = readFileSync("src/comparison/settings.rs", "utf8");
+const rust = readFileSync("src/settings.rs", "utf8");
 
 /** From `start` to the brace that closes what begins there. */
 function body(start: string, source = rust): string {
@@ -95,7 +95,7 @@ test("the choices are the engine's", () => {
   assert.deepEqual(Object.keys(FITS).sort(), of("FitChoice"));
   assert.deepEqual(Object.keys(SIDES_USED).sort(), of("Pooling"));
   assert.deepEqual(Object.keys(PLAUSIBILITIES).sort(), of("Plausibility"));
-  const difference = readFileSync("src/compare/difference.rs", "utf8");
+  const difference = readFileSync("src/pair/difference.rs", "utf8");
   assert.deepEqual(
     [...DIFFERENCES].sort(),
     variants(body("pub enum DifferenceDefinition", difference)),

@@ -1,4 +1,4 @@
-/** Settings of a run: the defaults and ranges of src/comparison/settings.rs, for the page. */
+/** Settings of a run: the defaults and ranges of src/settings.rs, for the page. */
 import type {
   Alignment,
   DifferenceName,

@@ -63,7 +63,7 @@ export interface Preparation {
   subsample: number | null;
 }
 
-/** As `Settings` in src/comparison/settings.rs; absent fields take the engine's defaults. */
+/** As `Settings` in src/settings.rs; absent fields take the engine's defaults. */
 export interface Settings {
   sigma: number | null;
   seed: string;

@@ -4,7 +4,7 @@
 //! read, the command line refuses: whoever types a command sees what was wrong with it.
 
 use serde_json::{Map, Value, json};
-use shapevenn::comparison::Settings;
+use shapevenn::settings::Settings;
 
 use crate::Failure;
 

@@ -22,15 +22,14 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use link::Link;
-use shapevenn::compare::DifferenceDefinition;
-use shapevenn::comparison::{
-    self, Comparison, ComparisonError, FitChoice, Plausibility, Pooling, Sampler, Settings,
-    SettingsError, Stage,
-};
+use shapevenn::comparison::{Comparison, Stage};
+use shapevenn::error::ComparisonError;
 use shapevenn::files::{self, Download, Error, ShownShape, Sources};
 use shapevenn::formats;
 use shapevenn::model::LinearModel;
+use shapevenn::pair::DifferenceDefinition;
 use shapevenn::report::{ModelReport, Report, Seconds};
+use shapevenn::settings::{FitChoice, Plausibility, Pooling, Sampler, Settings, SettingsError};
 
 /// Which shapes can two statistical shape models both make, and which can only one of them make?
 #[derive(Debug, Parser)]
@@ -293,7 +292,7 @@ fn info(named: &[String], json: bool) -> Result<(), Failure> {
 fn inspect(named: [&str; 2], prepare: &prepare::Arguments, json: bool) -> Result<(), Failure> {
     let settings = prepare.settings(Settings::default())?;
     let [a, b] = [sources::open(named[0], prepare.scale)?, sources::open(named[1], prepare.scale)?];
-    let found = comparison::inspect(&a.model, &b.model, &settings);
+    let found = shapevenn::inspect::inspect(&a.model, &b.model, &settings);
     if json {
         println!("{}", to_json(&found)?);
         return Ok(());

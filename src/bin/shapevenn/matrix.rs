@@ -2,8 +2,10 @@
 
 use clap::Args;
 use serde::Serialize;
-use shapevenn::comparison::{ComparisonError, Relation, Settings, relate};
+use shapevenn::error::ComparisonError;
 use shapevenn::files::Error;
+use shapevenn::relate::{Relation, relate};
+use shapevenn::settings::Settings;
 
 use crate::{Failure, document, prepare, sources, to_json};
 

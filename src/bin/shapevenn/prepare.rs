@@ -3,10 +3,11 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use shapevenn::compare::{PointSelection, Preparation, SidePreparation};
-use shapevenn::comparison::{ComparisonError, Settings};
+use shapevenn::error::ComparisonError;
 use shapevenn::files::Error;
 use shapevenn::model::{Alignment, Unit};
+use shapevenn::pair::{PointSelection, Preparation, SidePreparation};
+use shapevenn::settings::Settings;
 
 use crate::Failure;
 
@@ -101,7 +102,7 @@ impl Arguments {
         };
         let parsed = |text: &str| {
             PointSelection::parse(text).map_err(|error| {
-                let error = shapevenn::compare::PairError::Selection(error);
+                let error = shapevenn::pair::PairError::Selection(error);
                 Failure::from(Error::from(ComparisonError::from(error)))
             })
         };

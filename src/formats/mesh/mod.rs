@@ -23,7 +23,7 @@ pub(super) mod vtk;
 pub(super) mod vtp;
 
 use super::error::Fault;
-use super::sniff::Content;
+use crate::formats::input::sniffing::Content;
 use crate::model::Cells;
 
 /// Points and how they are joined.

@@ -23,8 +23,8 @@ use flate2::bufread::ZlibDecoder;
 
 use super::vtk::Cells;
 use super::{Collected, Mesh, damaged, ends_early, index_of, number, words};
-use crate::formats::array::largest_array;
 use crate::formats::error::Fault;
+use crate::formats::input::largest_array;
 
 /// Reads a mesh in the XML format of VTK.
 pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {

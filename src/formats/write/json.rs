@@ -7,10 +7,10 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::super::FormatError;
-use super::super::array::{Array, Data};
 use super::super::error::Fault;
-use super::super::plain_json::{FORMAT, VERSION};
 use super::kind_word;
+use crate::formats::containers::arrays::{Array, Data};
+use crate::formats::readers::plain_json::{FORMAT, VERSION};
 use crate::model::{Cells, LinearModel};
 
 #[derive(Serialize)]

@@ -1,9 +1,9 @@
 //! Writes a model as a NumPy archive, which this program reads back to the last bit.
 
 use super::super::FormatError;
-use super::super::array::{Array, Data};
-use super::super::npz::write_arrays;
 use super::kind_word;
+use crate::formats::containers::arrays::{Array, Data};
+use crate::formats::containers::npz::write_arrays;
 use crate::model::{Cells, LinearModel};
 
 /// Writes a model as a NumPy archive: `mean` (n × d), orthonormal `basis` (D × q), `eigenvalues` (q),

@@ -1,6 +1,6 @@
 /**
  * Git LFS keeps large files beside a repository and puts a pointer in their place: a short text with the
- * SHA-256 and the size of what is meant. Pure. See github.com/git-lfs/git-lfs, docs/spec.md.
+ * SHA-256 and the size of what is meant. Pure. See github.com/git-lfs/git-lfs/blob/main/docs/spec.md.
  */
 export interface Pointer {
   sha256: string;

@@ -1,0 +1,7 @@
+//! What a comparison shows: the five regions as shapes, maps over vertices, exploring, previews, plots of chains.
+
+pub(crate) mod diagnostics_plots;
+pub(crate) mod exploring;
+pub(crate) mod maps;
+pub(crate) mod preview;
+pub(crate) mod regions;

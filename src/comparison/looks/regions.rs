@@ -1,0 +1,232 @@
+//! The five regions of the Venn diagram, as shapes to look at.
+
+use serde::{Deserialize, Serialize};
+
+use crate::comparison::Comparison;
+use crate::measure::vertex_standard_deviations;
+use crate::pair::Moments;
+use crate::sampling::{Draws, Stream, fill_normal, stream, uniform};
+
+/// A region of the Venn diagram.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum Region {
+    /// All of A.
+    A,
+    /// All of B.
+    B,
+    /// A ∩ B.
+    Intersection,
+    /// A \ B.
+    AWithoutB,
+    /// B \ A.
+    BWithoutA,
+}
+
+impl Region {
+    /// All five, from A to B.
+    pub const ALL: [Self; 5] =
+        [Self::A, Self::AWithoutB, Self::Intersection, Self::BWithoutA, Self::B];
+
+    /// For names of files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::A => "a",
+            Self::B => "b",
+            Self::Intersection => "intersection",
+            Self::AWithoutB => "a-without-b",
+            Self::BWithoutA => "b-without-a",
+        }
+    }
+}
+
+/// What the shapes of a region come from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum ShapeSource {
+    /// The model itself.
+    Model,
+    /// The Gaussian fit, before there are draws.
+    Fit,
+    /// Draws.
+    Draws,
+}
+
+/// Mean, variation and some shapes of a region, in the frame and unit of A.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RegionShapes {
+    /// Mean shape (d·n).
+    pub mean: Vec<f32>,
+    /// Per-vertex standard deviation (n).
+    pub vertex_sd: Vec<f32>,
+    /// Shapes one after the other (count × d·n).
+    pub samples: Vec<f32>,
+    /// Number of shapes; may be less than was asked for when there are no draws.
+    pub count: usize,
+    /// What they come from.
+    pub source: ShapeSource,
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "shapes to look at are single precision")]
+pub(crate) fn single<'a>(values: impl IntoIterator<Item = &'a f64>) -> Vec<f32> {
+    values.into_iter().map(|value| *value as f32).collect()
+}
+
+/// How the shapes of a difference are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Picture {
+    /// γ in x + γ r(a): how much of what the other model cannot make is added once more.
+    pub exaggeration: f64,
+    /// Shapes along the exclusive modes instead of draws.
+    pub exclusive_modes: bool,
+}
+
+/// Standard deviations from the mean at which an exclusive mode is shown.
+const EXCLUSIVE_REACH: f64 = 3.0;
+
+impl Comparison {
+    /// Shapes of a region; `picture` says how a difference is shown. `None` while there is nothing of it.
+    pub fn shapes(
+        &mut self,
+        region: Region,
+        count: usize,
+        seed: u64,
+        picture: Picture,
+    ) -> Option<RegionShapes> {
+        match region {
+            Region::AWithoutB => self.difference(0, count, seed, picture),
+            Region::BWithoutA => self.difference(1, count, seed, picture),
+            _ => self.region(region, count, seed),
+        }
+    }
+
+    /// Shapes of A\B (`side` 0) or B\A (1) as `picture` asks; `None` while there is nothing of it.
+    pub fn difference(
+        &mut self,
+        side: usize,
+        count: usize,
+        seed: u64,
+        picture: Picture,
+    ) -> Option<RegionShapes> {
+        self.prepare_sides();
+        let model = self.pair.models()[side];
+        let shape = |coefficients: &[f64]| {
+            self.sides[side].exaggerated(model, coefficients, picture.exaggeration)
+        };
+        if picture.exclusive_modes {
+            let modes = self.exclusive(side);
+            let count = count.min(modes.values.len());
+            let samples = (0..count).flat_map(|index| {
+                single(shape((modes.directions.column(index) * EXCLUSIVE_REACH).as_slice()).iter())
+            });
+            return Some(RegionShapes {
+                mean: single(shape(&vec![0.0; model.mode_count()]).iter()),
+                vertex_sd: single(&self.sides[side].expected_vertex_residuals()),
+                samples: samples.collect(),
+                count,
+                source: ShapeSource::Model,
+            });
+        }
+        let plain = self.difference_shapes(side, count, seed)?;
+        if picture.exaggeration == 0.0 {
+            return Some(plain);
+        }
+        let draws = self.rejections[side].draws();
+        let mut random = stream(seed, Stream::Display, 3 + side, 0);
+        let samples: Vec<f32> = (0..count)
+            .flat_map(|_| single(shape(pick(draws, uniform(&mut random))).iter()))
+            .collect();
+        let mean = Moments::of(draws.iter_slices(), draws.dimension).mean;
+        Some(RegionShapes { samples, mean: single(shape(mean.as_slice()).iter()), ..plain })
+    }
+
+    /// Shapes of `region` from what there is, `count` of them picked by `seed`; `None` while there is
+    /// nothing of it yet.
+    pub fn region(&self, region: Region, count: usize, seed: u64) -> Option<RegionShapes> {
+        match region {
+            Region::A => Some(self.prior_shapes(0, count, seed)),
+            Region::B => Some(self.prior_shapes(1, count, seed)),
+            Region::Intersection => self.intersection_shapes(count, seed),
+            Region::AWithoutB => self.difference_shapes(0, count, seed),
+            Region::BWithoutA => self.difference_shapes(1, count, seed),
+        }
+    }
+
+    fn prior_shapes(&self, side: usize, count: usize, seed: u64) -> RegionShapes {
+        let model = self.pair.models()[side];
+        let mut random = stream(seed, Stream::Display, side, 0);
+        let mut coefficients = vec![0.0; model.mode_count()];
+        let mut samples = Vec::with_capacity(count * model.mean().len());
+        for _ in 0..count {
+            fill_normal(&mut random, &mut coefficients);
+            samples.extend(single(model.shape(&coefficients).iter()));
+        }
+        RegionShapes {
+            mean: single(model.mean().iter()),
+            vertex_sd: single(&model.vertex_standard_deviations()),
+            samples,
+            count,
+            source: ShapeSource::Model,
+        }
+    }
+
+    fn intersection_shapes(&self, count: usize, seed: u64) -> Option<RegionShapes> {
+        let joint = self.joint.as_ref()?;
+        let model = self.intersection_model()?;
+        let draws: Vec<&Draws> = self.inferences.iter().map(|one| one.draws()).collect();
+        // A restored run has no fit to fall back on: it shows what draws there are.
+        let enough = if self.has_fits() { count.max(1) } else { 1 };
+        let drawn = draws.len() == 2 && draws.iter().all(|draws| draws.len() >= enough);
+        let mut random = stream(seed, Stream::Display, 2, 0);
+        let mut samples = Vec::with_capacity(count * joint.origin().len());
+        for index in 0..count {
+            let side = index % 2;
+            let from = self.pair.models()[side];
+            let shape = if drawn {
+                from.shape(pick(draws[side], uniform(&mut random)))
+            } else {
+                let mut z = vec![0.0; from.mode_count()];
+                fill_normal(&mut random, &mut z);
+                let mut point = vec![0.0; z.len()];
+                self.inferences.get(side)?.fit()?.gaussian.place(&z, &mut point);
+                from.shape(&point)
+            };
+            samples.extend(single(shape.iter()));
+        }
+        Some(RegionShapes {
+            mean: single(joint.shape(&model.mean).iter()),
+            vertex_sd: single(&joint.vertex_standard_deviations(&model)),
+            samples,
+            count,
+            source: if drawn { ShapeSource::Draws } else { ShapeSource::Fit },
+        })
+    }
+
+    fn difference_shapes(&self, side: usize, count: usize, seed: u64) -> Option<RegionShapes> {
+        let draws = self.rejections.get(side)?.draws();
+        if draws.len() < 2 {
+            return None;
+        }
+        let model = self.pair.models()[side];
+        let moments = Moments::of(draws.iter_slices(), draws.dimension);
+        let mut random = stream(seed, Stream::Display, 3 + side, 0);
+        let mut samples = Vec::with_capacity(count * model.mean().len());
+        for _ in 0..count {
+            samples.extend(single(model.shape(pick(draws, uniform(&mut random))).iter()));
+        }
+        Some(RegionShapes {
+            mean: single(model.shape(moments.mean.as_slice()).iter()),
+            vertex_sd: single(&vertex_standard_deviations(model, &moments.factor())),
+            samples,
+            count,
+            source: ShapeSource::Draws,
+        })
+    }
+}
+
+/// The draw at `place` (0 ≤ place < 1) of all.
+fn pick(draws: &Draws, place: f64) -> &[f64] {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 ≤ place < 1")]
+    let index = (place * draws.len() as f64) as usize;
+    draws.iter_slices().nth(index).unwrap_or(&[])
+}

@@ -1,0 +1,587 @@
+//! Which objects of a pickle are arrays, and how they are written.
+//!
+//! | object | written as |
+//! |---|---|
+//! | NumPy array | `_reconstruct()` with the state (1, sides, type, Fortran order, bytes) |
+//! | the same, protocol 5 | `_frombuffer(bytes, type, sides, order)` |
+//! | NumPy number | `scalar(type, bytes)` |
+//! | its type | `dtype('f8')` with the state (3, '<', …) |
+//! | bytes in protocols 0–2 of Python 3 | `_codecs.encode(text, 'latin1')` |
+//! | `chumpy.ch.Ch` | an object with the state {x: array} |
+//! | `chumpy.reordering.Select` | one with the state {a: array, idxs: places in it, preferred_shape} |
+//! | list of numbers, or of such lists | itself |
+//!
+//! All else is told by the name of its class: sparse matrices (`J_regressor`), tensors.
+//!
+//! **Limits.** Arrays of Python objects and records are not read; lists up to three deep.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use crate::formats::containers::NamedArrays;
+use crate::formats::containers::arrays::{Array, Data, count_of, trimmed};
+use crate::formats::containers::npy::{self, Header};
+use crate::formats::containers::pickle::{Coding, Heap, Id, Machine, Span, Value};
+use crate::formats::error::Fault;
+use crate::formats::input::largest_array;
+
+/// Dictionaries in one another whose names are looked at.
+const DEEPEST_NAMES: usize = 4;
+
+/// Most names.
+const MOST_NAMES: usize = 4096;
+
+/// Most entries of the state of an object; those of chumpy have ten.
+const MOST_ENTRIES: usize = 64;
+
+/// Longest name, in bytes.
+const LONGEST_NAME: usize = 256;
+
+/// Objects that stand for one another, as `Ch` for its array.
+const DEEPEST_OBJECTS: usize = 8;
+
+/// Most sides of an array; NumPy has as many.
+const MOST_SIDES: usize = 64;
+
+/// The arrays of a pickle under their names.
+pub(crate) struct Objects<'a> {
+    heap: Heap<'a>,
+    root: Id,
+    names: BTreeMap<String, Id>,
+    container: &'static str,
+    limit: u64,
+}
+
+/// What an object is to us.
+enum Found {
+    /// An array of numbers or text, not yet read.
+    Array {
+        header: Header,
+        data: Span,
+    },
+    /// An array of Python objects.
+    Objects(Id),
+    /// Places of another array.
+    Picked {
+        from: Id,
+        places: Id,
+        shape: Vec<u64>,
+    },
+    /// Numbers, or lists of them.
+    Numbers {
+        shape: Vec<u64>,
+    },
+    Text(Span),
+    /// An object of this class.
+    Class(String),
+    /// Something else, in words.
+    Other(&'static str),
+}
+
+impl<'a> Objects<'a> {
+    /// What is in a pickle; a fault when that is a single array.
+    pub(crate) fn open(bytes: &'a [u8], container: &'static str) -> Result<Self, Fault> {
+        let (heap, root) = Machine::run(bytes)?;
+        let limit = largest_array(heap.bytes.len());
+        let mut objects = Self { heap, root, names: BTreeMap::new(), container, limit };
+        match objects.find(root) {
+            // NumPy wraps a dictionary in an array without sides.
+            Found::Objects(list) => {
+                if let Value::List(items) = objects.heap.get(list)
+                    && let &[item] = items.as_slice()
+                {
+                    objects.root = item;
+                }
+            }
+            Found::Array { header, .. } => return Err(Fault::OneArray { shape: header.shape }),
+            Found::Picked { shape, .. } => return Err(Fault::OneArray { shape }),
+            _ => {}
+        }
+        objects.collect(objects.root, "", 0);
+        Ok(objects)
+    }
+
+    /// Notes the names in a dictionary, or in the state of an object at the top.
+    fn collect(&mut self, id: Id, prefix: &str, depth: usize) {
+        let mut entries = Vec::new();
+        match self.heap.get(id) {
+            Value::Dict(items) => entries.clone_from(items),
+            Value::Call { items, .. } if !items.is_empty() => entries.clone_from(items),
+            Value::Call { state: Some(state), .. } if depth == 0 => {
+                if let Value::Dict(items) = self.heap.get(*state) {
+                    entries.clone_from(items);
+                }
+            }
+            _ => {}
+        }
+        for (key, value) in entries {
+            if self.names.len() >= MOST_NAMES {
+                return;
+            }
+            let Some(name) = self.name(key) else { continue };
+            let full = format!("{prefix}{name}");
+            let is_dict = match self.heap.get(value) {
+                Value::Dict(_) => true,
+                Value::Call { items, .. } => !items.is_empty(),
+                _ => false,
+            };
+            if is_dict && depth < DEEPEST_NAMES {
+                self.collect(value, &format!("{full}."), depth + 1);
+            } else {
+                self.names.insert(full, value);
+            }
+        }
+    }
+
+    /// The fault of a pickle that has an object where arrays were expected.
+    pub(crate) fn class_instead_of_arrays(&self) -> Option<Fault> {
+        let is_array = |id: &Id| {
+            matches!(self.find(*id), Found::Array { .. } | Found::Picked { .. })
+                || matches!(self.find(*id), Found::Numbers { shape } if !shape.is_empty())
+        };
+        if self.names.values().any(is_array) {
+            return None;
+        }
+        if let Some(fault) = self.names.keys().find_map(|name| match self.shape(name) {
+            Some(Err(fault @ Fault::PickleClass { .. })) => Some(fault),
+            _ => None,
+        }) {
+            return Some(fault);
+        }
+        match self.find(self.root) {
+            Found::Class(class) => Some(Fault::PickleClass { what: "The file".to_owned(), class }),
+            _ => None,
+        }
+    }
+
+    /// What an object is.
+    fn find(&self, mut id: Id) -> Found {
+        for _ in 0..DEEPEST_OBJECTS {
+            match self.heap.get(id) {
+                Value::None => return Found::Other("Python's None"),
+                Value::Bytes(span) | Value::Text(span) => return Found::Text(*span),
+                Value::Integer(_) | Value::Float(_) | Value::List(_) | Value::Tuple(_) => {
+                    return match self.sides_of_lists(id) {
+                        Some(shape) => Found::Numbers { shape },
+                        None => Found::Other("a list of something else"),
+                    };
+                }
+                Value::Dict(_) => return Found::Other("a dictionary"),
+                Value::Class(module, name) => return Found::Class(self.class_name(*module, *name)),
+                Value::Opaque => return Found::Other("something that only Python can make"),
+                Value::Call { arguments, state, .. } => {
+                    let class = self.class_of(id).unwrap_or_default();
+                    let of_chumpy = |name: &str| self.entry(*state, name);
+                    match class.as_str() {
+                        "chumpy.ch.Ch" => match of_chumpy("x") {
+                            Some(array) => id = array,
+                            None => return Found::Class(class),
+                        },
+                        "chumpy.reordering.Select" => {
+                            return self.selection(*state).unwrap_or(Found::Class(class));
+                        }
+                        _ => {
+                            return self
+                                .array_of(&class, *arguments, *state)
+                                .unwrap_or(Found::Class(class));
+                        }
+                    }
+                }
+            }
+        }
+        Found::Other("objects too deep in one another")
+    }
+
+    /// The class of an object or the function of a call, with its module.
+    fn class_of(&self, id: Id) -> Option<String> {
+        let Value::Call { class, arguments, .. } = self.heap.get(id) else { return None };
+        let Value::Class(module, name) = self.heap.get(*class) else { return None };
+        let class = self.class_name(*module, *name);
+        // Protocols 0 and 1 make objects by a function, whose first argument is the class.
+        if matches!(class.as_str(), "copy_reg._reconstructor" | "copyreg._reconstructor")
+            && let Some(&first) = self.tuple(*arguments).and_then(<[Id]>::first)
+            && let Value::Class(module, name) = self.heap.get(first)
+        {
+            return Some(self.class_name(*module, *name));
+        }
+        Some(class)
+    }
+
+    fn class_name(&self, module: Span, name: Span) -> String {
+        let text = |span: Span| -> String {
+            let end = span.end.min(span.start + LONGEST_NAME);
+            trimmed(&self.text_of(Span { end, ..span }))
+        };
+        format!("{}.{}", text(module), text(name))
+    }
+
+    /// An array of NumPy, made by the function `class`.
+    fn array_of(&self, class: &str, arguments: Id, state: Option<Id>) -> Option<Found> {
+        let (module, function) = class.rsplit_once('.')?;
+        if !module.starts_with("numpy") {
+            return None;
+        }
+        let arguments = self.tuple(arguments)?;
+        let (kind, shape, fortran, data) = match (function, arguments) {
+            ("_reconstruct", _) => match self.tuple(state?)? {
+                &[_, shape, kind, fortran, data] | &[shape, kind, fortran, data] => {
+                    let fortran = matches!(self.heap.get(fortran), Value::Integer(1));
+                    (kind, self.sides(shape)?, fortran, data)
+                }
+                _ => return None,
+            },
+            ("_frombuffer", &[data, kind, shape, order]) => {
+                (kind, self.sides(shape)?, self.text(order).as_deref() == Some("F"), data)
+            }
+            ("scalar", &[kind, data]) => (kind, Vec::new(), false, data),
+            _ => return None,
+        };
+        let header = Header::new(shape, self.kind(kind)?, fortran);
+        if header.is_pickle() {
+            return Some(Found::Objects(data));
+        }
+        Some(Found::Array { header, data: self.span(data)? })
+    }
+
+    /// The places of an array that `Select` stands for.
+    fn selection(&self, state: Option<Id>) -> Option<Found> {
+        let (from, places) = (self.entry(state, "a")?, self.entry(state, "idxs")?);
+        let shape = match self.entry(state, "preferred_shape").and_then(|id| self.sides(id)) {
+            Some(shape) => shape,
+            None => match self.find(places) {
+                Found::Array { header, .. } => header.shape,
+                _ => return None,
+            },
+        };
+        Some(Found::Picked { from, places, shape })
+    }
+
+    /// NumPy's notation of a type: '<f8'.
+    fn kind(&self, id: Id) -> Option<String> {
+        let Value::Call { arguments, state, .. } = self.heap.get(id) else { return None };
+        if self.class_of(id)? != "numpy.dtype" {
+            return None;
+        }
+        let kind = self.text(*self.tuple(*arguments)?.first()?)?;
+        let order = state
+            .and_then(|state| self.tuple(state))
+            .and_then(|state| state.get(1))
+            .and_then(|&order| self.text(order))
+            .unwrap_or_default();
+        Some(format!("{order}{kind}"))
+    }
+
+    /// Where the bytes of an array are.
+    fn span(&self, id: Id) -> Option<Span> {
+        match self.heap.get(id) {
+            Value::Bytes(span) => Some(*span),
+            Value::Call { arguments, .. } => {
+                let arguments = self.tuple(*arguments)?;
+                match (self.class_of(id)?.as_str(), arguments) {
+                    ("_codecs.encode", &[text, _]) => match self.heap.get(text) {
+                        Value::Text(span) => Some(*span),
+                        _ => None,
+                    },
+                    ("__builtin__.bytes" | "builtins.bytes", &[]) => {
+                        Some(Span { start: 0, end: 0, coding: Coding::Raw })
+                    }
+                    ("__builtin__.bytearray" | "builtins.bytearray", &[bytes, ..]) => {
+                        match self.heap.get(bytes) {
+                            Value::Bytes(span) | Value::Text(span) => Some(*span),
+                            _ => None,
+                        }
+                    }
+                    _ => None,
+                }
+            }
+            _ => None,
+        }
+    }
+
+    fn tuple(&self, id: Id) -> Option<&[Id]> {
+        match self.heap.get(id) {
+            Value::Tuple(items) | Value::List(items) => Some(items),
+            _ => None,
+        }
+    }
+
+    fn sides(&self, id: Id) -> Option<Vec<u64>> {
+        let items = self.tuple(id)?;
+        let side = |&id: &Id| match self.heap.get(id) {
+            Value::Integer(side) => u64::try_from(*side).ok(),
+            _ => None,
+        };
+        if items.len() > MOST_SIDES { None } else { items.iter().map(side).collect() }
+    }
+
+    /// Sides of a number, a list of numbers, or lists of lists, as their first entries tell.
+    fn sides_of_lists(&self, mut id: Id) -> Option<Vec<u64>> {
+        let mut sides = Vec::new();
+        loop {
+            match self.heap.get(id) {
+                Value::Integer(_) | Value::Float(_) => return Some(sides),
+                Value::List(items) | Value::Tuple(items) if sides.len() < 3 => {
+                    sides.push(items.len() as u64);
+                    id = *items.first()?;
+                }
+                _ => return None,
+            }
+        }
+    }
+
+    /// What stands under a name in a dictionary.
+    fn entry(&self, dict: Option<Id>, name: &str) -> Option<Id> {
+        let Value::Dict(items) = self.heap.get(dict?) else { return None };
+        let is_it = |(key, _): &&(Id, Id)| self.name(*key).as_deref() == Some(name);
+        items.iter().take(MOST_ENTRIES).find(is_it).map(|pair| pair.1)
+    }
+
+    /// A short text or number as a name.
+    fn name(&self, id: Id) -> Option<String> {
+        match self.heap.get(id) {
+            Value::Integer(number) => Some(number.to_string()),
+            _ => self.text(id),
+        }
+    }
+
+    fn text(&self, id: Id) -> Option<String> {
+        let span = match self.heap.get(id) {
+            Value::Text(span) => *span,
+            _ => self.span(id)?,
+        };
+        (span.end - span.start <= LONGEST_NAME).then(|| self.text_of(span))
+    }
+
+    fn text_of(&self, span: Span) -> String {
+        let raw = self.heap.bytes.get(span.start..span.end).unwrap_or_default();
+        match span.coding {
+            Coding::Raw | Coding::Utf8 => String::from_utf8_lossy(raw).into_owned(),
+            Coding::Escaped => String::from_utf8_lossy(&unescaped(raw)).into_owned(),
+            Coding::Unicode => letters(raw).collect(),
+        }
+    }
+
+    /// The bytes of an array; `None` when they are written as text that is no Latin-1.
+    fn bytes_of(&self, span: Span) -> Option<Cow<'_, [u8]>> {
+        let raw = self.heap.bytes.get(span.start..span.end)?;
+        Some(match span.coding {
+            Coding::Raw => Cow::Borrowed(raw),
+            Coding::Escaped => Cow::Owned(unescaped(raw)),
+            Coding::Unicode => Cow::Owned(
+                letters(raw).map(|letter| u8::try_from(letter).ok()).collect::<Option<_>>()?,
+            ),
+            Coding::Utf8 => Cow::Owned(latin1(raw)?),
+        })
+    }
+
+    fn read_array(&self, what: &str, header: &Header, data: Span) -> Result<Array, Fault> {
+        let damaged = |reason: String| Fault::Damaged { what: what.to_owned(), reason };
+        header.check_readable().map_err(|error| error.into_fault(what, self.limit))?;
+        let needed = header.bytes().unwrap_or(u64::MAX);
+        // Before it is decoded, text is at least as long as the bytes in it.
+        let most = (data.end - data.start) as u64;
+        let bytes = if needed > most { None } else { self.bytes_of(data) };
+        match bytes {
+            Some(bytes) if bytes.len() as u64 == needed => {
+                npy::read_values(header, &mut bytes.as_ref(), self.limit)
+                    .map_err(|error| error.into_fault(what, self.limit))
+            }
+            Some(bytes) => {
+                let present = bytes.len();
+                Err(damaged(format!("its sides need {needed} bytes and {present} are there")))
+            }
+            None if needed > most => {
+                Err(damaged(format!("its sides need {needed} bytes and {most} are there")))
+            }
+            None => Err(damaged("its bytes are no Latin-1".to_owned())),
+        }
+    }
+
+    /// Reads numbers in lists.
+    fn read_lists(&self, what: &str, id: Id, shape: &[u64]) -> Result<Array, Fault> {
+        let uneven = || Fault::NotNumbers {
+            what: what.to_owned(),
+            found: "lists of different lengths or of something else".to_owned(),
+        };
+        // The same list may be in a list many times: what counts is what it unfolds to.
+        let claimed = count_of(shape).unwrap_or(u64::MAX).saturating_mul(8);
+        if claimed > self.limit {
+            return Err(Fault::Size { what: what.to_owned(), claimed, limit: self.limit });
+        }
+        let mut level = vec![id];
+        for &side in shape {
+            let mut next = Vec::new();
+            for id in level {
+                let items = self.tuple(id).filter(|items| items.len() as u64 == side);
+                next.extend(items.ok_or_else(uneven)?);
+            }
+            level = next;
+        }
+        let whole = level.iter().all(|&id| matches!(self.heap.get(id), Value::Integer(_)));
+        let data = if whole {
+            let number = |id| match self.heap.get(id) {
+                Value::Integer(number) => *number,
+                _ => 0,
+            };
+            Data::I64(level.into_iter().map(number).collect())
+        } else {
+            let number = |id| match self.heap.get(id) {
+                Value::Integer(number) => Some(*number as f64),
+                Value::Float(number) => Some(*number),
+                _ => None,
+            };
+            let numbers: Option<Vec<f64>> = level.into_iter().map(number).collect();
+            Data::F64(numbers.ok_or_else(uneven)?)
+        };
+        let shape = shape.iter().filter_map(|&side| usize::try_from(side).ok()).collect();
+        Ok(Array { shape, data })
+    }
+
+    fn read_object(&self, what: &str, id: Id, depth: usize) -> Result<Array, Fault> {
+        let damaged =
+            |reason: &str| Fault::Damaged { what: what.to_owned(), reason: reason.to_owned() };
+        match self.find(id) {
+            Found::Array { header, data } => self.read_array(what, &header, data),
+            Found::Numbers { shape } => self.read_lists(what, id, &shape),
+            Found::Text(span) => Ok(Array::text(self.text_of(span))),
+            Found::Picked { .. } if depth == DEEPEST_OBJECTS => {
+                Err(damaged("it is picked from an array that is picked from an array"))
+            }
+            Found::Picked { from, places, shape } => {
+                let from = self.read_object(what, from, depth + 1)?;
+                let places = self.read_object(what, places, depth + 1)?.to_integers();
+                let shape: Vec<usize> =
+                    shape.iter().filter_map(|&side| usize::try_from(side).ok()).collect();
+                let places = places.unwrap_or_default();
+                let count = shape.iter().try_fold(1_usize, |all, &side| all.checked_mul(side));
+                if count != Some(places.len()) {
+                    return Err(damaged("it has more or fewer places than its sides say"));
+                }
+                let data = picked(&from.data, &places)
+                    .ok_or_else(|| damaged("it has places beyond the array it is picked from"))?;
+                Ok(Array { shape, data })
+            }
+            found => Err(unreadable(what, found)),
+        }
+    }
+}
+
+impl NamedArrays for Objects<'_> {
+    fn container(&self) -> &'static str {
+        self.container
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.names.keys().cloned().collect()
+    }
+
+    fn shape(&self, name: &str) -> Option<Result<Vec<u64>, Fault>> {
+        Some(match self.find(*self.names.get(name)?) {
+            Found::Array { header, .. } => match header.check_readable() {
+                Ok(()) => Ok(header.shape),
+                Err(error) => Err(error.into_fault(name, self.limit)),
+            },
+            Found::Picked { shape, .. } | Found::Numbers { shape } => Ok(shape),
+            Found::Text(_) => Ok(Vec::new()),
+            found => Err(unreadable(name, found)),
+        })
+    }
+
+    fn read(&mut self, name: &str) -> Result<Array, Fault> {
+        match self.names.get(name) {
+            Some(&id) => self.read_object(name, id, 0),
+            None => Err(unreadable(name, Found::Other("nothing"))),
+        }
+    }
+}
+
+/// The fault of an object that is no array.
+fn unreadable(what: &str, found: Found) -> Fault {
+    let what = what.to_owned();
+    match found {
+        Found::Class(class) => Fault::PickleClass { what, class },
+        Found::Other(found) => Fault::NotNumbers { what, found: found.to_owned() },
+        _ => Fault::NotNumbers { what, found: "Python objects".to_owned() },
+    }
+}
+
+/// The values at `places`; `None` when one is beyond the last.
+fn picked(data: &Data, places: &[i64]) -> Option<Data> {
+    fn pick<T: Clone>(values: &[T], places: &[i64]) -> Option<Vec<T>> {
+        places.iter().map(|&place| values.get(usize::try_from(place).ok()?).cloned()).collect()
+    }
+    Some(match data {
+        Data::F64(values) => Data::F64(pick(values, places)?),
+        Data::F32(values) => Data::F32(pick(values, places)?),
+        Data::I64(values) => Data::I64(pick(values, places)?),
+        Data::I32(values) => Data::I32(pick(values, places)?),
+        Data::Text(_) => return None,
+    })
+}
+
+/// UTF-8 whose letters are all below 256, as one byte each.
+fn latin1(text: &[u8]) -> Option<Vec<u8>> {
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut rest = text.iter();
+    while let Some(&byte) = rest.next() {
+        bytes.push(match byte {
+            0..0x80 => byte,
+            0xc2 | 0xc3 => (byte & 3) << 6 | rest.next()? & 0x3f,
+            _ => return None,
+        });
+    }
+    Some(bytes)
+}
+
+/// Bytes of Python 2 with the escapes of its program texts resolved.
+fn unescaped(text: &[u8]) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut rest = text;
+    while let Some((&byte, after)) = rest.split_first() {
+        rest = after;
+        if byte != b'\\' {
+            bytes.push(byte);
+            continue;
+        }
+        let Some((&escape, after)) = rest.split_first() else { break };
+        rest = after;
+        bytes.push(match escape {
+            b'a' => 7,
+            b'b' => 8,
+            b't' => b'\t',
+            b'n' => b'\n',
+            b'v' => 11,
+            b'f' => 12,
+            b'r' => b'\r',
+            b'x' => {
+                number_in(&mut rest, 2, 16).and_then(|code| u8::try_from(code).ok()).unwrap_or(b'?')
+            }
+            other => other,
+        });
+    }
+    bytes
+}
+
+/// Letters of Latin-1 with the escapes `\uXXXX` and `\UXXXXXXXX` resolved.
+fn letters(text: &[u8]) -> impl Iterator<Item = char> {
+    let mut rest = text;
+    core::iter::from_fn(move || {
+        let (&byte, after) = rest.split_first()?;
+        rest = after;
+        let digits = match (byte, rest.first()) {
+            (b'\\', Some(b'u')) => 4,
+            (b'\\', Some(b'U')) => 8,
+            _ => return Some(char::from(byte)),
+        };
+        rest = &rest[1..];
+        let letter = number_in(&mut rest, digits, 16).and_then(char::from_u32);
+        Some(letter.unwrap_or(char::REPLACEMENT_CHARACTER))
+    })
+}
+
+/// The number in the next `digits` bytes, which are passed.
+fn number_in(rest: &mut &[u8], digits: usize, base: u32) -> Option<u32> {
+    let (number, after) = rest.split_at_checked(digits)?;
+    *rest = after;
+    u32::from_str_radix(core::str::from_utf8(number).ok()?, base).ok()
+}

@@ -1,0 +1,343 @@
+//! What a file is, from its content; its name says nothing.
+//!
+//! The rules are tried from the surest to the weakest: magic numbers, then texts that start in one
+//! way only, then sizes that must agree with one another.
+
+use crate::formats::FormatError;
+use crate::formats::error::Fault;
+use crate::formats::input::Input;
+
+/// Bytes that are looked at; headers of HDF5 may also stand further on.
+const LOOKED_AT: usize = 4096;
+
+/// With what HDF5 begins; it stands at 0, 512, 1024, 2048 …
+const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
+
+/// What a file turned out to be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Content {
+    /// HDF5, also MAT v7.3.
+    Hdf5,
+    /// MAT v5, v6, v7.
+    Mat5,
+    /// MAT v4, which has no magic number.
+    Mat4,
+    /// One NumPy array.
+    Npy,
+    /// A ZIP archive of whatever: arrays, models, meshes.
+    Zip,
+    /// Something compressed.
+    Gzip,
+    /// A Python pickle.
+    Pickle,
+    /// Polygon file format.
+    Ply,
+    /// Legacy VTK.
+    Vtk,
+    /// VTK in XML.
+    Vtp,
+    /// Binary or textual STL.
+    Stl,
+    /// Wavefront OBJ.
+    Obj,
+    /// Landmarks in the format of tpsDig.
+    Tps,
+    /// A JSON document.
+    Json,
+    /// A program text with a clmtrackr model in it.
+    Clmtrackr,
+    /// Lines of numbers and nothing else: points, or a table.
+    Numbers,
+    /// An eos model.
+    Eos,
+    /// An old Surrey model (.scm).
+    Scm,
+    /// Point numbers, mean, basis and variances one after the other (point.pca).
+    PointPca,
+    /// An expression basis of Deep3D, which lacks its standard deviations.
+    Deep3d,
+}
+
+impl Content {
+    /// What it is called in messages.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Hdf5 => "HDF5 file",
+            Self::Mat5 | Self::Mat4 => "MATLAB file",
+            Self::Npy => "NumPy array",
+            Self::Zip => "ZIP archive",
+            Self::Gzip => "gzip file",
+            Self::Pickle => "Python pickle",
+            Self::Ply => "PLY mesh",
+            Self::Vtk | Self::Vtp => "VTK mesh",
+            Self::Stl => "STL mesh",
+            Self::Obj => "OBJ mesh",
+            Self::Tps => "TPS landmark file",
+            Self::Json => "JSON file",
+            Self::Clmtrackr => "clmtrackr model",
+            Self::Numbers => "table of numbers",
+            Self::Eos => "eos model",
+            Self::Scm => "Surrey model",
+            Self::PointPca => "point.pca model",
+            Self::Deep3d => "Deep3D expression basis",
+        }
+    }
+}
+
+/// What `input` is.
+pub(crate) fn sniff(input: &Input) -> Result<Content, FormatError> {
+    let start = input.start(LOOKED_AT)?;
+    content_of(input, &start).ok_or_else(|| unknown(&start).of(&input.name))
+}
+
+fn content_of(input: &Input, start: &[u8]) -> Option<Content> {
+    let length = input.len();
+    let is_signature = |offset: &usize| start.get(*offset..).is_some_and(|at| at.starts_with(HDF5));
+    if [0, 512, 1024, 2048].iter().any(is_signature) {
+        return Some(Content::Hdf5);
+    }
+    for (magic, content) in [
+        (&b"PK\x03\x04"[..], Content::Zip),
+        (b"PK\x05\x06", Content::Zip),
+        (b"\x1f\x8b", Content::Gzip),
+        (b"\x93NUMPY", Content::Npy),
+    ] {
+        if start.starts_with(magic) {
+            return Some(content);
+        }
+    }
+    if start.len() >= 128
+        && matches!(&start[124..128], [_, _, b'I', b'M'] | [_, _, b'M', b'I'])
+        && start.starts_with(b"MATLAB 5.0 MAT-file")
+    {
+        return Some(Content::Mat5);
+    }
+    if is_pickle(start) {
+        return Some(Content::Pickle);
+    }
+    // Binary STL may start with anything, `solid` too; its size gives it away.
+    if let Some(count) = integer(start, 80)
+        && length == 84 + 50 * u64::from(count)
+        && count > 0
+    {
+        return Some(Content::Stl);
+    }
+    if let Some(content) = text_of(start, length) {
+        return Some(content);
+    }
+    if is_hdf5_further_on(input) {
+        return Some(Content::Hdf5);
+    }
+    chain_of_sizes(start, length)
+}
+
+/// HDF5's signature may stand at any power of two. Files are not asked that are something else for
+/// sure: each place is a read, and a population has hundreds of files.
+fn is_hdf5_further_on(input: &Input) -> bool {
+    core::iter::successors(Some(LOOKED_AT as u64), |offset| offset.checked_mul(2))
+        .take_while(|offset| offset + 8 <= input.len())
+        .any(|offset| {
+            let mut found = [0; 8];
+            input.storage().read_at(offset, &mut found).is_ok() && found == HDF5
+        })
+}
+
+fn is_pickle(start: &[u8]) -> bool {
+    matches!(start, [0x80, 2..=5, ..])
+        || [&b"(dp"[..], b"}q\x00(", b"}(", b"(lp", b"]q\x00("]
+            .iter()
+            .any(|begin| start.starts_with(begin))
+        || names_a_class(start)
+}
+
+/// Whether this starts with a class as protocols 0 and 1 name it: `c`, module and name in two lines,
+/// then an instruction that may follow.
+fn names_a_class(start: &[u8]) -> bool {
+    let Some(rest) = start.strip_prefix(b"c") else { return false };
+    let mut lines = rest.splitn(3, |&byte| byte == b'\n');
+    let is_name = |line: Option<&[u8]>| {
+        line.is_some_and(|line| {
+            !line.is_empty()
+                && line.iter().all(|byte| byte.is_ascii_alphanumeric() || b"_.".contains(byte))
+        })
+    };
+    is_name(lines.next())
+        && is_name(lines.next())
+        && lines.next().is_some_and(|next| matches!(next, [b'p' | b'q' | b'(' | b')', ..]))
+}
+
+fn text_of(start: &[u8], length: u64) -> Option<Content> {
+    // The last line may be cut; so may the last character.
+    let text = match core::str::from_utf8(start) {
+        Ok(text) => text,
+        Err(error) if error.error_len().is_none() => {
+            core::str::from_utf8(&start[..error.valid_up_to()]).ok()?
+        }
+        Err(_) => {
+            // Binary PLY and VTK start with lines of text.
+            let end = start.iter().position(|byte| !byte.is_ascii()).unwrap_or(start.len());
+            core::str::from_utf8(&start[..end]).ok()?
+        }
+    };
+    let text = text.trim_start_matches('\u{feff}').trim_start();
+    if text.starts_with("ply\n") || text.starts_with("ply\r\n") || text.starts_with("ply\r") {
+        return Some(Content::Ply);
+    }
+    if text.starts_with("# vtk DataFile Version") {
+        return Some(Content::Vtk);
+    }
+    if text.starts_with("<VTKFile") || text.starts_with("<?xml") && text.contains("<VTKFile") {
+        return Some(Content::Vtp);
+    }
+    if text.starts_with("solid") && text.contains("facet") {
+        return Some(Content::Stl);
+    }
+    if text.starts_with('{') {
+        return Some(Content::Json);
+    }
+    if start.contains(&0) {
+        return None;
+    }
+    let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty());
+    let upper = |line: &str| line.to_ascii_uppercase();
+    if lines()
+        .take(20)
+        .any(|line| upper(line).starts_with("LM=") || upper(line).starts_with("LM3="))
+    {
+        return Some(Content::Tps);
+    }
+    let first_word = |line: &str| line.split_whitespace().next().unwrap_or_default().to_owned();
+    if lines().take(200).any(|line| first_word(line) == "v" && line.split_whitespace().count() >= 4)
+        && lines().take(200).all(|line| {
+            line.starts_with('#')
+                || matches!(
+                    first_word(line).as_str(),
+                    "v" | "vn"
+                        | "vt"
+                        | "vp"
+                        | "f"
+                        | "l"
+                        | "o"
+                        | "g"
+                        | "s"
+                        | "p"
+                        | "mtllib"
+                        | "usemtl"
+                )
+                || (length > LOOKED_AT as u64 && text.ends_with(line))
+        })
+    {
+        return Some(Content::Obj);
+    }
+    if text.contains("shapeModel") || text.contains("clmtrackr") || text.contains("pModel") {
+        return Some(Content::Clmtrackr);
+    }
+    // The points of face alignment (`.pts`), and columns that say what they are.
+    let first_line = lines().next().unwrap_or_default().to_lowercase();
+    let is_pts = first_line.starts_with("version:") && text.contains("n_points:");
+    if is_pts || matches!(first_line.replace([' ', ';', '\t'], ",").as_str(), "x,y" | "x,y,z") {
+        return Some(Content::Numbers);
+    }
+    let is_number = |word: &str| word.parse::<f64>().is_ok();
+    let complete =
+        if length > LOOKED_AT as u64 { lines().count().saturating_sub(1) } else { usize::MAX };
+    let numeric = |line: &str| {
+        line.starts_with('#')
+            || line.split([' ', '\t', ',', ';']).filter(|word| !word.is_empty()).all(is_number)
+    };
+    // A table wider than what is looked at is one line that is cut in its last number.
+    let one_cut_line = complete == 0
+        && lines().next().is_some_and(|line| {
+            line.rsplit_once([' ', '\t', ',', ';']).is_some_and(|(whole, _)| numeric(whole))
+        });
+    (one_cut_line
+        || complete > 0 && lines().next().is_some() && lines().take(complete).all(numeric))
+    .then_some(Content::Numbers)
+}
+
+/// Formats without a magic number, whose sizes must fit one another.
+fn chain_of_sizes(start: &[u8], length: u64) -> Option<Content> {
+    let at = |offset: usize| integer(start, offset).map(u64::from);
+    let [first, second, third] = [at(0)?, at(4)?, at(8)?];
+    // MAT v4: type, rows, columns, whether complex, length of the name, then the name and its NUL.
+    // Its name tells it from all others, so it comes first.
+    let [complex, name_length] = [at(12).unwrap_or(0), at(16).unwrap_or(0)];
+    let header = |kind: u64| kind <= 4052 && kind % 10 <= 2 && kind / 10 % 10 <= 5;
+    let swapped = |number: u64| u64::from(u32::try_from(number).unwrap_or(0).swap_bytes());
+    let plausible = |[kind, complex, name_length]: [u64; 3]| {
+        header(kind)
+            && complex <= 1
+            && (2..64).contains(&name_length)
+            && usize::try_from(name_length).is_ok_and(|name_length| {
+                start.get(20..20 + name_length).is_some_and(|name| {
+                    name[name.len() - 1] == 0
+                        && name[..name.len() - 1]
+                            .iter()
+                            .all(|byte| byte.is_ascii_alphanumeric() || *byte == b'_')
+                })
+            })
+    };
+    if plausible([first, complex, name_length])
+        || plausible([first, complex, name_length].map(swapped))
+    {
+        return Some(Content::Mat4);
+    }
+    // eos: version, rows D and the single column of the mean; or a bare PCA model without version.
+    let fits = |rows: u64, columns: u64| {
+        rows > 0 && rows.is_multiple_of(3) && columns == 1 && 4 * rows < length
+    };
+    if first < 16 && fits(second, third) || fits(first, second) {
+        return Some(Content::Eos);
+    }
+    // eos: a bare list of blendshapes, with 64-bit counts.
+    if first > 0 && first < 10_000 && second == 0 && third > 0 && third < 256 && at(12)? == 0 {
+        let name = 16 + usize::try_from(third).ok()?;
+        if at(name).is_some_and(|rows| fits(rows, at(name + 4).unwrap_or(0))) {
+            return Some(Content::Eos);
+        }
+    }
+    // Surrey .scm: points, triangles, then triangles of 12 bytes each.
+    if first > 2 && second > 0 && 8 + 12 * second < length && third < first {
+        let corners = (2..(start.len() / 4).min(2 + 3 * usize::try_from(second).ok()?))
+            .all(|word| at(4 * word).is_some_and(|corner| corner < first));
+        if corners {
+            return Some(Content::Scm);
+        }
+    }
+    // point.pca: D, q, then D·q + D + q numbers of 8 bytes.
+    let doubles = u128::from(first) * u128::from(second) + u128::from(first + second);
+    if first > 0 && second > 0 && u128::from(length) == 8 + 8 * doubles {
+        return Some(Content::PointPca);
+    }
+    // Deep3D: q, then q + 1 times the numbers of a shape, of 4 bytes and of plausible size.
+    let plausible = |number: u64| {
+        let number = f32::from_bits(u32::try_from(number).unwrap_or(0));
+        number == 0.0 || (1e-20..1e9).contains(&number.abs())
+    };
+    let fits = (1..=1000).contains(&first) && (length - 4).is_multiple_of(12 * (first + 1));
+    let words = (start.len() / 4).min(100);
+    (fits && words > 3 && (1..words).all(|word| at(4 * word).is_some_and(plausible)))
+        .then_some(Content::Deep3d)
+}
+
+fn integer(bytes: &[u8], offset: usize) -> Option<u32> {
+    let bytes = bytes.get(offset..offset.checked_add(4)?)?;
+    Some(u32::from_le_bytes(bytes.try_into().ok()?))
+}
+
+/// What a file is that no format knows.
+fn unknown(bytes: &[u8]) -> Fault {
+    const MOST_BYTES: usize = 8;
+    let start = String::from_utf8_lossy(&bytes[..bytes.len().min(1024)]).to_lowercase();
+    let start = start.trim_start_matches('\u{feff}').trim_start();
+    if bytes.is_empty() {
+        Fault::Empty
+    } else if start.starts_with("<!doctype") || start.starts_with("<html") {
+        Fault::WebPage
+    } else if start.starts_with("version https://git-lfs") {
+        let size = start.lines().find_map(|line| line.strip_prefix("size ")?.trim().parse().ok());
+        Fault::LfsPointer { size }
+    } else {
+        Fault::Unknown { start: bytes[..bytes.len().min(MOST_BYTES)].to_vec() }
+    }
+}

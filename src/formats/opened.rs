@@ -1,0 +1,63 @@
+//! What opening files gives: one model, its parts, and where it comes from.
+
+use crate::model::{BasisCheck, LinearModel};
+
+/// How to read what can be read in more than one way.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Options {
+    /// The part wanted of a file of several models; the one to show first when left out.
+    pub part: Option<String>,
+    /// Whether shapes of a set are also brought to one size before a model is made of them.
+    pub scale: bool,
+}
+
+/// One model that was read from a file or from several.
+#[derive(Debug, Clone)]
+pub struct Opened {
+    /// The format, in words: "statismo HDF5 0.9".
+    pub format: String,
+    /// Names of all models in it, the one to show first in front; at least one.
+    pub parts: Vec<String>,
+    /// The model that was read.
+    pub part: Part,
+}
+
+/// One model of a file.
+#[derive(Debug, Clone)]
+pub struct Part {
+    /// "shape", "expression", "color", or a group's name; one of [`Opened::parts`].
+    pub name: String,
+    /// The model; its name is the file's, with `#part` when the file holds several.
+    pub model: LinearModel,
+    /// What the thin SVD found.
+    pub check: BasisCheck,
+    /// Where the model comes from.
+    pub origin: Origin,
+    /// For every point its number in a larger mesh, where the file says so: a crop's own index map.
+    pub map: Option<Vec<u32>>,
+    /// What the reader should know, each one sentence.
+    pub notes: Vec<String>,
+}
+
+/// Where a model comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "camelCase", tag = "kind")]
+pub enum Origin {
+    /// It was in the file.
+    #[default]
+    File,
+    /// Made here from shapes in correspondence.
+    Shapes {
+        /// How many shapes.
+        count: usize,
+        /// Whether they were brought to one size.
+        scaled: bool,
+    },
+    /// Made here from a sampled population of a neutral shape and its displacements.
+    Blendshapes {
+        /// How many displacements.
+        count: usize,
+        /// How many shapes were sampled.
+        sampled: usize,
+    },
+}

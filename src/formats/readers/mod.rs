@@ -1,0 +1,17 @@
+//! Readers of models, one file a format: which arrays of a file are the mean, the modes, the variances.
+
+pub(crate) mod assemble;
+pub(crate) mod cells;
+pub(crate) mod clmtrackr;
+pub(crate) mod components;
+pub(crate) mod deep3d;
+pub(crate) mod eos;
+pub(crate) mod known_layouts;
+pub(crate) mod mean_and_tables;
+pub(crate) mod named_arrays;
+pub(crate) mod plain_json;
+pub(crate) mod point_pca;
+pub(crate) mod sampled_blendshapes;
+pub(crate) mod shapeworks;
+pub(crate) mod statismo;
+pub(crate) mod surrey;

@@ -1,0 +1,438 @@
+//! Populations: shapes in correspondence, of which a model is made.
+//!
+//! All shapes must have the same points in the same order, which is seen from their number and from
+//! their faces. They are moved onto their mean by generalised Procrustes analysis (rotation and
+//! translation; size too when asked for), and principal components with divisor N − 1 are the
+//! model: at most N − 1 modes. Line meshes that all lie in planes of equal z are two-dimensional.
+//!
+//! The model lives in the frame of the first shape. Two populations must be aligned to each other
+//! before they are compared.
+//!
+//! **Limits.** At least three shapes. Whether points of the same number mean the same place cannot be
+//! seen from files.
+//!
+//! **References.** Gower, "Generalized Procrustes analysis", Psychometrika 40 (1975); Dryden & Mardia,
+//! "Statistical Shape Analysis", 2nd ed. (2016), chapter 7.
+
+use crate::formats::error::{Fault, counted};
+use crate::formats::input::Input;
+use crate::formats::input::compressed;
+use crate::formats::input::paths;
+use crate::formats::input::sniffing::Content;
+use crate::formats::mesh::stl::Welding;
+use crate::formats::mesh::{self, stl};
+use crate::formats::mesh::{Mesh, tps};
+use crate::formats::readers::cells;
+use crate::formats::several::naming::name_of;
+use crate::formats::{FormatError, Opened, Options, Origin, Part};
+use crate::model::{
+    Alignment, BasisCheck, Cells, ModelError, generalised_procrustes, into_principal_components,
+};
+use nalgebra::DMatrix;
+
+/// Largest root mean square deviation from the mean, relative to the size of the shapes, that single
+/// precision explains.
+const ROUNDING: f64 = 3e-7;
+
+/// Makes a model of shapes, one or several in each file.
+pub(crate) fn read(inputs: &[Input], options: &Options) -> Result<Opened, FormatError> {
+    let name = name_of(inputs);
+    let (inputs, local) = without_local(inputs);
+    let mut shapes = Shapes::default();
+    for input in inputs {
+        shapes.add_file(input)?;
+    }
+    let format = shapes.format();
+    let part = shapes.into_part(&name, local, options).map_err(|fault| fault.of(&name))?;
+    if let Some(wanted) = &options.part
+        && *wanted != part.name
+    {
+        let parts = vec![part.name];
+        return Err(Fault::NoPart { part: wanted.clone(), parts }.of(&name));
+    }
+    Ok(Opened { format, parts: vec![part.name.clone()], part })
+}
+
+/// Shapes in correspondence, as they are in their files.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShapeSet {
+    /// Coordinates per point.
+    pub dimension: usize,
+    /// Points of all shapes, one shape a column (d·n × N).
+    pub shapes: DMatrix<f64>,
+}
+
+/// Reads the shapes of files or archives, one or several in each, without making a model of them. Files of
+/// no known format beside shapes are left out, unless their names end as theirs do.
+///
+/// # Errors
+/// [`FormatError`] of the first file that has none, or that does not correspond to the first.
+pub fn read_shapes(inputs: &[Input]) -> Result<ShapeSet, FormatError> {
+    let name = name_of(inputs);
+    let mut files = Vec::new();
+    for input in inputs {
+        files.extend(compressed::files_in(input)?);
+    }
+    let mut inputs = paths::in_order(&files);
+    let contents: Vec<_> = inputs.iter().map(|input| compressed::content(input).ok()).collect();
+    let shape_endings: Vec<String> = inputs
+        .iter()
+        .zip(&contents)
+        .filter(|(_, content)| content.is_some_and(mesh::is_shape))
+        .map(|(input, _)| paths::ending(input.file_name()))
+        .collect();
+    if !shape_endings.is_empty() {
+        let mut contents = contents.iter();
+        inputs.retain(|input| {
+            contents.next().is_some_and(Option::is_some)
+                || shape_endings.contains(&paths::ending(input.file_name()))
+        });
+    }
+    let mut shapes = Shapes::default();
+    for input in without_local(&inputs).0 {
+        shapes.add_file(input)?;
+    }
+    let (dimension, shapes, ..) = shapes.into_matrix().ok_or_else(|| Fault::Empty.of(&name))?;
+    Ok(ShapeSet { dimension, shapes })
+}
+
+/// ShapeWorks writes each shape twice: `_world` is aligned, `_local` as it was. Returns the aligned
+/// ones where there are some, and how many were left out.
+fn without_local(inputs: &[Input]) -> (Vec<&Input>, usize) {
+    let ends = |input: &Input, end: &str| paths::stem(input.file_name()).ends_with(end);
+    if !inputs.iter().any(|input| ends(input, "_world")) {
+        return (inputs.iter().collect(), 0);
+    }
+    let kept: Vec<&Input> = inputs.iter().filter(|input| !ends(input, "_local")).collect();
+    let left_out = inputs.len() - kept.len();
+    (kept, left_out)
+}
+
+/// Shapes in correspondence with the first of them.
+#[derive(Debug, Default)]
+pub(crate) struct Shapes {
+    first: Option<First>,
+    /// Points of all shapes, one after the other.
+    values: Vec<f64>,
+    count: usize,
+    contents: Vec<Content>,
+    scales: Vec<Option<f64>>,
+    notes: Vec<String>,
+}
+
+/// What all further shapes must agree with.
+#[derive(Debug)]
+struct First {
+    name: String,
+    dimension: usize,
+    points: usize,
+    cells: Cells,
+    welding: Option<Welding>,
+}
+
+impl Shapes {
+    /// Number of shapes.
+    pub(crate) fn count(&self) -> usize {
+        self.count
+    }
+
+    /// "PLY meshes", "TPS landmarks".
+    pub(crate) fn format(&self) -> String {
+        let name = |content: &Content| match content {
+            Content::Ply => "PLY meshes",
+            Content::Obj => "OBJ meshes",
+            Content::Stl => "STL meshes",
+            Content::Vtk | Content::Vtp => "VTK meshes",
+            Content::Tps => "TPS landmarks",
+            _ => "lists of points",
+        };
+        let mut names: Vec<&str> = self.contents.iter().map(name).collect();
+        names.sort_unstable();
+        names.dedup();
+        names.join(" and ")
+    }
+
+    /// Adds the shape of a file, or all of its shapes.
+    pub(crate) fn add_file(&mut self, input: &Input) -> Result<(), FormatError> {
+        let input = compressed::unpacked(input)?;
+        let content = crate::formats::input::sniffing::sniff(&input)?;
+        let bytes = input.bytes()?;
+        let refused = |fault: Fault| fault.of(&input.name);
+        self.contents.push(content);
+        match content {
+            Content::Stl => {
+                let corners = stl::corners(&bytes).map_err(refused)?;
+                self.add_corners(&input.name, &corners)
+            }
+            Content::Tps => {
+                let specimens = tps::read(&bytes).map_err(refused)?;
+                let several = specimens.len() > 1;
+                for (index, specimen) in specimens.into_iter().enumerate() {
+                    let name = if several {
+                        format!("{}, specimen {}", input.name, index + 1)
+                    } else {
+                        input.name.clone()
+                    };
+                    self.scales.push(specimen.scale);
+                    self.add(&name, specimen.mesh)?;
+                }
+                Ok(())
+            }
+            content if !mesh::is_shape(content) => {
+                Err(refused(Fault::NoShape { format: content.name() }))
+            }
+            content => {
+                let mesh = mesh::read(content, &bytes).map_err(refused)?;
+                self.add(&input.name, mesh)
+            }
+        }
+    }
+
+    fn add_corners(&mut self, name: &str, corners: &[[f64; 3]]) -> Result<(), FormatError> {
+        if self.first.is_none() {
+            let welding = Welding::of(corners);
+            let mesh = welding.mesh(corners).map_err(|fault| fault.of(name))?;
+            self.notes.push(
+                "STL files have no point numbers: corners that are equal in the first of them are one \
+                 point in all."
+                    .to_owned(),
+            );
+            self.add(name, mesh)?;
+            if let Some(first) = &mut self.first {
+                first.welding = Some(welding);
+            }
+            return Ok(());
+        }
+        let own;
+        let welding = match self.first.as_ref().and_then(|first| first.welding.as_ref()) {
+            Some(welding) => welding,
+            None => {
+                own = Welding::of(corners);
+                &own
+            }
+        };
+        let first = self.first.as_ref().map(|first| first.name.as_str()).unwrap_or_default();
+        let difference = if corners.len() != welding.corner_count() {
+            Some(format!(
+                "It has {} faces, {first} has {}",
+                grouped(corners.len() / 3),
+                grouped(welding.corner_count() / 3)
+            ))
+        } else {
+            welding.disagreement(corners).map(|[one, other]| {
+                format!(
+                    "A corner of face {} and one of face {} are one point in {first}, but lie apart here",
+                    grouped(one / 3 + 1),
+                    grouped(other / 3 + 1)
+                )
+            })
+        };
+        if let Some(difference) = difference {
+            return Err(Fault::Correspondence { difference }.of(name));
+        }
+        let mesh = welding.mesh(corners).map_err(|fault| fault.of(name))?;
+        self.add(name, mesh)
+    }
+
+    /// Adds a shape, if it corresponds to the first.
+    fn add(&mut self, name: &str, mesh: Mesh) -> Result<(), FormatError> {
+        match &self.first {
+            None => {
+                self.notes.extend(mesh.notes.iter().cloned());
+                self.first = Some(First {
+                    name: name.to_owned(),
+                    dimension: mesh.dimension,
+                    points: mesh.point_count(),
+                    cells: mesh.cells,
+                    welding: None,
+                });
+            }
+            Some(first) => {
+                if let Some(difference) = difference(first, &mesh) {
+                    return Err(Fault::Correspondence { difference }.of(name));
+                }
+            }
+        }
+        let claimed = (self.values.len() + mesh.points.len()) as u64 * 8;
+        let full = |_| {
+            Fault::Size { what: "The set of shapes".to_owned(), claimed, limit: claimed / 2 }
+                .of(name)
+        };
+        self.values.try_reserve(mesh.points.len()).map_err(full)?;
+        self.values.extend_from_slice(&mesh.points);
+        self.count += 1;
+        Ok(())
+    }
+
+    /// Points of all shapes (d·n × N), how they are drawn, their dimension, and what there is to say.
+    pub(crate) fn into_matrix(mut self) -> Option<(usize, DMatrix<f64>, Cells, Vec<String>)> {
+        let First { mut dimension, points, cells, .. } = self.first?;
+        let length = dimension * points;
+        if !self.scales.is_empty() && self.scales.iter().all(Option::is_some) {
+            for (shape, scale) in self.values.chunks_exact_mut(length).zip(&self.scales) {
+                shape.iter_mut().for_each(|value| *value *= scale.unwrap_or(1.0));
+            }
+            self.notes
+                .push("The landmarks were multiplied by the SCALE of each specimen.".to_owned());
+        } else if self.scales.iter().any(Option::is_some) {
+            let note = "Only some specimens have a SCALE, so none was used.";
+            self.notes.push(note.to_owned());
+        }
+        let is_line = matches!(cells, Cells::Segments(_));
+        let is_flat = |shape: &[f64]| shape.iter().skip(2).step_by(3).all(|z| *z == shape[2]);
+        if dimension == 3 && is_line && self.values.chunks_exact(length).all(is_flat) {
+            dimension = 2;
+            let mut place = 0;
+            self.values.retain(|_| {
+                place += 1;
+                place % 3 != 0
+            });
+            let note = "All points of a contour have the same z: it was taken as two-dimensional.";
+            self.notes.push(note.to_owned());
+        }
+        let matrix = DMatrix::from_vec(dimension * points, self.count, self.values);
+        Some((dimension, matrix, cells, self.notes))
+    }
+
+    fn into_part(self, name: &str, local: usize, options: &Options) -> Result<Part, Fault> {
+        let count = self.count;
+        if count < 3 {
+            return Err(Fault::Model(ModelError::TooFewShapes { found: count }));
+        }
+        let Some((dimension, mut shapes, mut drawn, file_notes)) = self.into_matrix() else {
+            return Err(Fault::Empty);
+        };
+        let alignment = if options.scale { Alignment::Similarity } else { Alignment::Rigid };
+        let mean = generalised_procrustes(dimension, &mut shapes, alignment);
+        if mean.iter().any(|value| !value.is_finite()) || varies_by(&shapes, dimension) <= ROUNDING
+        {
+            return Err(Fault::SameShapes { count });
+        }
+        let model = into_principal_components(dimension, shapes).map_err(Fault::Model)?;
+        let mut notes = vec![format!(
+            "Made of {count} shapes, moved and turned onto their mean {}: {}.",
+            if options.scale { "and brought to one size" } else { "without changing their size" },
+            counted(model.mode_count(), "mode", "modes"),
+        )];
+        if local > 0 {
+            let files = counted(local, "file", "files");
+            notes.push(format!("{files} of unaligned points (`_local`) were left out."));
+        }
+        notes.extend(file_notes);
+        notes.extend(cells::turn_outwards(&mut drawn, model.mean().as_slice(), dimension));
+        let model = model.with_cells(drawn).map_err(Fault::Model)?.with_name(name);
+        Ok(Part {
+            name: "shape".to_owned(),
+            model,
+            check: BasisCheck { orthogonality_error: 0.0, dropped_modes: 0 },
+            origin: Origin::Shapes { count, scaled: options.scale },
+            map: None,
+            notes,
+        })
+    }
+}
+
+/// Root mean square deviation from the mean shape, relative to its size.
+fn varies_by(shapes: &DMatrix<f64>, dimension: usize) -> f64 {
+    let mean = shapes.column_mean();
+    let points = (mean.len() / dimension) as f64;
+    let mut size = 0.0;
+    for axis in 0..dimension {
+        let along = || mean.iter().skip(axis).step_by(dimension);
+        let centre = along().sum::<f64>() / points;
+        size += along().map(|value| (value - centre) * (value - centre)).sum::<f64>();
+    }
+    let spread: f64 = shapes.column_iter().map(|shape| (shape - &mean).norm_squared()).sum();
+    let spread = spread / shapes.ncols() as f64;
+    if size > 0.0 { (spread / size).sqrt() } else { 0.0 }
+}
+
+/// How `mesh` differs from the first shape; `None` when it may correspond to it.
+fn difference(first: &First, mesh: &Mesh) -> Option<String> {
+    let name = &first.name;
+    if mesh.dimension != first.dimension {
+        return Some(format!(
+            "Its points have {} coordinates, those of {name} {}",
+            mesh.dimension, first.dimension
+        ));
+    }
+    if mesh.point_count() != first.points {
+        return Some(format!(
+            "It has {}, {name} has {}",
+            points(mesh.point_count()),
+            grouped(first.points)
+        ));
+    }
+    if same_cells(&mesh.cells, &first.cells) {
+        return None;
+    }
+    let (found, expected) = (cell_count(&mesh.cells), cell_count(&first.cells));
+    Some(if found == expected {
+        format!("Its faces join other points than those of {name}")
+    } else {
+        format!("It has {} faces, {name} has {}", grouped(found), grouped(expected))
+    })
+}
+
+fn cell_count(cells: &Cells) -> usize {
+    match cells {
+        Cells::None => 0,
+        Cells::Segments(segments) => segments.len(),
+        Cells::Triangles(triangles) => triangles.len(),
+    }
+}
+
+/// Whether the same points are joined, in whatever order.
+fn same_cells(a: &Cells, b: &Cells) -> bool {
+    fn sorted<const K: usize>(cells: &[[u32; K]]) -> Vec<[u32; K]> {
+        let mut cells = cells.to_vec();
+        cells.iter_mut().for_each(|cell| cell.sort_unstable());
+        cells.sort_unstable();
+        cells
+    }
+    a == b
+        || match (a, b) {
+            (Cells::Segments(a), Cells::Segments(b)) => sorted(a) == sorted(b),
+            (Cells::Triangles(a), Cells::Triangles(b)) => sorted(a) == sorted(b),
+            _ => false,
+        }
+}
+
+/// "1 point", "4,388 points".
+fn points(count: usize) -> String {
+    format!("{} {}", grouped(count), if count == 1 { "point" } else { "points" })
+}
+
+/// A whole number with a comma before each three digits.
+fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (place, digit) in digits.chars().enumerate() {
+        if place > 0 && (digits.len() - place).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_grouped_by_thousands() {
+        for (number, text) in [(0, "0"), (999, "999"), (4_388, "4,388"), (1_000_000, "1,000,000")] {
+            assert_eq!(grouped(number), text, "{number}");
+        }
+    }
+
+    #[test]
+    fn faces_in_another_order_or_wound_the_other_way_are_the_same() {
+        let faces = |rows: &[[u32; 3]]| Cells::Triangles(rows.to_vec());
+        let whole = faces(&[[0, 1, 2], [0, 2, 3]]);
+        assert!(same_cells(&whole, &faces(&[[3, 2, 0], [1, 2, 0]])), "the same");
+        assert!(!same_cells(&whole, &faces(&[[0, 1, 3], [1, 2, 3]])), "the other diagonal");
+        assert!(!same_cells(&whole, &Cells::None), "no faces");
+    }
+}

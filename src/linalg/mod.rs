@@ -1,0 +1,13 @@
+//! Linear algebra of tall matrices: thin singular value decomposition, products, and where they run.
+
+mod combination;
+pub(crate) mod parallel;
+mod product;
+pub(crate) mod simd;
+mod thin_svd;
+
+pub(crate) use combination::{Sum, combined};
+pub use product::{cross, gram, product};
+pub(crate) use product::{product_in_place, product_of, row_squares_of};
+pub use thin_svd::{ThinSvd, thin_svd};
+pub(crate) use thin_svd::{into_thin_svd, singular_values};

@@ -1,0 +1,459 @@
+//! The joint basis of both models, and principal components of draws in it.
+//!
+//! All shapes of both models lie in m₁ + span[E₁, E₂, m₂ − m₁], at most q₁ + q₂ + 1 dimensions. PCA
+//! of the pooled draws is done there, exactly and in milliseconds; never in the d·n space.
+//!
+//! The basis itself is not held, but how it mixes those columns. With M = [E₂, δ], δ the direction from m₁
+//! to m₂, and K = E₁ᵀM, what of M lies beyond E₁ has the Gram matrix H = MᵀM − KᵀK = W diag(s²) Wᵀ, s the
+//! sines of the principal angles, and (M − E₁K) W/s is an orthonormal basis of it. H has s² to 10⁻¹⁶,
+//! which is enough for sines above 0.03. The directions below, nearly inside A, are formed, taken
+//! apart by a thin SVD that finds their sines to 10⁻¹⁶, and made orthogonal twice.
+//! Cost: 2·d·n·q₁·q₂; memory: nothing in d·n but the directions nearly inside.
+//!
+//! Both sides count equally, by moments: C = ½ΣCᵢ + ½Σ(mᵢ − m)(mᵢ − m)ᵀ. Weighing them by their
+//! evidence is no use: L_P is not normalised on a common measure, so the evidence of a side
+//! depends on the volume of its own coordinates.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::linalg::{cross, gram, product_of, row_squares_of};
+use crate::linalg::{product, thin_svd};
+use crate::model::{LinearModel, lengths};
+
+/// Directions of B's basis that lie in A's to this share are not new ones.
+const SMALLEST_NEW_DIRECTION: f64 = 1e-9;
+/// Sines below which a direction is formed.
+const NEARLY_INSIDE: f64 = 0.03;
+/// Directions that are formed together.
+const BATCH: usize = 16;
+/// Eigenvalues of the intersection below this share of the largest are rounding.
+const SMALLEST_EIGENVALUE: f64 = 1e-10;
+
+/// Mean and covariance in some coordinates.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Moments {
+    /// Mean (p).
+    pub mean: DVector<f64>,
+    /// Covariance (p × p).
+    pub covariance: DMatrix<f64>,
+}
+
+impl Moments {
+    /// Of draws (divisor N − 1), each of `dimension` numbers; zeros when there are fewer than two.
+    pub fn of<'a>(draws: impl Iterator<Item = &'a [f64]> + Clone, dimension: usize) -> Self {
+        let count = draws.clone().count() as f64;
+        let mut mean = DVector::zeros(dimension);
+        for draw in draws.clone() {
+            mean += DVector::from_column_slice(draw);
+        }
+        mean /= count.max(1.0);
+        let mut centred = DMatrix::zeros(draws.clone().count(), dimension);
+        for (row, draw) in draws.enumerate() {
+            for (column, (value, centre)) in draw.iter().zip(mean.iter()).enumerate() {
+                centred[(row, column)] = value - centre;
+            }
+        }
+        Self { mean, covariance: gram(&centred) / (count - 1.0).max(1.0) }
+    }
+
+    /// Of the equal mixture of two laws.
+    pub fn pooled(first: &Self, second: &Self) -> Self {
+        let mean = (&first.mean + &second.mean) * 0.5;
+        let apart = (&first.mean - &second.mean) * 0.5;
+        let covariance =
+            (&first.covariance + &second.covariance) * 0.5 + &apart * apart.transpose();
+        Self { mean, covariance }
+    }
+
+    /// F with F Fᵀ = covariance: Cholesky with pivots, as many columns as the rank.
+    pub fn factor(&self) -> DMatrix<f64> {
+        let size = self.mean.len();
+        let mut rest = self.covariance.clone();
+        let floor = f64::EPSILON * rest.diagonal().iter().copied().fold(0.0, f64::max);
+        let mut columns: Vec<DVector<f64>> = Vec::new();
+        while columns.len() < size {
+            let (pivot, largest) = rest.diagonal().argmax();
+            if largest <= floor {
+                break;
+            }
+            let column = rest.column(pivot) / largest.sqrt();
+            rest.ger(-1.0, &column, &column, 1.0);
+            columns.push(column);
+        }
+        if columns.is_empty() { DMatrix::zeros(size, 0) } else { DMatrix::from_columns(&columns) }
+    }
+
+    /// Eigenvectors and eigenvalues of the covariance, largest first, without rounding.
+    pub fn principal_components(&self) -> (DMatrix<f64>, DVector<f64>) {
+        let (vectors, values) = eigen(self.covariance.clone());
+        let floor = SMALLEST_EIGENVALUE * values[0].max(0.0);
+        let kept = values.iter().take_while(|&&value| value > floor).count();
+        (vectors.columns(0, kept).into_owned(), values.rows(0, kept).into_owned())
+    }
+}
+
+/// Eigenvectors and eigenvalues of a symmetric matrix, largest first; the largest entry of every vector is
+/// positive.
+pub(crate) fn eigen(matrix: DMatrix<f64>) -> (DMatrix<f64>, DVector<f64>) {
+    let found = matrix.symmetric_eigen();
+    let mut order: Vec<usize> = (0..found.eigenvalues.len()).collect();
+    order.sort_by(|&i, &j| found.eigenvalues[j].total_cmp(&found.eigenvalues[i]));
+    let mut vectors = found.eigenvectors.select_columns(&order);
+    for mut vector in vectors.column_iter_mut() {
+        if vector[vector.iamax()] < 0.0 {
+            vector.neg_mut();
+        }
+    }
+    (vectors, found.eigenvalues.select_rows(&order))
+}
+
+/// A linear model in the joint basis: mean and principal components, none of them as a shape.
+#[derive(Debug, Clone, PartialEq)]
+pub struct JointModel {
+    /// Mean (p).
+    pub mean: DVector<f64>,
+    /// Orthonormal modes (p × q), largest variance first.
+    pub modes: DMatrix<f64>,
+    /// Their standard deviations (q).
+    pub standard_deviations: DVector<f64>,
+}
+
+impl JointModel {
+    /// Σ λᵢ, in the square of the unit.
+    pub fn total_variance(&self) -> f64 {
+        self.standard_deviations.norm_squared()
+    }
+}
+
+/// x = m₁ + B c for every shape of both models, B orthonormal (d·n × p).
+#[derive(Debug, Clone)]
+pub struct Joint {
+    /// Their bases are shared with those that were given.
+    pub(crate) models: [LinearModel; 2],
+    /// δ (d·n × 1), without a column when the means are the same.
+    pub(crate) apart: DMatrix<f64>,
+    /// F: directions that are nearly inside A (d·n × t).
+    pub(crate) formed: DMatrix<f64>,
+    /// How B mixes [E₁ E₂ δ F], as many rows as those have columns, × p.
+    pub(crate) mixing: DMatrix<f64>,
+    /// Bᵀ(mᵢ − m₁).
+    pub(crate) means: [DVector<f64>; 2],
+    /// BᵀUᵢ.
+    pub(crate) scaled: [DMatrix<f64>; 2],
+}
+
+impl Joint {
+    /// Spans both models (in the same frame).
+    pub fn new(a: &LinearModel, b: &LinearModel) -> Self {
+        let (inside, others) = (a.mode_count(), b.mode_count());
+        let apart = b.mean() - a.mean();
+        let length = apart.norm();
+        let directions = usize::from(length > 0.0);
+        let apart = DMatrix::from_fn(apart.len(), directions, |row, _| apart[row] / length);
+
+        // H, with the parts of E₂ᵀE₂ = I that are known.
+        let leaning = side_by_side(&[&cross(a.basis(), b.basis()), &cross(a.basis(), &apart)]);
+        let mut beyond = DMatrix::identity(others + directions, others + directions);
+        let across = cross(b.basis(), &apart);
+        beyond.view_mut((0, others), across.shape()).copy_from(&across);
+        beyond.view_mut((others, 0), (directions, others)).copy_from(&across.transpose());
+        beyond -= gram(&leaning);
+        let (vectors, squares) = eigen(beyond.clone());
+        let clear =
+            squares.iter().take_while(|&&value| value > NEARLY_INSIDE * NEARLY_INSIDE).count();
+        let mut turned = vectors.columns(0, clear).into_owned();
+        for (mut column, square) in turned.column_iter_mut().zip(squares.iter()) {
+            column /= square.sqrt();
+        }
+        // W/s has lost digits where s is small: by Cholesky it gets back those that H has.
+        let unit = cross(&turned, &product(&beyond, &turned)).cholesky();
+        if let Some(rows) =
+            unit.and_then(|unit| unit.l().solve_lower_triangular(&turned.transpose()))
+        {
+            turned = rows.transpose();
+        }
+        let seen_beyond = cross(&turned, &beyond);
+
+        let (rows, kept) = (inside + others + directions, inside + clear);
+        let mut mixing = DMatrix::zeros(rows, kept);
+        mixing.view_mut((0, 0), (inside, inside)).fill_with_identity();
+        mixing.view_mut((0, inside), (inside, clear)).copy_from(&-product(&leaning, &turned));
+        mixing.view_mut((inside, inside), turned.shape()).copy_from(&turned);
+        let mut joint = Self {
+            models: [a.clone(), b.clone()],
+            formed: DMatrix::zeros(apart.nrows(), 0),
+            apart,
+            mixing,
+            means: [DVector::zeros(0), DVector::zeros(0)],
+            scaled: [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)],
+        };
+        let nearly = vectors.columns(clear, others + directions - clear);
+        for first in (0..nearly.ncols()).step_by(BATCH) {
+            let count = BATCH.min(nearly.ncols() - first);
+            joint.form(&nearly.columns(first, count).into_owned());
+        }
+
+        // Bᵀ[E₂ δ] is K, (W/s)ᵀH and what the formed directions see.
+        let seen =
+            side_by_side(&[&cross(&joint.formed, b.basis()), &cross(&joint.formed, &joint.apart)]);
+        let coordinates = stacked(&[&leaning, &seen_beyond, &seen]);
+        let size = coordinates.nrows();
+        let mut scaled = coordinates.columns(0, others).into_owned();
+        for (mut column, deviation) in scaled.column_iter_mut().zip(b.standard_deviations().iter())
+        {
+            column *= *deviation;
+        }
+        let mut own = DMatrix::zeros(size, inside);
+        own.set_diagonal(a.standard_deviations());
+        joint.scaled = [own, scaled];
+        let mean = coordinates.columns(others, directions).column_sum() * length;
+        joint.means = [DVector::zeros(size), mean];
+        joint
+    }
+
+    /// Adds what there is beyond the basis in these mixtures of [E₂ δ], all nearly inside A.
+    fn form(&mut self, mixtures: &DMatrix<f64>) {
+        let remove =
+            |matrix: DMatrix<f64>| &matrix - self.shapes(&self.coordinates_of_columns(&matrix));
+        let columns = product_of(&[self.models[1].basis(), &self.apart], mixtures);
+        let beyond = remove(columns);
+        let floor = SMALLEST_NEW_DIRECTION / (BATCH as f64);
+        let inside: Vec<usize> =
+            (0..beyond.ncols()).filter(|&index| beyond.column(index).norm() <= floor).collect();
+        let svd = thin_svd(&beyond.remove_columns_at(&inside));
+        let new = svd.values.iter().take_while(|&&value| value > SMALLEST_NEW_DIRECTION).count();
+        if new == 0 {
+            return;
+        }
+        // They have lost digits to cancellation: once more.
+        let found = thin_svd(&remove(svd.left.columns(0, new).into_owned())).left;
+        self.formed = side_by_side(&[&self.formed, &found]);
+        let (rows, columns) = self.mixing.shape();
+        let mut mixing = DMatrix::zeros(rows + new, columns + new);
+        mixing.view_mut((0, 0), (rows, columns)).copy_from(&self.mixing);
+        mixing.view_mut((rows, columns), (new, new)).fill_with_identity();
+        self.mixing = mixing;
+    }
+
+    /// [E₁ E₂ δ F].
+    pub(crate) fn parts(&self) -> [&DMatrix<f64>; 4] {
+        [self.models[0].basis(), self.models[1].basis(), &self.apart, &self.formed]
+    }
+
+    /// BX for coordinates X (p × k), d·n × k: displacements, one a column.
+    pub fn shapes(&self, coordinates: &DMatrix<f64>) -> DMatrix<f64> {
+        product_of(&self.parts(), &product(&self.mixing, coordinates))
+    }
+
+    /// BᵀY for shapes Y (d·n × k), p × k.
+    fn coordinates_of_columns(&self, shapes: &DMatrix<f64>) -> DMatrix<f64> {
+        let seen = self.parts().map(|part| cross(part, shapes));
+        cross(&self.mixing, &stacked(&seen.each_ref()))
+    }
+
+    /// p.
+    pub fn dimension(&self) -> usize {
+        self.mixing.ncols()
+    }
+
+    /// B (d·n × p), formed.
+    pub fn basis(&self) -> DMatrix<f64> {
+        product_of(&self.parts(), &self.mixing)
+    }
+
+    /// m₁ (d·n).
+    pub fn origin(&self) -> &DVector<f64> {
+        self.models[0].mean()
+    }
+
+    /// The coordinates Bᵀx of a vector x (d·n, a displacement), and the length of what lies outside.
+    pub fn coordinates_of(&self, vector: &DVector<f64>) -> (DVector<f64>, f64) {
+        let column = DMatrix::from_column_slice(vector.len(), 1, vector.as_slice());
+        let inside = self.coordinates_of_columns(&column);
+        let outside = (&column - self.shapes(&inside)).norm();
+        (inside.column(0).into_owned(), outside)
+    }
+
+    /// The law of shapes of side 0 (A) or 1 (B) whose coefficients have the given moments.
+    pub fn lift(&self, side: usize, coefficients: &Moments) -> Moments {
+        let scaled = &self.scaled[side];
+        let half = product(scaled, &coefficients.covariance);
+        Moments {
+            mean: &self.means[side] + scaled * &coefficients.mean,
+            covariance: product(&half, &scaled.transpose()),
+        }
+    }
+
+    /// The orthonormal modes of model A (0) or B (1), p × q.
+    pub fn modes(&self, side: usize) -> DMatrix<f64> {
+        let mut modes = self.scaled[side].clone();
+        for mut column in modes.column_iter_mut() {
+            column /= column.norm();
+        }
+        modes
+    }
+
+    /// The mean of model A (0) or B (1), p.
+    pub fn mean(&self, side: usize) -> &DVector<f64> {
+        &self.means[side]
+    }
+
+    /// The prior law of model A (0) or B (1).
+    pub fn prior(&self, side: usize) -> Moments {
+        let rows = self.scaled[side].transpose();
+        Moments { mean: self.means[side].clone(), covariance: gram(&rows) }
+    }
+
+    /// The leading principal components, `most` at the most; `None` when nothing varies.
+    pub fn principal_components(&self, moments: &Moments, most: usize) -> Option<JointModel> {
+        let (vectors, values) = moments.principal_components();
+        let kept = values.len().min(most);
+        (kept > 0).then(|| JointModel {
+            mean: moments.mean.clone(),
+            modes: vectors.columns(0, kept).into_owned(),
+            standard_deviations: values.rows(0, kept).map(f64::sqrt),
+        })
+    }
+
+    /// The shape m₁ + B c (d·n) with coordinates c (p).
+    pub fn shape(&self, coordinates: &DVector<f64>) -> DVector<f64> {
+        let column = DMatrix::from_column_slice(coordinates.len(), 1, coordinates.as_slice());
+        self.origin() + self.shapes(&column).column(0)
+    }
+
+    /// Per-vertex standard deviation (n) of a model in this basis; its modes are not formed.
+    pub fn vertex_standard_deviations(&self, model: &JointModel) -> Vec<f64> {
+        let mut scaled = model.modes.clone();
+        for (mut column, deviation) in
+            scaled.column_iter_mut().zip(model.standard_deviations.iter())
+        {
+            column *= *deviation;
+        }
+        self.vertex_deviations(&scaled)
+    }
+
+    /// The same of a law whose coordinates have covariance F Fᵀ (F is p × k).
+    pub fn vertex_deviations(&self, factor: &DMatrix<f64>) -> Vec<f64> {
+        let squares = row_squares_of(&self.parts(), &product(&self.mixing, factor));
+        lengths(&squares, self.models[0].dimension())
+    }
+
+    /// A model in this basis as a model of shapes; this forms its modes (d·n × q).
+    pub fn formed(&self, model: &JointModel) -> LinearModel {
+        LinearModel::from_orthonormal(
+            self.models[0].dimension(),
+            self.shape(&model.mean),
+            self.shapes(&model.modes),
+            model.standard_deviations.clone(),
+        )
+    }
+
+    /// The model of the leading principal components, `most` at the most; `None` when nothing varies.
+    pub fn model(&self, moments: &Moments, most: usize) -> Option<LinearModel> {
+        Some(self.formed(&self.principal_components(moments, most)?))
+    }
+}
+
+/// [X₁ X₂ …]
+fn side_by_side(parts: &[&DMatrix<f64>]) -> DMatrix<f64> {
+    let columns = parts.iter().map(|part| part.ncols()).sum();
+    let values = parts.iter().flat_map(|part| part.as_slice()).copied();
+    DMatrix::from_iterator(parts[0].nrows(), columns, values)
+}
+
+/// [X₁; X₂; …]
+fn stacked(parts: &[&DMatrix<f64>]) -> DMatrix<f64> {
+    let rows = parts.iter().map(|part| part.nrows()).sum();
+    let mut all = DMatrix::zeros(rows, parts[0].ncols());
+    let mut first = 0;
+    for part in parts {
+        all.rows_mut(first, part.nrows()).copy_from(part);
+        first += part.nrows();
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::principal_angles;
+
+    /// Unit vectors along the axes, turned by `angles` towards axes of their own.
+    fn leaning(rows: usize, angles: &[f64]) -> DMatrix<f64> {
+        let mut basis = DMatrix::zeros(rows, angles.len());
+        for (index, &angle) in angles.iter().enumerate() {
+            let (sine, cosine) = libm::sincos(angle);
+            basis[(index, index)] = cosine;
+            basis[(angles.len() + index, index)] = sine;
+        }
+        basis
+    }
+
+    #[test]
+    fn directions_nearly_inside_are_found_with_their_angles() {
+        let angles = [0.0, 1e-12, 3e-9, 1e-6, 1e-3, 0.029, 0.031, 0.4, 1.5];
+        let (rows, count) = (90, angles.len());
+        // A reflection mixes all coordinates, so that nothing is exact.
+        let normal = DVector::from_fn(rows, |i, _| libm::sin(1.0 + i as f64)).normalize();
+        let reflected = |basis: DMatrix<f64>| &basis - &normal * (normal.tr_mul(&basis) * 2.0);
+        let build = |angles: &[f64], mean: f64| {
+            let deviations = DVector::from_fn(count, |k, _| 3.0 / (k + 1) as f64);
+            let mean = DVector::from_fn(rows, |i, _| mean * libm::cos(i as f64));
+            LinearModel::from_orthonormal(3, mean, reflected(leaning(rows, angles)), deviations)
+        };
+        for apart in [0.0, 1.0] {
+            let (a, b) = (build(&[0.0; 9], 1.0), build(&angles, 1.0 + apart));
+            let joint = Joint::new(&a, &b);
+            let expected = 2 * count - 2 + usize::from(apart > 0.0);
+            assert_eq!(joint.dimension(), expected, "all but those of 0 and 1e-12");
+            let basis = joint.basis();
+            let off = (basis.tr_mul(&basis) - DMatrix::identity(expected, expected)).amax();
+            // The Gram matrix has squares of sines to 10⁻¹⁶, of which the smallest is 10⁻³.
+            assert!(off < 1e-12, "orthonormal but for {off}");
+            let off = (joint.shape(joint.mean(1)) - b.mean()).amax();
+            assert!(off < 1e-12, "mean of B, off by {off}");
+            let found = principal_angles(&joint.modes(0), &joint.modes(1));
+            for (found, angle) in found.into_iter().zip(angles) {
+                // What is dropped shows no angle, or part of it where δ has some of that direction.
+                let dropped = if angle < SMALLEST_NEW_DIRECTION { angle } else { 0.0 };
+                let off = (found - angle).abs();
+                let allowed = dropped + 1e-14 + 1e-12 * angle;
+                assert!(off <= allowed, "{found}, not {angle}: off by {off}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_factor_of_any_rank_has_the_covariance() {
+        let mixed = DMatrix::from_fn(5, 2, |i, j| libm::sin((3 * i + 7 * j) as f64));
+        let moments = Moments { mean: DVector::zeros(5), covariance: &mixed * mixed.transpose() };
+        let factor = moments.factor();
+        assert_eq!(factor.ncols(), 2, "rank");
+        let off = (&factor * factor.transpose() - &moments.covariance).amax();
+        assert!(off < 1e-15, "covariance, off by {off}");
+        let nothing = Moments { mean: DVector::zeros(3), covariance: DMatrix::zeros(3, 3) };
+        assert_eq!(nothing.factor().ncols(), 0, "nothing varies");
+        assert_eq!(nothing.principal_components().1.len(), 0, "no components");
+    }
+
+    #[test]
+    fn the_map_of_a_joint_model_is_that_of_the_model_it_forms() {
+        let basis = |seed: usize| {
+            DMatrix::from_fn(36, 3, |i, j| libm::sin((seed * i * (j + 1)) as f64 * 0.3 + j as f64))
+        };
+        let build = |seed: usize| {
+            LinearModel::from_scaled_basis(3, DVector::zeros(36), basis(seed)).unwrap().0
+        };
+        let joint = Joint::new(&build(1), &build(2));
+        let pooled = Moments::pooled(&joint.prior(0), &joint.prior(1));
+        let model = joint.principal_components(&pooled, 4).unwrap();
+        let formed = joint.formed(&model);
+        assert_eq!(formed.mode_count(), 4, "as many as asked for");
+        let maps = (joint.vertex_standard_deviations(&model), formed.vertex_standard_deviations());
+        for (found, expected) in maps.0.into_iter().zip(maps.1) {
+            assert!((found - expected).abs() < 1e-13, "{found}, not {expected}");
+        }
+        let nothing = joint.vertex_deviations(&DMatrix::zeros(joint.dimension(), 0));
+        assert_eq!(nothing, [0.0; 12], "what does not vary");
+    }
+}

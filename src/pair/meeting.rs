@@ -1,0 +1,210 @@
+//! How near do plausible shapes of two models come?
+//!
+//! min d(m₁ + U₁a, m₂ + U₂b) over ‖a‖ ≤ k₁ and ‖b‖ ≤ k₂, a small convex problem (a second-order cone
+//! programme): the approximate intersection I_ε (Weiherer et al. 2024, eq. 6) is empty exactly when ε is
+//! not above this distance.
+//!
+//! Solved by reweighting: d² ≤ (1/n) Σ w_v‖·‖² with w_v = d̄/‖·‖_v (Cauchy–Schwarz, equality at the current
+//! point), so that every round is a quadratic problem with two balls, whose multipliers are found by
+//! Newton's method on their secular equations.
+//!
+//! **Limits.** On meshes of more than 512 points every k-th point is looked at: the distance is a mean
+//! over them.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::linalg::cross;
+use crate::model::LinearModel;
+use crate::pair::Pair;
+
+/// Points that are looked at.
+const MOST_POINTS: usize = 512;
+const MOST_ROUNDS: usize = 12;
+/// Relative change of d at which the rounds end.
+const AT_REST: f64 = 1e-4;
+const MOST_NEWTON_STEPS: usize = 20;
+/// Relative distance from its radius at which a solution is on the ball.
+const ON_THE_BALL: f64 = 1e-3;
+
+/// The least distance, and where it is attained.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Meeting {
+    /// min d, in the unit of the models.
+    pub distance: f64,
+    /// ‖a‖ there.
+    pub norm_a: f64,
+    /// ‖b‖ there.
+    pub norm_b: f64,
+}
+
+/// √χ²_q at 99 %: the radius, in standard deviations, of the ball that holds 99 % of N(0, I_q), by Wilson &
+/// Hilferty's approximation (within 1 %).
+pub fn plausible_radius(modes: usize) -> f64 {
+    const NORMAL_QUANTILE: f64 = 2.326_347_874_040_841;
+    let q = modes as f64;
+    let share = 2.0 / (9.0 * q);
+    let root = 1.0 - share + NORMAL_QUANTILE * share.sqrt();
+    (q * root * root * root).sqrt()
+}
+
+/// The least distance between shapes of `pair` within `radii` standard deviations (k₁, k₂).
+pub fn nearest_meeting(pair: &Pair, radii: [f64; 2]) -> Option<Meeting> {
+    let problem = Problem::new(pair);
+    let mut weights = vec![1.0; problem.points];
+    let mut best: Option<Meeting> = None;
+    for _ in 0..MOST_ROUNDS {
+        let solution = problem.solve(&weights, radii)?;
+        let norms = problem.norms(&solution);
+        let distance = norms.iter().sum::<f64>() / problem.points as f64;
+        let at_rest =
+            best.as_ref().is_some_and(|before| before.distance - distance <= AT_REST * distance);
+        if best.as_ref().is_none_or(|before| distance < before.distance) {
+            best = Some(Meeting {
+                distance,
+                norm_a: solution.rows(0, problem.modes[0]).norm(),
+                norm_b: solution.rows(problem.modes[0], problem.modes[1]).norm(),
+            });
+        }
+        if at_rest || distance <= 1e-9 * pair.scale() {
+            break;
+        }
+        let floor = 1e-6 * distance;
+        weights = norms.into_iter().map(|norm| distance / norm.max(floor)).collect();
+    }
+    best
+}
+
+/// The residual m₁ − m₂ + H (a, b) at some points, H = (U₁, −U₂).
+struct Problem {
+    dimension: usize,
+    points: usize,
+    modes: [usize; 2],
+    offset: DVector<f64>,
+    operator: DMatrix<f64>,
+}
+
+impl Problem {
+    fn new(pair: &Pair) -> Self {
+        let dimension = pair.a().dimension();
+        let stride = pair.a().point_count().div_ceil(MOST_POINTS);
+        let rows: Vec<usize> = (0..pair.a().point_count())
+            .step_by(stride)
+            .flat_map(|point| (0..dimension).map(move |axis| point * dimension + axis))
+            .collect();
+        let scaled = |model: &LinearModel, sign: f64| {
+            let mut part = model.basis().select_rows(&rows);
+            for (mut column, deviation) in
+                part.column_iter_mut().zip(model.standard_deviations().iter())
+            {
+                column *= sign * deviation;
+            }
+            part
+        };
+        let [a, b] = pair.models();
+        let modes = [a.mode_count(), b.mode_count()];
+        let mut operator = scaled(a, 1.0).insert_columns(modes[0], modes[1], 0.0);
+        operator.columns_mut(modes[0], modes[1]).copy_from(&scaled(b, -1.0));
+        let apart = a.mean() - b.mean();
+        let offset = DVector::from_iterator(rows.len(), rows.iter().map(|&row| apart[row]));
+        Self { dimension, points: rows.len() / dimension, modes, offset, operator }
+    }
+
+    fn norms(&self, solution: &DVector<f64>) -> Vec<f64> {
+        let residual = &self.offset + &self.operator * solution;
+        residual
+            .as_slice()
+            .chunks_exact(self.dimension)
+            .map(|point| point.iter().map(|value| value * value).sum::<f64>().sqrt())
+            .collect()
+    }
+
+    /// The minimiser of Σ w_v‖residual_v‖² within both balls.
+    fn solve(&self, weights: &[f64], radii: [f64; 2]) -> Option<DVector<f64>> {
+        let mut weighted = self.operator.clone();
+        for (row, mut line) in weighted.row_iter_mut().enumerate() {
+            line *= weights[row / self.dimension];
+        }
+        let gram = cross(&weighted, &self.operator);
+        let shift = -weighted.tr_mul(&self.offset);
+        // A little of the identity: the two models may share directions exactly.
+        let floor = 1e-9 * gram.trace() / gram.nrows() as f64;
+        let balls = [(0, self.modes[0]), (self.modes[0], self.modes[1])];
+        let mut multipliers = [0.0_f64; 2];
+        let mut solution = DVector::zeros(0);
+        for _ in 0..MOST_NEWTON_STEPS {
+            let mut matrix = gram.clone();
+            for ((first, count), multiplier) in balls.into_iter().zip(multipliers) {
+                for index in first..first + count {
+                    matrix[(index, index)] += multiplier + floor;
+                }
+            }
+            let factor = matrix.cholesky()?;
+            solution = factor.solve(&shift);
+            let mut settled = true;
+            for (ball, (first, count)) in balls.into_iter().enumerate() {
+                let norm = solution.rows(first, count).norm();
+                let excess = norm / radii[ball] - 1.0;
+                let active = multipliers[ball] > 0.0;
+                if excess.abs() <= ON_THE_BALL || (excess < 0.0 && !active) {
+                    continue;
+                }
+                settled = false;
+                // Newton's step for 1/k = 1/‖x(λ)‖ (Hebden; Moré & Sorensen 1983).
+                let mut within = DVector::zeros(solution.len());
+                within.rows_mut(first, count).copy_from(&solution.rows(first, count));
+                let bend = within.dot(&factor.solve(&within));
+                multipliers[ball] = (multipliers[ball] + excess * norm * norm / bend).max(0.0);
+            }
+            if settled {
+                break;
+            }
+        }
+        Some(solution)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::Alignment;
+
+    /// One point in the plane, one mode along x of standard deviation 1, at a given height.
+    fn line(start: f64, height: f64) -> LinearModel {
+        let mean = DVector::from_vec(vec![start, height]);
+        let basis = DMatrix::from_column_slice(2, 1, &[1.0, 0.0]);
+        LinearModel::from_scaled_basis(2, mean, basis).unwrap().0
+    }
+
+    fn meeting(a: &LinearModel, b: &LinearModel, radius: f64) -> Meeting {
+        let pair = Pair::new(a, b, Alignment::None, None).unwrap();
+        nearest_meeting(&pair, [radius, radius]).unwrap()
+    }
+
+    #[test]
+    fn parallel_lines_are_their_offset_apart() {
+        let found = meeting(&line(0.0, 0.0), &line(1.0, 3.0), 2.0);
+        assert!((found.distance - 3.0).abs() < 1e-6, "{found:?}");
+    }
+
+    #[test]
+    fn balls_that_do_not_reach_one_another_leave_a_gap() {
+        // Means 10 apart along the line, 2 standard deviations of either: 6 remain.
+        let found = meeting(&line(0.0, 0.0), &line(10.0, 0.0), 2.0);
+        assert!((found.distance - 6.0).abs() < 0.05, "{found:?}");
+        assert!(
+            (found.norm_a - 2.0).abs() < 0.02 && (found.norm_b - 2.0).abs() < 0.02,
+            "{found:?}"
+        );
+        let closer = meeting(&line(0.0, 0.0), &line(10.0, 0.0), 5.5);
+        assert!(closer.distance < 1e-3, "5.5 + 5.5 reach 10: {closer:?}");
+    }
+
+    #[test]
+    fn the_plausible_radius_is_that_of_the_chi_square_law() {
+        // Tables: χ²₀.₉₉ with 1, 2, 10, 50 degrees of freedom.
+        for (count, square) in [(1, 6.635), (2, 9.210), (10, 23.209), (50, 76.154_f64)] {
+            let radius = plausible_radius(count);
+            assert!((radius * radius / square - 1.0).abs() < 0.01, "{count}: {radius}");
+        }
+    }
+}

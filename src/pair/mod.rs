@@ -1,0 +1,34 @@
+//! Two models in one frame: the residual operator, the targets, the Gaussian fits.
+
+mod difference;
+mod expected_norm;
+mod fit;
+mod fit_residuals;
+mod intersection;
+mod joint;
+mod kernel;
+mod least_change;
+mod meeting;
+mod nearest;
+mod preparation;
+mod residual_operator;
+mod tolerance;
+mod two_models;
+mod vertex_residuals;
+
+pub use difference::{Criterion, Difference, DifferenceDefinition, Level};
+pub use fit::{
+    Fit, FitMethod, effective_dimensions, expected_distance, fit_laplace, fit_quickly,
+    fit_reweighted, fit_rms, fit_variational_step, fit_variational_step_every, without_distance,
+};
+pub use intersection::{Intersection, distance_likelihood};
+pub(crate) use joint::eigen;
+pub use joint::{Joint, JointModel, Moments};
+pub use kernel::DistanceKernel;
+pub use least_change::least_change;
+pub use meeting::{Meeting, nearest_meeting, plausible_radius};
+pub(crate) use nearest::sum_of;
+pub use nearest::{formed, nearest_coefficients};
+pub use preparation::{PointSelection, Preparation, SelectionError, SidePreparation};
+pub use tolerance::{Tolerance, recommended_tolerance};
+pub use two_models::{Pair, PairError, Side};

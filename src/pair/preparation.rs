@@ -1,0 +1,460 @@
+//! What is done to two models before they are compared, each step on request.
+//!
+//! Models of the field differ in more than their shapes: in unit, frame, number of modes, in the points
+//! of their meshes, and some hold displacements without a mean. A [`Preparation`] says what to do about
+//! it; nothing is done that it does not say, and the two files stay as they are. In this order:
+//!
+//! 1. **points** – which point of B is which point of A ([`PointSelection`]): a region of both, a crop's own
+//!    map into the full mesh, or pairs from a file. Registering two different meshes would be one more
+//!    variant of that type, and nothing else would change.
+//! 2. **unit** – a unit declared where the file states none, and B scaled into the unit of A;
+//! 3. **rebase** – the modes of one model put on the mean of the other;
+//! 4. **alignment** of B to A ([`Alignment`]);
+//! 5. **modes** – the first k, or as many as hold a share of the variance;
+//! 6. **subsample** – fewer points, evenly spread over the mean of A, for a run in less time.
+//!
+//! **Limits.** Restricting and subsampling make the thin SVD anew, so that coefficients before and after
+//! do not correspond one to one.
+
+use core::fmt;
+
+use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
+
+use crate::model::{Alignment, Kind, LinearModel, Similarity, Unit, align_to, evenly_spread};
+use crate::pair::two_models::{PairError, thousands};
+
+/// What is done to two models before they are compared.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase", default, deny_unknown_fields)]
+pub struct Preparation {
+    /// Steps that concern A alone.
+    pub a: SidePreparation,
+    /// Steps that concern B alone.
+    pub b: SidePreparation,
+    /// Whether B is scaled into the unit of A.
+    pub convert: bool,
+    /// Which points are compared; all of them, in order, when left out.
+    pub points: Option<PointSelection>,
+    /// Compare at most so many points.
+    pub subsample: Option<usize>,
+}
+
+/// Steps that concern one model.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase", default, deny_unknown_fields)]
+pub struct SidePreparation {
+    /// The unit that the file does not state.
+    pub unit: Option<Unit>,
+    /// Use the first modes only.
+    pub modes: Option<usize>,
+    /// Use as many modes as hold this share of the variance, 0 to 1.
+    pub variance: Option<f64>,
+    /// Put the modes of this model on the mean of the other; displacements are added to it.
+    pub rebase: bool,
+}
+
+/// Which point of B is which point of A.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "by", rename_all = "camelCase", deny_unknown_fields)]
+pub enum PointSelection {
+    /// The same points of both: "0-99,120", both ends included.
+    Region {
+        /// Ranges of point numbers, ascending.
+        ranges: String,
+    },
+    /// The map into a larger mesh that one of the models brings along.
+    Map,
+    /// Point `a[k]` of A is point `b[k]` of B.
+    List {
+        /// Points of A.
+        a: Vec<u32>,
+        /// Points of B, as many.
+        b: Vec<u32>,
+    },
+}
+
+/// Why points cannot be chosen as asked.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum SelectionError {
+    /// A line or range that is none.
+    Text {
+        /// Line in the file, from 1; 0 where there is only one.
+        line: usize,
+        /// What stands there.
+        found: String,
+    },
+    /// No points at all.
+    Empty,
+    /// A point number beyond the mesh.
+    Beyond {
+        /// "A" or "B".
+        model: &'static str,
+        /// The number.
+        point: u32,
+        /// Points of the model.
+        points: usize,
+    },
+    /// A point is listed twice.
+    Twice {
+        /// "A" or "B".
+        model: &'static str,
+        /// The number.
+        point: u32,
+    },
+    /// Neither model brings a map that fits the other.
+    NoMap,
+    /// The two lists differ in length.
+    Lengths {
+        /// Points of A.
+        a: usize,
+        /// Points of B.
+        b: usize,
+    },
+}
+
+impl SelectionError {
+    /// What to do next.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Text { .. } => {
+                "Write one point number a line, two for a pair (A, then B), counted from 0; ranges as 0-99."
+            }
+            Self::Empty => "Choose some points, or compare all of them.",
+            Self::Beyond { .. } => {
+                "Check that the numbers count from 0 and belong to these two meshes."
+            }
+            Self::Twice { .. } => "Pair every point with one other only.",
+            Self::NoMap => "Choose a file of pairs instead: point of A, point of B on each line.",
+            Self::Lengths { .. } => "Give as many points of A as of B.",
+        }
+    }
+}
+
+impl fmt::Display for SelectionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Text { line: 0, found } => write!(f, "“{found}” is no list of points."),
+            Self::Text { line, found } => {
+                write!(f, "Line {line} reads “{found}”; one or two point numbers were expected.")
+            }
+            Self::Empty => write!(f, "No points are chosen."),
+            Self::Beyond { model, point, points } => write!(
+                f,
+                "Point {} is chosen, but {model} has only {}.",
+                thousands(*point as usize),
+                thousands(*points)
+            ),
+            Self::Twice { model, point } => {
+                write!(f, "Point {} of {model} is listed twice.", thousands(*point as usize))
+            }
+            Self::NoMap => write!(f, "Neither model brings a map of its points into the other."),
+            Self::Lengths { a, b } => {
+                write!(f, "{} points of A are listed and {} of B.", thousands(*a), thousands(*b))
+            }
+        }
+    }
+}
+
+impl PointSelection {
+    /// Reads a vertex list or a file of pairs: one or two whole numbers a line, ranges, `#` comments.
+    ///
+    /// # Errors
+    /// [`SelectionError::Text`] and [`SelectionError::Empty`].
+    pub fn parse(text: &str) -> Result<Self, SelectionError> {
+        const LONGEST_SHOWN: usize = 40;
+        let (mut a, mut b) = (Vec::new(), Vec::new());
+        for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
+            let line = line.split('#').next().unwrap_or_default().trim();
+            if line.is_empty() {
+                continue;
+            }
+            let wrong = || SelectionError::Text {
+                line: index + 1,
+                found: line.chars().take(LONGEST_SHOWN).collect(),
+            };
+            if line.contains('-') || line.matches(',').count() > 1 {
+                a.extend(points_of_ranges(line).map_err(|_| wrong())?);
+                // A few letters a line can ask for millions of points, again and again.
+                if a.len() > MOST_POINTS {
+                    return Err(wrong());
+                }
+                continue;
+            }
+            let numbers: Result<Vec<u32>, _> = line
+                .split([' ', '\t', ',', ';'])
+                .filter(|word| !word.is_empty())
+                .map(str::parse)
+                .collect();
+            match numbers.map_err(|_| wrong())?.as_slice() {
+                [first] => a.push(*first),
+                [first, second] => {
+                    a.push(*first);
+                    b.push(*second);
+                }
+                _ => return Err(wrong()),
+            }
+        }
+        if a.is_empty() {
+            return Err(SelectionError::Empty);
+        }
+        if b.is_empty() {
+            a.sort_unstable();
+            a.dedup();
+            return Ok(Self::Region { ranges: ranges_of_points(&a) });
+        }
+        if a.len() != b.len() {
+            return Err(SelectionError::Lengths { a: a.len(), b: b.len() });
+        }
+        Ok(Self::List { a, b })
+    }
+}
+
+/// More points than any mesh of the field has; a bound for what a short text can ask for.
+const MOST_POINTS: usize = 10_000_000;
+
+/// "0-99,120": the points, ascending.
+fn points_of_ranges(ranges: &str) -> Result<Vec<u32>, SelectionError> {
+    let mut points = Vec::new();
+    for range in ranges.split([',', ' ', ';']).filter(|range| !range.is_empty()) {
+        let wrong = || SelectionError::Text { line: 0, found: range.chars().take(40).collect() };
+        let number = |text: &str| text.trim().parse::<u32>().map_err(|_| wrong());
+        let (first, last) = match range.split_once('-') {
+            Some((first, last)) => (number(first)?, number(last)?),
+            None => (number(range)?, number(range)?),
+        };
+        if first > last || points.len().saturating_add((last - first) as usize) >= MOST_POINTS {
+            return Err(wrong());
+        }
+        points.extend(first..=last);
+    }
+    points.sort_unstable();
+    points.dedup();
+    if points.is_empty() { Err(SelectionError::Empty) } else { Ok(points) }
+}
+
+/// The ranges that ascending points make.
+fn ranges_of_points(points: &[u32]) -> String {
+    let mut ranges: Vec<(u32, u32)> = Vec::new();
+    for &point in points {
+        match ranges.last_mut() {
+            Some((_, last)) if *last + 1 == point => *last = point,
+            _ => ranges.push((point, point)),
+        }
+    }
+    let written = |&(first, last): &(u32, u32)| {
+        if first == last { first.to_string() } else { format!("{first}-{last}") }
+    };
+    ranges.iter().map(written).collect::<Vec<_>>().join(",")
+}
+
+/// Two models made ready, and what became of them.
+#[derive(Debug, Clone)]
+pub(crate) struct Prepared {
+    pub(crate) models: [LinearModel; 2],
+    pub(crate) moved: Similarity,
+    /// Variance of the modes that were cut off, of both models together.
+    pub(crate) cut_variance: f64,
+}
+
+impl Preparation {
+    /// The points of A and those of B that correspond; `None` for all, in order.
+    ///
+    /// # Errors
+    /// [`SelectionError`].
+    pub fn chosen_points(
+        &self,
+        a: &LinearModel,
+        b: &LinearModel,
+    ) -> Result<Option<[Vec<u32>; 2]>, SelectionError> {
+        let Some(selection) = &self.points else { return Ok(None) };
+        let lists = match selection {
+            PointSelection::Region { ranges } => {
+                let points = points_of_ranges(ranges)?;
+                [points.clone(), points]
+            }
+            PointSelection::List { a, b } if a.len() != b.len() => {
+                return Err(SelectionError::Lengths { a: a.len(), b: b.len() });
+            }
+            PointSelection::List { a, b } => [a.clone(), b.clone()],
+            PointSelection::Map => {
+                let own = |count: usize| (0_u32..).take(count).collect::<Vec<_>>();
+                if let Some(map) = map_into(a, b) {
+                    [own(map.len()), map.to_vec()]
+                } else if let Some(map) = map_into(b, a) {
+                    [map.to_vec(), own(map.len())]
+                } else {
+                    return Err(SelectionError::NoMap);
+                }
+            }
+        };
+        for (points, (name, model)) in lists.iter().zip([("A", a), ("B", b)]) {
+            let count = model.point_count();
+            if let Some(&point) = points.iter().find(|&&point| point as usize >= count) {
+                return Err(SelectionError::Beyond { model: name, point, points: count });
+            }
+            let mut seen = vec![false; count];
+            for &point in points {
+                if core::mem::replace(&mut seen[point as usize], true) {
+                    return Err(SelectionError::Twice { model: name, point });
+                }
+            }
+        }
+        if lists[0].is_empty() {
+            return Err(SelectionError::Empty);
+        }
+        Ok(Some(lists))
+    }
+
+    /// The factor by which B is scaled into the unit of A: 1 unless that is asked for and both units are
+    /// known.
+    pub fn unit_factor(&self, a: &LinearModel, b: &LinearModel) -> f64 {
+        let units = [self.a.unit.unwrap_or(a.unit()), self.b.unit.unwrap_or(b.unit())];
+        match units.map(Unit::metres) {
+            [Some(of_a), Some(of_b)] if self.convert => of_b / of_a,
+            _ => 1.0,
+        }
+    }
+
+    /// Carries out all steps.
+    ///
+    /// # Errors
+    /// [`PairError`], also when the two still cannot be compared point for point.
+    pub(crate) fn apply(
+        &self,
+        a: &LinearModel,
+        b: &LinearModel,
+        alignment: Alignment,
+        modes: Option<usize>,
+    ) -> Result<Prepared, PairError> {
+        if a.dimension() != b.dimension() {
+            return Err(PairError::Dimension { a: a.dimension(), b: b.dimension() });
+        }
+        let chosen = self.chosen_points(a, b).map_err(PairError::Selection)?;
+        let one_region = matches!(self.points, Some(PointSelection::Region { .. }));
+        if a.point_count() != b.point_count() && (chosen.is_none() || one_region) {
+            return Err(PairError::PointCount { a: a.point_count(), b: b.point_count() });
+        }
+        let (mut a, mut b) = match chosen {
+            None => (a.clone(), b.clone()),
+            Some([of_a, of_b]) => (restricted(a, "A", &of_a)?, restricted(b, "B", &of_b)?),
+        };
+        let factor = self.unit_factor(&a, &b);
+        a = a.clone().with_unit(self.a.unit.unwrap_or(a.unit()));
+        b = b.clone().with_unit(self.b.unit.unwrap_or(b.unit()));
+        if factor != 1.0 {
+            b = b.scaled(factor).with_unit(a.unit());
+        }
+        if self.a.rebase {
+            a = rebased(&a, &b);
+        } else if self.b.rebase {
+            b = rebased(&b, &a);
+        }
+        if a.kind() != b.kind() {
+            return Err(PairError::Kind { a: a.kind(), b: b.kind() });
+        }
+        let (b, moved) = align_to(&a, &b, alignment);
+        let whole = a.total_variance() + b.total_variance();
+        let cut = |model: &LinearModel, side: &SidePreparation| {
+            let most = side.variance.map_or(usize::MAX, |share| modes_of_share(model, share));
+            let most = most.min(side.modes.unwrap_or(usize::MAX)).min(modes.unwrap_or(usize::MAX));
+            model.truncated(most)
+        };
+        let before = a.mode_count() + b.mode_count();
+        let models = [cut(&a, &self.a), cut(&b, &self.b)];
+        let [a, b] = &models;
+        let cut_variance = if a.mode_count() + b.mode_count() < before {
+            whole - a.total_variance() - b.total_variance()
+        } else {
+            0.0
+        };
+        let count = models[0].point_count();
+        let Some(kept) = self.subsample.filter(|&kept| kept < count) else {
+            return Ok(Prepared { models, moved, cut_variance });
+        };
+        let points = evenly_spread(models[0].mean().as_slice(), models[0].dimension(), kept.max(1));
+        let [a, b] = &models;
+        let thinned = |model: &LinearModel, name| {
+            model.thinned(&points).map_err(|error| PairError::Rest { model: name, error })
+        };
+        let models = [thinned(a, "A")?, thinned(b, "B")?];
+        // The noise of cut modes is per point: fewer points hold less of it.
+        let cut_variance = cut_variance * kept as f64 / count as f64;
+        Ok(Prepared { models, moved, cut_variance })
+    }
+}
+
+/// Points of `crop` in the mesh of `whole`, if the crop knows them and they fit.
+fn map_into<'a>(crop: &'a LinearModel, whole: &LinearModel) -> Option<&'a [u32]> {
+    let map = crop.point_numbers()?;
+    let fits = map.len() == crop.point_count() && map.len() < whole.point_count();
+    let inside = || map.iter().all(|&point| (point as usize) < whole.point_count());
+    (fits && inside()).then_some(map)
+}
+
+fn restricted(
+    model: &LinearModel,
+    name: &'static str,
+    points: &[u32],
+) -> Result<LinearModel, PairError> {
+    let all = points.len() == model.point_count();
+    if all && points.iter().enumerate().all(|(place, &point)| place == point as usize) {
+        return Ok(model.clone());
+    }
+    model.restricted(points).map_err(|error| PairError::Rest { model: name, error })
+}
+
+/// The modes of `model` on the mean of `other`; a mean of displacements is added to it.
+fn rebased(model: &LinearModel, other: &LinearModel) -> LinearModel {
+    let mean: DVector<f64> = match model.kind() {
+        Kind::Displacement => other.mean() + model.mean(),
+        _ => other.mean().clone(),
+    };
+    let rebased = model.with_mean(mean).with_kind(other.kind());
+    let unit = if model.unit() == Unit::Unknown { other.unit() } else { model.unit() };
+    rebased.with_unit(unit)
+}
+
+/// The fewest modes that hold `share` of the variance.
+fn modes_of_share(model: &LinearModel, share: f64) -> usize {
+    let wanted = share * model.total_variance();
+    let mut held = 0.0;
+    let deviations = model.standard_deviations();
+    let enough = |deviation: &f64| {
+        held += deviation * deviation;
+        // Rounding must not ask for one mode more than there are.
+        held >= wanted * (1.0 - 1e-12)
+    };
+    deviations.iter().position(enough).map_or(model.mode_count(), |index| index + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_of_points_are_read_as_people_write_them() {
+        let region = |ranges: &str| Ok(PointSelection::Region { ranges: ranges.to_owned() });
+        assert_eq!(PointSelection::parse("3\n1\n2\n\n7 # nose\n"), region("1-3,7"), "a column");
+        assert_eq!(PointSelection::parse("0-9\n20-21,30"), region("0-9,20-21,30"), "ranges");
+        let pairs = PointSelection::List { a: vec![4, 5], b: vec![0, 2] };
+        assert_eq!(PointSelection::parse("# A,B\n4,0\n5\t2\n"), Ok(pairs), "pairs");
+        let error = PointSelection::parse("1 2 3").unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "Line 1 reads “1 2 3”; one or two point numbers were expected.",
+            "three numbers"
+        );
+        assert_eq!(PointSelection::parse("\n#\n"), Err(SelectionError::Empty), "nothing");
+        let lengths = SelectionError::Lengths { a: 2, b: 1 };
+        assert_eq!(PointSelection::parse("1 2\n3\n"), Err(lengths), "half a pair");
+        assert!(PointSelection::parse("0-4000000000").is_err(), "more than any mesh has");
+        // Found by fuzzing: every line was bounded, all of them together were not.
+        let again = PointSelection::parse(&"0-5999999\n".repeat(100_000)).unwrap_err();
+        assert_eq!(
+            again.to_string(),
+            "Line 2 reads “0-5999999”; one or two point numbers were expected.",
+            "more than any mesh has, line after line"
+        );
+    }
+}

@@ -1,0 +1,455 @@
+//! Two models in one frame, and the residual operator between them.
+//!
+//! For x = m₁ + U₁ a the projection to M₂ is x′ = m₂ + U₂ a′ with a′ = U₂⁺(x − m₂) (Weiherer et
+//! al. 2024, eq. 8). With P₂ = E₂E₂ᵀ, U = E·D^½:
+//!
+//! r(a) = x − x′ = r₀ + R a,  r₀ = (I − P₂)(m₁ − m₂),  R = (I − P₂) U₁ = U₁ − E₂(E₂ᵀU₁)
+//! a′(a) = a₀ + A a,      a₀ = D₂^−½ E₂ᵀ(m₁ − m₂),  A = D₂^−½ E₂ᵀU₁
+//!
+//! so that one evaluation of the distance (eq. 10) d = (1/n) Σ_v ‖r_v‖ is one product with R, where
+//! generating, projecting and reconstructing takes three. The paper's text calls d a mean squared
+//! error; it is the mean of the points' distances, neither squared nor a root mean square.
+//!
+//! **Limits.** Both models must have the same points in the same order once they are prepared
+//! ([`Preparation`]). Different meshes need a correspondence first, which is part of that.
+
+use core::fmt;
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::linalg::parallel;
+use crate::linalg::simd::{Real, dot};
+use crate::model::{Alignment, Kind, LinearModel, ModelError, Similarity};
+use crate::pair::preparation::{Preparation, Prepared, SelectionError};
+use crate::pair::residual_operator::{Operator, Plausibilities, Rows, with_rows};
+use crate::pair::{DistanceKernel, Joint};
+
+/// Why two models cannot be compared.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum PairError {
+    /// Points in two and in three dimensions.
+    Dimension {
+        /// Dimension of A.
+        a: usize,
+        /// Dimension of B.
+        b: usize,
+    },
+    /// Shape against colour.
+    Kind {
+        /// What A is.
+        a: Kind,
+        /// What B is.
+        b: Kind,
+    },
+    /// Different numbers of points.
+    PointCount {
+        /// Points of A.
+        a: usize,
+        /// Points of B.
+        b: usize,
+    },
+    /// The points to compare cannot be chosen as asked.
+    Selection(SelectionError),
+    /// What is left of a model at the chosen points is none.
+    Rest {
+        /// "A" or "B".
+        model: &'static str,
+        /// What is wrong with it.
+        error: ModelError,
+    },
+}
+
+impl PairError {
+    /// Stable code, for programs.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Dimension { .. } => "dimension-mismatch",
+            Self::Kind { .. } => "kind-mismatch",
+            Self::PointCount { .. } => "point-count-mismatch",
+            Self::Selection(_) => "points",
+            Self::Rest { .. } => "points-without-variance",
+        }
+    }
+
+    /// What to do next.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Dimension { .. } => "Load two models of the same dimension.",
+            Self::Kind { a: Kind::Displacement, .. } | Self::Kind { b: Kind::Displacement, .. } => {
+                "Put the displacements on the mean of the other model."
+            }
+            Self::Kind { .. } => "Load two shape models or two colour models.",
+            Self::PointCount { .. } => {
+                "Load two models built on the same template mesh, or say by a file which point is which: a point of A and one of B on each line."
+            }
+            Self::Selection(error) => error.hint(),
+            Self::Rest { .. } => "Choose more points, or others.",
+        }
+    }
+}
+
+/// "53,490".
+pub(crate) fn thousands(count: usize) -> String {
+    let digits = count.to_string();
+    let mut grouped = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            grouped.push(',');
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
+impl fmt::Display for PairError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let word = |kind: &Kind| match kind {
+            Kind::Shape => "shapes",
+            Kind::Color => "colours",
+            Kind::Displacement => "displacements",
+        };
+        match self {
+            Self::Dimension { a, b } => {
+                write!(f, "A has points in {a} dimensions, B in {b}: they cannot be compared.")
+            }
+            Self::Kind { a, b } => {
+                write!(f, "A is a model of {}, B of {}: they cannot be compared.", word(a), word(b))
+            }
+            Self::PointCount { a, b } => write!(
+                f,
+                "A has {} points, B has {}: point for point they cannot be compared.",
+                thousands(*a),
+                thousands(*b)
+            ),
+            Self::Selection(error) => error.fmt(f),
+            Self::Rest { model, error } => {
+                write!(f, "At the chosen points {model} is no model: {error}")
+            }
+        }
+    }
+}
+
+impl core::error::Error for PairError {}
+
+/// Shapes of one model seen from the other: x = m₁ + U₁ a against M₂.
+///
+/// R is kept in single precision, 4·d·n·q bytes, and beside it in double precision where that costs at
+/// most two megabytes. Everything reads the same R, so that its rounding is one of the model.
+#[derive(Debug, Clone)]
+pub struct Side {
+    dimension: usize,
+    modes: usize,
+    /// r₀ (d·n).
+    offset: Vec<f64>,
+    /// R in double precision, row-major (d·n × q), where it is small.
+    double: Option<Vec<f64>>,
+    /// AᵀA (q × q) and Aᵀa₀ (q), for ‖a′‖² = ‖a₀‖² + 2 aᵀAᵀa₀ + aᵀAᵀA a.
+    projection_gram: DMatrix<f64>,
+    projection_shift: DVector<f64>,
+    projection_constant: f64,
+    /// Share of ‖a′‖² + ‖a‖² in twice the negative log density: 1 for the paper's product.
+    plausibility_share: f64,
+    /// RᵀR, Rᵀr₀ and ‖r₀‖², for Σ_v ‖r_v‖² in O(q²).
+    gram: DMatrix<f64>,
+    gram_shift: DVector<f64>,
+    gram_constant: f64,
+    /// Largest |value| in R and r₀.
+    largest_residual: f64,
+    kernel: DistanceKernel,
+}
+
+/// Rows whose residuals are one piece of work.
+const STRIP: usize = 1536;
+
+impl Side {
+    /// The operator for shapes of `from` seen from `to`.
+    pub fn new(from: &LinearModel, to: &LinearModel) -> Self {
+        let difference = from.mean() - to.mean();
+        let mean_coordinates = to.basis().tr_mul(&difference);
+        let offset = &difference - to.basis() * &mean_coordinates;
+        let operator = Operator::new(from, to, offset.as_slice());
+        let mut projection = operator.coordinates;
+        for (mut row, deviation) in projection.row_iter_mut().zip(to.standard_deviations().iter()) {
+            row /= *deviation;
+        }
+        let projected_mean = mean_coordinates.component_div(to.standard_deviations());
+        Self {
+            dimension: from.dimension(),
+            modes: from.mode_count(),
+            projection_gram: projection.tr_mul(&projection),
+            projection_shift: projection.tr_mul(&projected_mean),
+            projection_constant: projected_mean.norm_squared(),
+            plausibility_share: 1.0,
+            gram: operator.gram,
+            gram_shift: operator.gram_shift,
+            gram_constant: offset.norm_squared(),
+            largest_residual: operator.largest.max(offset.amax()),
+            kernel: DistanceKernel::of_rows(from.dimension(), from.mode_count(), operator.single),
+            offset: offset.as_slice().to_vec(),
+            double: operator.double,
+        }
+    }
+
+    /// The same with s(‖a′‖² + ‖a‖²) in the posterior: s = 1 is the paper's product L_P·p, s = ½ the geometric
+    /// mean of the two plausibilities, with which a model compared with itself keeps its variance.
+    #[must_use]
+    pub fn with_plausibility(self, share: f64) -> Self {
+        Self { plausibility_share: share, ..self }
+    }
+
+    /// s(I + AᵀA), the precision of plausibility alone (q × q).
+    pub fn plausibility_precision(&self) -> DMatrix<f64> {
+        (DMatrix::identity(self.modes, self.modes) + &self.projection_gram)
+            * self.plausibility_share
+    }
+
+    /// s Aᵀa₀, half the gradient of plausibility at 0 (q).
+    pub fn plausibility_shift(&self) -> DVector<f64> {
+        &self.projection_shift * self.plausibility_share
+    }
+
+    /// Coordinates per point.
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// Number of points n.
+    pub fn point_count(&self) -> usize {
+        self.offset.len() / self.dimension
+    }
+
+    /// Number of coefficients q.
+    pub fn mode_count(&self) -> usize {
+        self.modes
+    }
+
+    /// r₀ (d·n).
+    pub fn offset(&self) -> &[f64] {
+        &self.offset
+    }
+
+    /// R, row-major (d·n × q): a copy in double precision, of numbers that may have been rounded to
+    /// single.
+    pub fn residual(&self) -> Vec<f64> {
+        with_rows!(self, rows => rows.iter().map(|value| value.double()).collect())
+    }
+
+    /// R, row-major (d·n × q), as it is kept.
+    pub(crate) fn rows(&self) -> Rows<'_> {
+        match &self.double {
+            Some(rows) => Rows::Double(rows),
+            None => Rows::Single(self.kernel.rows()),
+        }
+    }
+
+    /// AᵀA, with I the precision of the projection likelihood times the prior.
+    pub fn projection_gram(&self) -> &DMatrix<f64> {
+        &self.projection_gram
+    }
+
+    /// Aᵀa₀.
+    pub fn projection_shift(&self) -> &DVector<f64> {
+        &self.projection_shift
+    }
+
+    /// RᵀR.
+    pub fn gram(&self) -> &DMatrix<f64> {
+        &self.gram
+    }
+
+    /// Rᵀr₀.
+    pub fn gram_shift(&self) -> &DVector<f64> {
+        &self.gram_shift
+    }
+
+    /// ‖r₀‖².
+    pub fn gram_constant(&self) -> f64 {
+        self.gram_constant
+    }
+
+    /// The batched distance.
+    pub fn kernel(&self) -> &DistanceKernel {
+        &self.kernel
+    }
+
+    /// The residual r₀ + R c at a centre c (d·n), in double precision.
+    pub fn residual_at(&self, centre: &[f64]) -> Vec<f64> {
+        let strips = parallel::map(self.offset.len().div_ceil(STRIP), |strip| {
+            let coordinates = strip * STRIP..((strip + 1) * STRIP).min(self.offset.len());
+            let offset = &self.offset[coordinates.clone()];
+            with_rows!(self, rows => {
+                let rows = &rows[coordinates.start * self.modes..coordinates.end * self.modes];
+                let rows = rows.chunks_exact(self.modes);
+                offset.iter().zip(rows).map(|(start, row)| start + dot(row, centre)).collect::<Vec<_>>()
+            })
+        });
+        strips.concat()
+    }
+
+    /// d(x′, x) in double precision, one shape: the reference for the kernel.
+    pub fn mean_vertex_distance(&self, coefficients: &[f64]) -> f64 {
+        let residual = self.residual_at(coefficients);
+        let sum: f64 = residual
+            .chunks_exact(self.dimension)
+            .map(|point| point.iter().map(|value| value * value).sum::<f64>().sqrt())
+            .sum();
+        sum / self.point_count() as f64
+    }
+
+    /// d and ∇d = (1/n) Σ_v R_vᵀ r_v/‖r_v‖ (q) in double precision, one shape: the reference for the
+    /// kernel. Points where r_v = 0 add nothing.
+    pub fn distance_and_gradient(&self, coefficients: &[f64]) -> (f64, Vec<f64>) {
+        let residual = self.residual_at(coefficients);
+        let mut gradient = vec![0.0; self.modes];
+        let mut sum = 0.0;
+        let points = residual.chunks_exact(self.dimension);
+        with_rows!(self, rows => {
+            for (point, vertex) in points.zip(rows.chunks_exact(self.dimension * self.modes)) {
+                let norm = point.iter().map(|value| value * value).sum::<f64>().sqrt();
+                sum += norm;
+                if norm > 0.0 {
+                    for (value, row) in point.iter().zip(vertex.chunks_exact(self.modes)) {
+                        for (target, &weight) in gradient.iter_mut().zip(row) {
+                            *target += value / norm * weight.double();
+                        }
+                    }
+                }
+            }
+        });
+        let scale = 1.0 / self.point_count() as f64;
+        (sum * scale, gradient.into_iter().map(|value| value * scale).collect())
+    }
+
+    /// ‖a′‖² = ‖a₀ + A a‖², the squared Mahalanobis distance of the projection from the other mean.
+    pub fn projection_square(&self, coefficients: &[f64]) -> f64 {
+        let mut square = self.projection_constant;
+        for (column, value) in coefficients.iter().enumerate() {
+            let terms = self.projection_gram.column(column);
+            let product: f64 = terms.iter().zip(coefficients).map(|(g, a)| g * a).sum();
+            square += value * (2.0 * self.projection_shift[column] + product);
+        }
+        square.max(0.0)
+    }
+
+    /// s(‖a′‖² + ‖a‖²) and half its gradient, s(Aᵀ(a₀ + A a) + a) (q).
+    pub fn plausibility(&self, coefficients: &[f64]) -> (f64, Vec<f64>) {
+        let (squares, slopes) = self.plausibilities(coefficients, true);
+        (squares[0], slopes)
+    }
+
+    /// s(‖a′‖² + ‖a‖²): twice the negative logarithm of L_P(a)·p(a), up to a constant, where s = 1.
+    pub fn plausibility_square(&self, coefficients: &[f64]) -> f64 {
+        self.plausibilities(coefficients, false).0[0]
+    }
+
+    /// [`Self::plausibility`] of many shapes (B × q, row-major): the squares (B), and half their gradients
+    /// (B × q) if wanted.
+    pub(crate) fn plausibilities(&self, points: &[f64], slopes: bool) -> (Vec<f64>, Vec<f64>) {
+        let (mut squares, mut gradients) = Plausibilities {
+            gram: self.projection_gram.as_slice(),
+            shift: self.projection_shift.as_slice(),
+            constant: self.projection_constant,
+            slopes,
+        }
+        .of(points);
+        for value in squares.iter_mut().chain(&mut gradients) {
+            *value *= self.plausibility_share;
+        }
+        (squares, gradients)
+    }
+
+    /// Whether M₂ holds every shape of this side to rounding: the difference is empty.
+    pub fn is_contained(&self, scale: f64) -> bool {
+        self.largest_residual <= 1e-9 * scale
+    }
+}
+
+/// Two comparable models: B moved and both cut as the settings ask.
+#[derive(Debug, Clone)]
+pub struct Pair {
+    a: LinearModel,
+    b: LinearModel,
+    moved: Similarity,
+    /// Variance of the modes that were cut off, of both models together.
+    cut_variance: f64,
+}
+
+impl Pair {
+    /// Checks that the two can be compared point for point, cuts both to `modes` modes and moves
+    /// B onto A.
+    ///
+    /// # Errors
+    /// [`PairError`] when dimension, kind or number of points differ.
+    pub fn new(
+        a: &LinearModel,
+        b: &LinearModel,
+        alignment: Alignment,
+        modes: Option<usize>,
+    ) -> Result<Self, PairError> {
+        Self::prepared(a, b, &Preparation::default(), alignment, modes)
+    }
+
+    /// The same after the steps that `preparation` asks for.
+    ///
+    /// # Errors
+    /// [`PairError`] when a step cannot be done, or the two still differ in dimension, kind or points.
+    pub fn prepared(
+        a: &LinearModel,
+        b: &LinearModel,
+        preparation: &Preparation,
+        alignment: Alignment,
+        modes: Option<usize>,
+    ) -> Result<Self, PairError> {
+        let Prepared { models: [a, b], moved, cut_variance } =
+            preparation.apply(a, b, alignment, modes)?;
+        Ok(Self { a, b, moved, cut_variance })
+    }
+
+    /// How far a shape of either model lies from it once its last modes are cut off, where some were: the mean
+    /// distance of their sum, a Gaussian at every point.
+    pub fn noise_of_cut_modes(&self) -> Option<f64> {
+        let square = self.cut_variance / (2.0 * self.a.point_count() as f64);
+        // E‖·‖ over root mean square, of isotropic vectors in the plane and in space.
+        let ratio = if self.a.dimension() == 2 { 0.886 } else { 0.921 };
+        (square > 0.0).then(|| ratio * square.sqrt())
+    }
+
+    /// Model A.
+    pub fn a(&self) -> &LinearModel {
+        &self.a
+    }
+
+    /// Model B in the frame of A.
+    pub fn b(&self) -> &LinearModel {
+        &self.b
+    }
+
+    /// How B was moved.
+    pub fn moved(&self) -> &Similarity {
+        &self.moved
+    }
+
+    /// Both models, A first.
+    pub fn models(&self) -> [&LinearModel; 2] {
+        [&self.a, &self.b]
+    }
+
+    /// Shapes of one model seen from the other: 0 is A seen from B, 1 is B seen from A.
+    pub fn side(&self, index: usize) -> Side {
+        let [a, b] = self.models();
+        if index == 0 { Side::new(a, b) } else { Side::new(b, a) }
+    }
+
+    /// The length beside which a residual is rounding: the size of A's mean, or its spread where that is
+    /// larger. A model of a single point has no size.
+    pub fn scale(&self) -> f64 {
+        let spread = (self.a.total_variance() / self.a.point_count() as f64).sqrt();
+        self.a.size().max(spread)
+    }
+
+    /// The joint basis of both models.
+    pub fn joint(&self) -> Joint {
+        Joint::new(&self.a, &self.b)
+    }
+}
