@@ -9,8 +9,8 @@ import {
 } from "../../www/app/colormap";
 import { semiAxes } from "../../www/app/ellipsoid";
 import { signed, withoutDust } from "../../www/app/format";
-import { MAPS } from "../../www/app/link";
 import { MAP_WORDS, mapCaption, mapUnit, scaleEnds } from "../../www/app/map-words";
+import { MAPS } from "../../www/app/view";
 import { contentsOf, type Scene } from "../../www/app/viewer/contents";
 
 type Triple = [number, number, number];

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { HOME, orbit, zoomBy } from "../../www/app/camera";
 import { commonRange, viridis } from "../../www/app/colormap";
-import { HOME, orbit, zoomBy } from "../../www/app/viewer/camera";
 import { contentsOf, type Scene } from "../../www/app/viewer/contents";
 import { pickVertex } from "../../www/app/viewer/pick";
 import { rimFade } from "../../www/app/viewer/rim";

@@ -19,15 +19,8 @@ import {
   silentLag,
 } from "./diagnosing";
 import { count, length, number, percent, plusMinus } from "./format";
+import type { Advice } from "./views/Chart";
 import { ESS, R_HAT } from "./words";
-
-export interface Advice {
-  /** Whether there is nothing to do. */
-  calm: boolean;
-  text: string;
-  /** The chain that it is about, from 0. */
-  chain: number | null;
-}
 
 /** Two standard errors of a mean that 400 draws know, in standard deviations. */
 const OFF = 2 / Math.sqrt(ESS);

@@ -6,7 +6,7 @@ import { FIRST_DEMO } from "./demos";
 import { engineClient } from "./engine";
 import { watchExplorer } from "./explore/asking";
 import { watchPlaying } from "./explore/playing";
-import { apply, joinUntil, keepLink, modelsOf, shelfOf } from "./history";
+import { apply, keepLink, modelsOf, shelfOf } from "./history";
 import { titleOf } from "./learn/scenes";
 import { lessonState, scene } from "./learn/state";
 import { type LinkState, misread, readLink, SETTING_KEYS } from "./link";
@@ -32,6 +32,7 @@ import {
 } from "./state";
 import { fetchStored } from "./stored";
 import { watchTheme } from "./theme";
+import { joinUntil } from "./undo";
 
 export function boot(): void {
   const link = readLink(location.hash);

@@ -5,7 +5,6 @@ import type { BothSides, Progress, Region, Report, SweepPoint } from "../worker/
 import { FIRST_DEMO } from "./demos";
 import { engineClient, onEngineRestart, report as reportError } from "./engine";
 import { latest } from "./latest";
-import { REGIONS } from "./link";
 import { plain } from "./phrase";
 import { selectsPoints } from "./preparation";
 import { demoSource, sourceText } from "./sources";
@@ -36,6 +35,7 @@ import {
   tried,
 } from "./state";
 import type { Stored } from "./stored";
+import { REGIONS } from "./view";
 import { isCloud } from "./viewer/contents";
 import { belief } from "./words";
 

@@ -1,11 +1,11 @@
 /** Keeps the address in step with the state, and the state with the address: Back is undo. */
 import { batch, computed, effect, untracked } from "@preact/signals";
-import type { PointSelection } from "../worker/protocol";
-import { HASH_DIGITS, type LinkedModels } from "./address/codec";
+import { HASH_DIGITS } from "./address/codec";
 import { findDemo } from "./demos";
 import { applyExplorer, lockedHeat, settledExplorer } from "./explore/state";
 import { applyLesson, settledLesson } from "./learn/state";
 import { fitsLink, type LinkState, readLink, writeLink } from "./link";
+import type { LinkedModels } from "./linked-models";
 import { demoModels, giveUpOpening, openPair } from "./models";
 import { arrange, giveUpAdding, restoreShelf } from "./shelf/actions";
 import { closeUnused } from "./shelf/handles";
@@ -45,18 +45,9 @@ import {
   view,
   type Wanted,
 } from "./state";
-import { Steps } from "./steps";
+import { joins, type Place, steps } from "./undo";
 
 const WRITE_AFTER_MS = 1000;
-
-/** What a step of the history holds that no address can: files, and long lists of points. */
-interface Place {
-  models: Record<Side, Wanted> | null;
-  shelf: Wanted[];
-  points: PointSelection | null;
-}
-
-const steps = new Steps<Place>(history, performance.timeOrigin);
 
 export const { undoable, redoable } = steps;
 
@@ -166,8 +157,6 @@ const step = computed(() => {
 });
 
 let applied = "";
-/** What changes just now belongs to the step before. */
-let joins = false;
 
 /** `takes` is asked whether it sees to a link that somebody typed or followed. */
 export function keepLink(takes: (link: LinkState) => boolean): void {
@@ -182,7 +171,7 @@ export function keepLink(takes: (link: LinkState) => boolean): void {
       applied = step.value;
       // What is written down of a step is nothing that another one waits for.
       // The Back button of a page with a frame in it is about that page.
-      const join = joins || embedded.peek();
+      const join = joins() || embedded.peek();
       untracked(() => (join ? steps.join(placed(), fragment) : steps.push(placed(), fragment)));
       return;
     }
@@ -190,31 +179,6 @@ export function keepLink(takes: (link: LinkState) => boolean): void {
   });
   addEventListener("popstate", (event) => void follow(event.state, takes));
   addEventListener("keydown", undoByKey);
-}
-
-/** Changes something as a part of a step that was taken, unless others were taken since. */
-export function joinStep(change: () => void, of: number): void {
-  joins = steps.at === of;
-  try {
-    batch(change);
-  } finally {
-    joins = false;
-  }
-}
-
-/** What changes until this is over belongs to the present step. */
-export async function joinUntil(over: Promise<void>): Promise<void> {
-  joins = true;
-  try {
-    await over;
-  } finally {
-    joins = false;
-  }
-}
-
-/** The number of the present step. */
-export function currentStep(): number {
-  return steps.at;
 }
 
 export function undo(): void {

@@ -4,25 +4,13 @@
  * Every link of an older page must keep opening: unknown keys are ignored, unreadable values fall
  * back to the default, and what is not given is the default.
  */
-import type {
-  MapName,
-  Picture,
-  PointSelection,
-  Preparation,
-  Region,
-  Settings,
-  SidePreparation,
-} from "../worker/protocol";
-import {
-  type LinkedModels,
-  misreadAddresses,
-  noLinkedModels,
-  readModels,
-  writeModels,
-} from "./address/codec";
-import { DEMO_MODELS, FIRST_DEMO, findDemo } from "./demos";
+import type { PointSelection, Preparation, Settings, SidePreparation } from "../worker/protocol";
+import { misreadAddresses, readModels, writeModels } from "./address/codec";
+import { type Camera, HOME } from "./camera";
+import { DEMO_MODELS, findDemo } from "./demos";
 import { defaultExplorer, type ExplorerState, readExplorer, writeExplorer } from "./explore/codec";
 import { defaultLesson, type LessonState, readLesson, writeLesson } from "./learn/link";
+import { type LinkedModels, noLinkedModels } from "./linked-models";
 import { UNITS } from "./preparation";
 import { parseRanges } from "./ranges";
 import {
@@ -46,29 +34,19 @@ import {
   SUBSAMPLE,
 } from "./settings";
 import { MEASURE_NAMES, type MeasureName } from "./shelf/measures";
-import { type Camera, HOME } from "./viewer/camera";
+import {
+  FIRST_VIEW,
+  MAPS,
+  MOST_EXAGGERATION,
+  PAGES,
+  PICTURES,
+  REGIONS,
+  ROOMS,
+  VIEW_MODES,
+  type ViewState,
+} from "./view";
 
 export const LINK_VERSION = 1;
-
-export type ViewMode = "mean" | "samples" | "sd";
-export const VIEW_MODES: ViewMode[] = ["mean", "samples", "sd"];
-/** What the page is for: to compare, to learn how that is done, to choose from what there is to see. */
-export type PageName = "compare" | "learn" | "gallery";
-export const PAGES: PageName[] = ["compare", "learn", "gallery"];
-/** Parts of the page, each with its own look at the same comparison. */
-export type Room = "regions" | "explore" | "measures" | "diagnostics" | "models";
-export const ROOMS: Room[] = ["regions", "explore", "measures", "diagnostics", "models"];
-/** What can be coloured onto the vertices in the view "sd", which older links know by that name alone. */
-export const MAPS: MapName[] = [
-  "sd",
-  "sd-normal",
-  "sd-tangential",
-  "distance",
-  "means",
-  "ratio",
-  "mode",
-];
-export const REGIONS: Region[] = ["a", "aWithoutB", "intersection", "bWithoutA", "b"];
 
 /** What of a link is settings of the run. */
 export const SETTING_KEYS = (
@@ -82,74 +60,28 @@ const LONGEST_RANGES = 2000;
 
 const MOST_VERTICES = 1e7;
 
-/** As the slider has it. */
-export const MOST_EXAGGERATION = 5;
-const PICTURES: Picture[] = ["draws", "exclusiveModes"];
-
 /** Everything that makes the picture. */
-export interface LinkState extends LinkedModels {
-  page: PageName;
+export interface LinkState extends LinkedModels, ViewState {
   /** What is taught, on the page that teaches. */
   lesson: LessonState;
-  /** Whether the page is a frame in another page: shapes and a caption, and nothing to set. */
-  embed: boolean;
-  /** A pair that comes with the page, unless the models are said one by one. */
-  demo: string;
-  settings: Settings;
-  room: Room;
-  view: ViewMode;
-  map: MapName;
-  /** Which mode the map "mode" is of, from 0. */
-  mapMode: number;
-  /** The vertex that is looked at. */
-  vertex: number | null;
   explorer: ExplorerState;
-  /** Range of the colours while it is locked. */
-  scale: [number, number] | null;
-  /** The same of what is missed, of which 0 is the other end. */
+  /** Range of the colours of what is missed while it is locked; 0 is the other end. */
   heatScale: number | null;
-  /** Whose draws are diagnosed, and which coefficient, from 0; null for the worst. */
-  side: "a" | "b" | null;
-  coefficient: number | null;
-  /** The region shown alone, if one is. */
-  region: Region | null;
-  picture: Picture;
-  /** How much further a shape of a difference is pushed away from the other model. */
-  exaggeration: number;
-  /** Seed of the shapes shown in “Samples”. */
-  shapes: string;
   /** Models that come with the page and are in the table, if there are more than two. */
   shelf: string[];
   /** What the table shows of each pair. */
   measure: MeasureName;
-  camera: Camera;
 }
 
 export function defaultLink(): LinkState {
   return {
-    page: "compare",
-    lesson: defaultLesson(),
-    embed: false,
-    demo: FIRST_DEMO.id,
+    ...FIRST_VIEW,
     ...noLinkedModels(),
-    settings: DEFAULTS,
-    room: "regions",
-    view: "mean",
-    map: "sd",
-    mapMode: 0,
-    vertex: null,
+    lesson: defaultLesson(),
     explorer: defaultExplorer(),
-    scale: null,
     heatScale: null,
-    side: null,
-    coefficient: null,
-    region: null,
-    picture: "draws",
-    exaggeration: 0,
-    shapes: "1",
     shelf: [],
     measure: "variance",
-    camera: HOME,
   };
 }
 

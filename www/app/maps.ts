@@ -5,7 +5,6 @@ import type { Ellipsoid, MapName, Region, VertexMap } from "../worker/protocol";
 import { commonRange, type Palette, symmetricRange } from "./colormap";
 import { engineClient, onEngineRestart } from "./engine";
 import { latest } from "./latest";
-import { REGIONS } from "./link";
 import { MAP_WORDS } from "./map-words";
 import {
   held,
@@ -19,6 +18,7 @@ import {
   vertexMap,
   view,
 } from "./state";
+import { REGIONS } from "./view";
 
 interface Fetched {
   /** Of which comparison. */

@@ -16,12 +16,12 @@ import type {
   Settings,
   SettingsPatch,
 } from "../worker/protocol";
-import type { LinkedModels } from "./address/codec";
+import { type Camera, HOME } from "./camera";
 import { DEMO_GROUPS, FIRST_DEMO, findDemo, type Nouns, nounsOf } from "./demos";
-import { defaultLink, type LinkState, type PageName, type Room, type ViewMode } from "./link";
+import type { LinkedModels } from "./linked-models";
 import { patched } from "./preparation";
 import { DEFAULTS, settingsKey } from "./settings";
-import { type Camera, HOME } from "./viewer/camera";
+import { FIRST_VIEW, type PageName, type Room, type ViewMode } from "./view";
 
 export type Side = "a" | "b";
 export const SIDES: Side[] = ["a", "b"];
@@ -96,8 +96,6 @@ export type PaintTool = "add" | "erase" | "turn";
 
 export type Theme = "system" | "light" | "dark";
 
-const first: LinkState = defaultLink();
-
 export const slots: Record<Side, Signal<Slot | null>> = { a: signal(null), b: signal(null) };
 /** All models that are open, in the order of their table; the two that are compared among them. */
 export const shelf = signal<Slot[]>([]);
@@ -117,33 +115,33 @@ export const engine = signal<EngineInfo | null>(null);
 /** What a screen reader is told. */
 export const spoken = signal("");
 
-export const page = signal<PageName>(first.page);
+export const page = signal<PageName>(FIRST_VIEW.page);
 /** Whether anything was compared yet: other pages do without. */
 export const begun = signal(false);
 /** Whether the page is a frame in another page. */
-export const embedded = signal(first.embed);
+export const embedded = signal(FIRST_VIEW.embed);
 /** Whether links say what the visitor's own files are called. */
 export const namesInLinks = signal(true);
 /** What the address said of the models when it was followed: not all of them may be open. */
 export const linked = signal<LinkedModels | null>(null);
 /** The part of the page that is looked at. */
-export const room = signal<Room>(first.room);
-export const view = signal<ViewMode>(first.view);
+export const room = signal<Room>(FIRST_VIEW.room);
+export const view = signal<ViewMode>(FIRST_VIEW.view);
 /** What is coloured onto the vertices, and of which mode where it is of one. */
-export const vertexMap = signal<MapName>(first.map);
-export const mapMode = signal(first.mapMode);
+export const vertexMap = signal<MapName>(FIRST_VIEW.map);
+export const mapMode = signal(FIRST_VIEW.mapMode);
 /** The vertex that is looked at, as a number of the points that are compared. */
-export const vertex = signal<number | null>(first.vertex);
+export const vertex = signal<number | null>(FIRST_VIEW.vertex);
 /** Whose draws are diagnosed, and which coefficient; null for the worst. */
-export const diagnosedSide = signal<Side | null>(first.side);
-export const diagnosedMode = signal<number | null>(first.coefficient);
+export const diagnosedSide = signal<Side | null>(FIRST_VIEW.side);
+export const diagnosedMode = signal<number | null>(FIRST_VIEW.coefficient);
 export const region = signal<Region | null>(null);
-export const shapesSeed = signal(first.shapes);
+export const shapesSeed = signal(FIRST_VIEW.shapes);
 /** What is shown of the differences, and how far they are exaggerated. */
-export const picture = signal(first.picture);
-export const exaggeration = signal(first.exaggeration);
+export const picture = signal(FIRST_VIEW.picture);
+export const exaggeration = signal(FIRST_VIEW.exaggeration);
 /** The same once its slider was let go: one step to undo, however far it went. */
-export const settledExaggeration = signal(first.exaggeration);
+export const settledExaggeration = signal(FIRST_VIEW.exaggeration);
 export const camera = signal<Camera>(HOME);
 export const shapes = signal<Partial<Record<Region, RegionShapes>>>({});
 /** What the engine predicts at the σ that is being tried, until a run replaces it. */

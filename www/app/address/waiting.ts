@@ -1,8 +1,8 @@
 /** A link that names files which it cannot hold waits for them, as a run file waits for its models. */
 import type { LinkState } from "../link";
+import type { LinkedModels } from "../linked-models";
 import type { ExpectedModel, ExpectedRun } from "../runfile/expected";
 import { fileName } from "./address";
-import type { LinkedModels } from "./codec";
 
 /** What such a link expects; null where everything that it names can be fetched. Pure. */
 export function expectedByLink(link: LinkState): ExpectedRun | null {

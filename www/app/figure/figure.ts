@@ -4,7 +4,6 @@ import type { Region, RegionShapes } from "../../worker/protocol";
 import { shapeCount } from "../comparison";
 import { saveBlob } from "../download";
 import { engineClient, report as reportError } from "../engine";
-import { REGIONS, type ViewMode } from "../link";
 import { mapCaption, scaleEnds } from "../map-words";
 import { deviationMap, ellipsoids, mapRange, rangeOf, type ShownMap, shownMap } from "../maps";
 import {
@@ -18,6 +17,7 @@ import {
   unit,
   vertex,
 } from "../state";
+import { REGIONS, type ViewMode } from "../view";
 import { contentsOf, ELLIPSOID_SD, type Scene, sceneFrame } from "../viewer/contents";
 import { scene } from "../viewer/stage-controller";
 import type { Frame, PaneContent } from "../viewer/viewer";

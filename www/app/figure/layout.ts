@@ -1,6 +1,6 @@
 /** Where everything in a figure of five blocks is. Pure; lengths in 144ths of an inch. */
 import type { Region } from "../../worker/protocol";
-import { REGIONS } from "../link";
+import { REGIONS } from "../view";
 import type { Frame, Rect } from "../viewer/viewer";
 
 /** Two units to a point: lines that are one pixel wide on the page are half a point in print. */

@@ -7,7 +7,7 @@ import { expectedByLink } from "../address/waiting";
 import { DEMO_MODELS } from "../demos";
 import { saveText } from "../download";
 import { engineClient, report } from "../engine";
-import { currentStep, joinStep, take } from "../history";
+import { take } from "../history";
 import type { LinkState } from "../link";
 import { openPair } from "../models";
 import { baseName, demoSource, first, isOpen, nameOf, sourceText, wantedOf } from "../sources";
@@ -26,6 +26,7 @@ import {
   spoken,
   type Wanted,
 } from "../state";
+import { currentStep, joinStep } from "../undo";
 import {
   adviceOf,
   type ExpectedModel,

@@ -1,7 +1,6 @@
 /** Putting models on the shelf, taking them from it, and choosing which two of them are compared. */
 import { EngineFailure, sentenceOf, wasAborted } from "../../worker/engine-errors";
 import { report } from "../engine";
-import { currentStep, joinStep } from "../history";
 import { choosing, forget, openPair } from "../models";
 import { first, isOpen, type NamedSource, nameOf, openWanted, wantedOf } from "../sources";
 import {
@@ -20,6 +19,7 @@ import {
   spoken,
   type Wanted,
 } from "../state";
+import { currentStep, joinStep } from "../undo";
 import { carry, closeUnused, putDown } from "./handles";
 import { pairSettings } from "./measures";
 import { arranged, isSame, isUsed, withModels } from "./order";

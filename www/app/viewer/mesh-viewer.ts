@@ -19,9 +19,9 @@ import {
   WebGLRenderer,
 } from "three";
 import type { Region } from "../../worker/protocol";
+import { type Camera, HOME } from "../camera";
 import { colourOf, shareIn } from "../colormap";
 import { note, timesDrawing } from "../explore/timing";
-import { type Camera, HOME } from "./camera";
 import { discardEllipsoid, ellipsoidObject } from "./ellipsoid";
 import { dots, isLit, readyToMove, surface, viridisTable } from "./materials";
 import { writeColours, writeNormals } from "./morph";

@@ -1,7 +1,6 @@
 /** Keeps a viewer in step with the state: which one, what it shows, and how it is turned. */
 import { computed, effect, signal } from "@preact/signals";
 import type { Region } from "../../worker/protocol";
-import { REGIONS } from "../link";
 import { ellipsoids, mapRange, type ShownMap, shownMap } from "../maps";
 import { beginStroke, brushRadius, paintAt, undoStroke } from "../painting";
 import {
@@ -20,6 +19,7 @@ import {
   view,
 } from "../state";
 import { isDark } from "../theme";
+import { REGIONS } from "../view";
 import {
   cardContent,
   contentsOf,

@@ -1,9 +1,9 @@
 import type { ComponentChildren } from "preact";
 import type { ChainFigures } from "../../worker/protocol";
-import type { Advice } from "../advice";
 import { chainsOf, shownChains } from "../diagnosing";
 import { count } from "../format";
 import { linear, ticks } from "../plots";
+import type { Advice } from "./Chart";
 import { Chart } from "./Chart";
 import { DataTable } from "./DataTable";
 import { PlotAxes } from "./PlotAxes";

@@ -1,8 +1,16 @@
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
-import type { Advice } from "../advice";
 import { ShowNumbers } from "./ShowNumbers";
+
+/** What to do about what a plot shows. */
+export interface Advice {
+  /** Whether there is nothing to do. */
+  calm: boolean;
+  text: string;
+  /** The chain that it is about, from 0. */
+  chain: number | null;
+}
 
 interface Props {
   title: string;

@@ -1,8 +1,8 @@
 import type { ChainFigures } from "../../worker/protocol";
-import type { Advice } from "../advice";
 import { drawsOf, noiseBand, silentLag } from "../diagnosing";
 import { number } from "../format";
 import { linear, ticks } from "../plots";
+import type { Advice } from "./Chart";
 import { Chart } from "./Chart";
 import { DataTable } from "./DataTable";
 import { PlotAxes } from "./PlotAxes";

@@ -1,6 +1,5 @@
 import { batch } from "@preact/signals";
 import { number, percent } from "../format";
-import { MOST_EXAGGERATION } from "../link";
 import { DIFFERENCES } from "../settings";
 import {
   change,
@@ -11,6 +10,7 @@ import {
   settledExaggeration,
   view,
 } from "../state";
+import { MOST_EXAGGERATION } from "../view";
 import { DEFINITIONS, type DifferencePicture, exclusive, nearlyTheModel } from "../words";
 import { Phrase } from "./Phrase";
 

@@ -1,7 +1,7 @@
-import { MAPS } from "../link";
 import { MAP_WORDS } from "../map-words";
 import { chooseMap } from "../maps";
 import { mapMode, result, slots, vertexMap } from "../state";
+import { MAPS } from "../view";
 import { NumberField } from "./NumberField";
 
 /** What is coloured onto the vertices, and of which mode. */

@@ -1,5 +1,5 @@
-import { PAGES, type PageName } from "../link";
 import { begun, page, painting } from "../state";
+import { PAGES, type PageName } from "../view";
 
 const NAMES: Record<PageName, string> = {
   compare: "Compare",

@@ -1,5 +1,4 @@
 import type { PairFigures } from "../../worker/protocol";
-import type { Advice } from "../advice";
 import {
   deviation,
   ellipseOf,
@@ -10,6 +9,7 @@ import {
 } from "../diagnosing";
 import { count, percent } from "../format";
 import { linear, type Scale, ticks, tickText } from "../plots";
+import type { Advice } from "./Chart";
 import { Chart } from "./Chart";
 import { PairTables } from "./PairTables";
 

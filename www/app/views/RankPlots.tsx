@@ -1,7 +1,7 @@
 import type { ChainFigures } from "../../worker/protocol";
-import type { Advice } from "../advice";
 import { chainsOf, rankBand, shownChains } from "../diagnosing";
 import { count } from "../format";
+import type { Advice } from "./Chart";
 import { Chart } from "./Chart";
 import { DataTable } from "./DataTable";
 

@@ -1,6 +1,6 @@
 import { useEffect, useRef } from "preact/hooks";
-import { ROOMS, type Room } from "../link";
 import { painting, room } from "../state";
+import { ROOMS, type Room } from "../view";
 
 const NAMES: Record<Room, string> = {
   regions: "Regions",

@@ -1,8 +1,8 @@
+import { HOME } from "../camera";
 import { resample } from "../comparison";
-import { VIEW_MODES, type ViewMode } from "../link";
 import { savePicture } from "../picture";
 import { camera, outOfDate, region, view } from "../state";
-import { HOME } from "../viewer/camera";
+import { VIEW_MODES, type ViewMode } from "../view";
 import { DownloadIcon } from "./icons";
 import { MapChooser } from "./MapChooser";
 import { taking } from "./Taking";

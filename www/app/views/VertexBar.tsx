@@ -1,10 +1,10 @@
 import type { Region } from "../../worker/protocol";
 import { semiAxes } from "../ellipsoid";
 import { number, signed, withoutDust } from "../format";
-import { REGIONS } from "../link";
 import { MAP_WORDS, mapCaption, mapUnit } from "../map-words";
 import { ellipsoids, pointCount, shownMap } from "../maps";
 import { compared, room, slots, unit, vertex, view } from "../state";
+import { REGIONS } from "../view";
 import { ELLIPSOID_SD } from "../viewer/contents";
 import { picking } from "../viewer/stage-controller";
 

@@ -1,8 +1,8 @@
 /** What the five regions are called. */
 import type { Region } from "../../worker/protocol";
 import { length } from "../format";
-import type { ViewMode } from "../link";
 import { exaggeration, picture, preview, run, unit, vertexMap, view } from "../state";
+import type { ViewMode } from "../view";
 
 export const REGION_NAMES: Record<Region, { sign: string; meaning: string }> = {
   a: { sign: "A", meaning: "all that A can make" },

@@ -1,8 +1,9 @@
 /** How the explored shapes are drawn. */
+
+import { HOME } from "../../camera";
 import { type ExploreLayout, LAYOUTS, STYLES, type SurfaceStyle } from "../../explore/codec";
 import { choose, dragTool, explorer } from "../../explore/state";
 import { camera, SIDES, slots } from "../../state";
-import { HOME } from "../../viewer/camera";
 
 const LAYOUT_NAMES: Record<ExploreLayout, string> = {
   side: "Side by side",
