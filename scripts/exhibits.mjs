@@ -4,6 +4,6 @@ import { pathToFileURL } from "node:url";
 import { bundle } from "./steps/bundle.mjs";
 import { root } from "./steps/run.mjs";
 
-const [file] = await bundle("exhibits", { gallery: join(root, "www/app/gallery.ts") });
+const [file] = await bundle("exhibits", { gallery: join(root, "www/app/gallery/exhibits.ts") });
 
 export const { EXHIBITS, linkTo } = await import(pathToFileURL(file).href);

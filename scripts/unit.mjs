@@ -1,9 +1,10 @@
 /**
- * Runs tests/unit: `npm run test:unit -- viewer` those of files with such a name. Node 20 reads no TypeScript, so the tests are bundled first, into .setup/unit;
- * they run from the top of the repository, so fixtures are found from there.
+ * Runs the unit tests, which lie beside what they test in www or, of the scripts and documents, in tests/unit:
+ * `npm run test:unit -- viewer` those of paths with such a word. Node 20 reads no TypeScript, so they are bundled
+ * first, into .setup/unit; they run from the top of the repository, so fixtures are found from there.
  */
 import { spawnSync } from "node:child_process";
-import { existsSync, readdirSync } from "node:fs";
+import { readdirSync } from "node:fs";
 import { join } from "node:path";
 import { ensureNode } from "./setup.mjs";
 import { bundle } from "./steps/bundle.mjs";
@@ -11,9 +12,10 @@ import { isMain, main, root } from "./steps/run.mjs";
 
 /** Bundles the tests and returns the files for `node --test`. */
 export async function bundleUnitTests(words = []) {
-  const folder = join(root, "tests/unit");
-  const names = existsSync(folder) ? readdirSync(folder, { recursive: true }) : [];
-  const tests = names
+  const tests = ["www", "tests/unit"]
+    .flatMap((folder) =>
+      readdirSync(join(root, folder), { recursive: true }).map((name) => join(folder, name)),
+    )
     .filter((name) => /\.test\.(ts|tsx|mjs)$/.test(name))
     .filter((name) => words.length === 0 || words.some((word) => name.includes(word)))
     .sort();
@@ -21,7 +23,7 @@ export async function bundleUnitTests(words = []) {
   const input = Object.fromEntries(
     tests.map((name) => [
       name.replace(/\.(ts|tsx|mjs)$/, "").replace(/[\\/]/g, "-"),
-      join(folder, name),
+      join(root, name),
     ]),
   );
   return bundle("unit", input);

@@ -26,6 +26,24 @@ const RUST = {
   ],
 };
 
+const PAGE = {
+  "www/app": [
+    ...[
+      "text",
+      "state",
+      "ui",
+      "viewer",
+      "models",
+      "comparison",
+      "stage",
+      "pictures",
+      "learn",
+      "link",
+    ],
+    ...["tabs", "share", "panels", "gallery", "shell", "main"],
+  ],
+};
+
 function filesIn(folder, ending) {
   return readdirSync(folder, { recursive: true })
     .map((name) => posix.join(folder, name.replaceAll("\\", "/")))
@@ -89,9 +107,20 @@ test("Rust: a module uses only modules that stand above it", () => {
   assert.deepEqual(upward(RUST, edges), []);
 });
 
+test("page: a file imports only from folders that stand above its own", () => {
+  const files = filesIn("www/app", /(?<!\.test)\.tsx?$/);
+  const edges = files.flatMap((file) =>
+    [...readFileSync(file, "utf8").matchAll(/(?:from|import)\s*\(?\s*"(\.[^"]+)"/g)].map(
+      ([, path]) => [file, file, posix.join(posix.dirname(file), path)],
+    ),
+  );
+  assert.ok(edges.length > 800, `only ${edges.length} imports were found`);
+  assert.deepEqual(upward(PAGE, edges), []);
+});
+
 test("every folder and file of the lists is there, and no other", () => {
-  for (const [folder, order] of Object.entries(RUST)) {
-    const there = new Set(readdirSync(folder).map((name) => name.replace(/\.rs$/, "")));
+  for (const [folder, order] of Object.entries({ ...RUST, ...PAGE })) {
+    const there = new Set(readdirSync(folder).map((name) => name.replace(/\.\w+$/, "")));
     for (const name of ["lib", "mod"]) there.delete(name);
     assert.deepEqual([...there].sort(), [...order].sort(), folder);
   }

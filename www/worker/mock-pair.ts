@@ -1,6 +1,6 @@
 /** Development only: what the mock engine finds of a pair. */
-import { completed } from "../app/preparation";
-import { maskOf } from "../app/ranges";
+import { completed } from "../app/state/preparation";
+import { maskOf } from "../app/text/ranges";
 import type { MockModel } from "./mock-models";
 import type { EngineError, Inspection, PointSelection, Remedy, Settings } from "./protocol";
 

@@ -1,6 +1,6 @@
 /** Development only: a report with plausible numbers. */
 
-import { DEFAULTS } from "../app/settings";
+import { DEFAULTS } from "../app/state/settings";
 import type { MockModel } from "./mock-models";
 import type {
   Diagnostics,

@@ -2,7 +2,7 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 import type { LessonAnswers, LessonAsk } from "../../worker/lessons";
-import { latest } from "../latest";
+import { latest } from "../state/latest";
 import { type Ask, asker, sceneFailed } from "./engine";
 import { lessonState } from "./state";
 

@@ -1,7 +1,7 @@
 /** Lessons ask the engine: one question at a time for each scene, of the lesson that the scene opened. */
 import { wasAborted } from "../../worker/engine-errors";
 import type { LessonAnswers, LessonAsk } from "../../worker/lessons";
-import { engineClient, onEngineRestart, report } from "../engine";
+import { engineClient, onEngineRestart, report } from "../state/engine";
 import { lessonState, resets } from "./state";
 
 export type Ask = <K extends LessonAsk["ask"]>(

@@ -2,7 +2,7 @@
  * What can be chosen in a scene, and how a link holds it: one value a key, left out while it is the default.
  * Unreadable values are the default, numbers out of bounds the nearest bound. Pure.
  */
-import { parseSeed } from "../settings";
+import { parseSeed } from "../state/settings";
 
 interface NumberParam {
   kind: "number";

@@ -1,6 +1,6 @@
 /** The comparison on show as a line for the command line. Pure. */
 import type { BothSides, Settings, SidePreparation } from "../../worker/protocol";
-import { budgetOf, DEFAULTS } from "../settings";
+import { budgetOf, DEFAULTS } from "../state/settings";
 
 /** A model as the command line names it. */
 export interface CommandModel {

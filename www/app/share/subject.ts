@@ -1,11 +1,12 @@
 /** What is shared: the comparison, the scene of a lesson, or the gallery. */
-import { currentLink, unlinkable } from "../history";
+
+import { headline } from "../comparison/words";
 import { titleOf } from "../learn/scenes";
 import { scene } from "../learn/state";
-import { plain } from "../phrase";
-import { nameOf } from "../sources";
-import { nouns, page, result, type Side, settings, slots } from "../state";
-import { headline } from "../words";
+import { currentLink, unlinkable } from "../link/history";
+import { nameOf } from "../models/sources";
+import { nouns, page, result, type Side, settings, slots } from "../state/state";
+import { plain } from "../text/phrase";
 import { type CommandModel, commandOf } from "./command";
 import { copiedWords, holdsSentences, type Unlinkable } from "./holds";
 

@@ -1,7 +1,7 @@
 /** From the state to what the panes show. Pure. */
 import type { BothSides, Ellipsoid, Geometry, Region, RegionShapes } from "../../worker/protocol";
-import type { Palette } from "../colormap";
-import { REGIONS, type ViewMode } from "../view";
+import { REGIONS, type ViewMode } from "../state/view";
+import type { Palette } from "../text/colormap";
 import { rimFade } from "./rim";
 import { type DrawnEllipsoid, type Frame, frameOf, type PaneContent } from "./viewer";
 

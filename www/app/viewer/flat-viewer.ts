@@ -1,7 +1,7 @@
 /** Drawings in the plane, on a 2-D canvas: outlines, over one another where there are several. */
 import type { Region } from "../../worker/protocol";
-import { type Camera, HOME } from "../camera";
-import { colourOf, shareIn } from "../colormap";
+import { type Camera, HOME } from "../state/camera";
+import { colourOf, shareIn } from "../text/colormap";
 import { pickVertex } from "./pick";
 import {
   cellsOf,

@@ -1,5 +1,5 @@
 /** Pointer, wheel and keyboard on the canvas, all turned into one camera. */
-import { type Camera, HOME, orbit, shift, zoomBy } from "../camera";
+import { type Camera, HOME, orbit, shift, zoomBy } from "../state/camera";
 
 const TURN_PER_PX = 0.009;
 const KEY_TURN = 0.12;

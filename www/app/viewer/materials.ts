@@ -13,7 +13,7 @@ import {
   PointsMaterial,
   SRGBColorSpace,
 } from "three";
-import { viridis } from "../colormap";
+import { viridis } from "../text/colormap";
 import type { PaneContent } from "./viewer";
 
 const FADING = { transparent: true, blending: NoBlending, premultipliedAlpha: true } as const;

@@ -19,13 +19,13 @@ import {
   WebGLRenderer,
 } from "three";
 import type { Region } from "../../worker/protocol";
-import { type Camera, HOME } from "../camera";
-import { colourOf, shareIn } from "../colormap";
-import { note, timesDrawing } from "../explore/timing";
+import { type Camera, HOME } from "../state/camera";
+import { colourOf, shareIn } from "../text/colormap";
 import { discardEllipsoid, ellipsoidObject } from "./ellipsoid";
 import { dots, isLit, readyToMove, surface, viridisTable } from "./materials";
 import { writeColours, writeNormals } from "./morph";
 import { pickVertex } from "./pick";
+import { note, timesDrawing } from "./timing";
 import {
   cellsOf,
   type Frame,

@@ -3,9 +3,9 @@
  * its own), drawings in the plane with a 2-D canvas.
  */
 import type { Region } from "../../worker/protocol";
-import type { Camera } from "../camera";
-import type { Palette, Rgb } from "../colormap";
-import type { SurfaceStyle } from "../explore/codec";
+import type { Camera } from "../state/camera";
+import type { SurfaceStyle } from "../state/explorer";
+import type { Palette, Rgb } from "../text/colormap";
 
 export interface Rect {
   x: number;

@@ -1,6 +1,6 @@
 import type { ComponentChildren } from "preact";
 import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
-import { isDark } from "../../theme";
+import { isDark } from "../../state/theme";
 import { type Palette, paletteOf } from "./palette";
 
 export interface Size {

@@ -1,6 +1,6 @@
 /** A plane of two numbers on a canvas: where things are, ellipses, clouds, fields, shapes. */
 import type { LessonField, LessonLaw } from "../../../worker/lessons";
-import { viridis } from "../../colormap";
+import { viridis } from "../../text/colormap";
 import type { Size } from "./Board";
 
 /** From numbers to pixels and back; up is up. */

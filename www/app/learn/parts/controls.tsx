@@ -1,6 +1,6 @@
 /** What can be set in a scene, with the number beside it. */
 import type { ComponentChildren } from "preact";
-import { number as shown } from "../../format";
+import { number as shown } from "../../text/format";
 
 interface SliderProps {
   label: string;

@@ -1,6 +1,7 @@
 /** What the scenes that sample let one choose, each with its value beside it. */
-import { count } from "../../format";
-import { parseSeed } from "../../settings";
+
+import { parseSeed } from "../../state/settings";
+import { count } from "../../text/format";
 import { Slider } from "../parts/controls";
 import { PAIRS } from "../scenes";
 import { PAIR_NAMES, SAMPLER_NAMES } from "./names";

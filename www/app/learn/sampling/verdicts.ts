@@ -1,6 +1,6 @@
 /** What numbers mean, in a sentence, for both outcomes. Pure. */
 import type { LaneFigures, LessonSide, LessonStep } from "../../../worker/lessons";
-import { count, number, percent } from "../../format";
+import { count, number, percent } from "../../text/format";
 
 export interface Verdict {
   /** Whether all is well. */

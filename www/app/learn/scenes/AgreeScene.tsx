@@ -10,7 +10,7 @@ import { GuessBoard } from "./agree/GuessBoard";
 import { MovingStar } from "./agree/MovingStar";
 import { TELLING } from "./agree/sweep";
 import { named } from "./agree/tips";
-import "../../../styles/learn-agree.css";
+import "./agree.css";
 
 /** Two models side by side: which tips can both move? Guess, then see. */
 export function AgreeScene() {

@@ -1,5 +1,5 @@
 import { useMemo } from "preact/hooks";
-import { count } from "../../format";
+import { count } from "../../text/format";
 import { useFrames } from "../clock";
 import { PlayBar } from "../parts/controls";
 import {
@@ -18,7 +18,7 @@ import { Figures } from "./cloud/Figures";
 import { Pictures } from "./cloud/Pictures";
 import { Questions } from "./cloud/Questions";
 import { CloudRun, type CloudValues, MOST_DRAWS } from "./cloud/run";
-import "../../../styles/learn-samplers.css";
+import "./samplers.css";
 
 /** Draws of both sides, the model made of them, and the truth. */
 export function CloudScene() {

@@ -1,5 +1,5 @@
 import { useEffect, useMemo, useRef } from "preact/hooks";
-import { Segments } from "../../views/Segments";
+import { Segments } from "../../ui/Segments";
 import { useFrames } from "../clock";
 import { useSceneKeys } from "../keys";
 import { PlayBar } from "../parts/controls";
@@ -18,7 +18,7 @@ import { Cut, Plane } from "./difference/Pictures";
 import { Questions } from "./difference/Questions";
 import { DifferenceRun } from "./difference/run";
 import { ShareChart } from "./difference/ShareChart";
-import "../../../styles/learn-samplers.css";
+import "./samplers.css";
 
 const STAR_SIGMA = 0.03;
 

@@ -10,7 +10,7 @@ import { ModelSide } from "./model/ModelSide";
 import { useOwnShapes } from "./model/ownShapes";
 import { EXTENT, PlaneBoard } from "./model/PlaneBoard";
 import { StarBoard } from "./model/StarBoard";
-import "../../../styles/learn-model.css";
+import "./model.css";
 
 /** σ says nothing about one model; it is given because a lesson has one. */
 const SIGMA = SCENE_PARAMS.cloud.sigma.standard;

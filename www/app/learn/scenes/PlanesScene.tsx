@@ -1,6 +1,6 @@
 import type { LessonAsk, LessonSide } from "../../../worker/lessons";
-import { degrees } from "../../format";
-import { Segments } from "../../views/Segments";
+import { degrees } from "../../text/format";
+import { Segments } from "../../ui/Segments";
 import { useAsk, useAsked, useDone } from "../asked";
 import { useSceneKeys } from "../keys";
 import { bounded } from "../params";
@@ -15,7 +15,7 @@ import { Sliders } from "./planes/Sliders";
 import { SpaceBoard } from "./planes/SpaceBoard";
 import type { Flat } from "./planes/space";
 import { angleWords, TRIES, whatToSee } from "./planes/words";
-import "../../../styles/learn-planes.css";
+import "./planes.css";
 
 const SCHEMA = SCENE_PARAMS.planes;
 /** It turns to and fro, since from the side there is little to see. */

@@ -1,6 +1,6 @@
 import { useMemo } from "preact/hooks";
-import { count } from "../../format";
-import { AdviceLine } from "../../views/Chart";
+import { count } from "../../text/format";
+import { AdviceLine } from "../../ui/Chart";
 import { useFrames } from "../clock";
 import { PlayBar } from "../parts/controls";
 import {
@@ -21,7 +21,7 @@ import { Questions } from "./race/Questions";
 import { RaceTable } from "./race/RaceTable";
 import { MOST_STEPS, RaceRun, type RaceValues } from "./race/run";
 import { SquareChart } from "./race/SquareChart";
-import "../../../styles/learn-samplers.css";
+import "./samplers.css";
 
 const STAR_SIGMA = 0.003;
 

@@ -1,5 +1,5 @@
 import { useMemo } from "preact/hooks";
-import { count, number } from "../../format";
+import { count, number } from "../../text/format";
 import { useFrames } from "../clock";
 import { useSceneKeys } from "../keys";
 import { PlayBar, Slider } from "../parts/controls";
@@ -20,7 +20,7 @@ import { Pictures } from "./step/Pictures";
 import { Questions } from "./step/Questions";
 import { StepRun, type StepValues } from "./step/run";
 import { Working } from "./step/Working";
-import "../../../styles/learn-samplers.css";
+import "./samplers.css";
 
 /** As many chains, and as fast, as it takes to see whether they agree. */
 const MANY = { chains: 8, speed: 1000 };

@@ -7,7 +7,7 @@ import { beginnings, GOALS, PLANS, type Plan } from "./teacher/plans";
 import { openForPrint } from "./teacher/print";
 import { QUESTIONS } from "./teacher/questions";
 import { Taking } from "./teacher/Taking";
-import "../../../styles/learn-teacher.css";
+import "./teacher.css";
 
 /** What whoever teaches this needs: goals, time, questions with answers, keys, and how to take it along. */
 export function TeacherScene() {

@@ -1,7 +1,7 @@
 import { useDone } from "../asked";
 import { TRY_OUT, type TryOut } from "./yours/questions";
 import { VennStars } from "./yours/VennStars";
-import "../../../styles/learn-yours.css";
+import "./yours.css";
 
 /** From stars to faces, and to whatever models somebody has. */
 export function YoursScene() {

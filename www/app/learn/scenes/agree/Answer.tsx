@@ -1,5 +1,5 @@
 import type { LessonModels } from "../../../../worker/lessons";
-import { number } from "../../../format";
+import { number } from "../../../text/format";
 import { Slider } from "../../parts/controls";
 import { setParams } from "../../state";
 import { TipTable } from "./TipTable";

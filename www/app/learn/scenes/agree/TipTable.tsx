@@ -1,5 +1,5 @@
 import type { LessonModels } from "../../../../worker/lessons";
-import { number, withoutDust } from "../../../format";
+import { number, withoutDust } from "../../../text/format";
 import { TIPS } from "../../shape";
 import { TIP_NAMES } from "./tips";
 

@@ -1,9 +1,9 @@
 import type { LessonIntersection } from "../../../../worker/lessons";
-import { count, number } from "../../../format";
-import { logarithmic } from "../../../plots";
-import { Chart } from "../../../views/Chart";
-import { DataTable } from "../../../views/DataTable";
-import { type Box, PlotAxes } from "../../../views/PlotAxes";
+import { count, number } from "../../../text/format";
+import { logarithmic } from "../../../text/plots";
+import { Chart } from "../../../ui/Chart";
+import { DataTable } from "../../../ui/DataTable";
+import { type Box, PlotAxes } from "../../../ui/PlotAxes";
 import { roomy } from "../../parts/lettering";
 import { logRange, logTicks } from "../../sampling/axes";
 

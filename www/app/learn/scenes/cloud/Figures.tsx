@@ -1,5 +1,5 @@
-import { number } from "../../../format";
-import { AdviceLine } from "../../../views/Chart";
+import { number } from "../../../text/format";
+import { AdviceLine } from "../../../ui/Chart";
 import { LessonNumber, LessonNumbers } from "../../parts/controls";
 import { cloudVerdict } from "../../sampling/verdicts";
 import type { CloudRun } from "./run";

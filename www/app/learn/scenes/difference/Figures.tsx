@@ -1,5 +1,5 @@
-import { number, percent, plusMinus } from "../../../format";
-import { AdviceLine } from "../../../views/Chart";
+import { number, percent, plusMinus } from "../../../text/format";
+import { AdviceLine } from "../../../ui/Chart";
 import { LessonNumber, LessonNumbers } from "../../parts/controls";
 import { differenceVerdict } from "../../sampling/verdicts";
 import type { DifferenceRun } from "./run";

@@ -1,8 +1,8 @@
-import { number, percent } from "../../../format";
-import { linear, logarithmic } from "../../../plots";
-import { Chart } from "../../../views/Chart";
-import { DataTable } from "../../../views/DataTable";
-import { type Box, PlotAxes } from "../../../views/PlotAxes";
+import { number, percent } from "../../../text/format";
+import { linear, logarithmic } from "../../../text/plots";
+import { Chart } from "../../../ui/Chart";
+import { DataTable } from "../../../ui/DataTable";
+import { type Box, PlotAxes } from "../../../ui/PlotAxes";
 import { roomy } from "../../parts/lettering";
 import type { Share } from "./asks";
 

@@ -1,6 +1,6 @@
 /** The plane of the difference: two densities that turn into one another, rain, and an ellipse. */
 import type { LessonField, LessonSide } from "../../../../worker/lessons";
-import { viridis } from "../../../colormap";
+import { viridis } from "../../../text/colormap";
 import type { Size } from "../../canvas/Board";
 import { drawPrior } from "../../canvas/chains";
 import { faded, type Palette } from "../../canvas/palette";

@@ -1,6 +1,6 @@
 import type { LessonPoint, LessonSide } from "../../../../worker/lessons";
-import { percent } from "../../../format";
-import { Segments } from "../../../views/Segments";
+import { percent } from "../../../text/format";
+import { Segments } from "../../../ui/Segments";
 import { LessonNumber, LessonNumbers, PlayBar } from "../../parts/controls";
 import { StarPairs } from "../../parts/StarPairs";
 import type { SceneValues } from "../../scenes";

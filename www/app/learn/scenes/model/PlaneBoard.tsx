@@ -1,6 +1,6 @@
 import { useMemo, useRef } from "preact/hooks";
 import type { LessonField, LessonSide } from "../../../../worker/lessons";
-import { isDark } from "../../../theme";
+import { isDark } from "../../../state/theme";
 import { Board, type Pointer, type Size } from "../../canvas/Board";
 import { handle, REACH, write } from "../../canvas/marks";
 import { faded, type Palette } from "../../canvas/palette";

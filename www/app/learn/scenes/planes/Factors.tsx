@@ -1,6 +1,6 @@
 import type { ComponentChildren } from "preact";
 import type { LessonPoint, LessonSide } from "../../../../worker/lessons";
-import { number } from "../../../format";
+import { number } from "../../../text/format";
 
 interface Props {
   point: LessonPoint | null;

@@ -1,4 +1,4 @@
-import { number } from "../../../format";
+import { number } from "../../../text/format";
 import { bounded } from "../../params";
 import { Slider } from "../../parts/controls";
 import { SCENE_PARAMS, type SceneValues } from "../../scenes";

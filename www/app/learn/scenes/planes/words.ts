@@ -1,5 +1,5 @@
 /** What there is to see in two planes as they lie. Pure. */
-import { number } from "../../../format";
+import { number } from "../../../text/format";
 
 export interface Lie {
   /** Degrees. */

@@ -1,4 +1,4 @@
-import { number } from "../../../format";
+import { number } from "../../../text/format";
 import { LessonNumber, LessonNumbers } from "../../parts/controls";
 import type { RaceRun } from "./run";
 

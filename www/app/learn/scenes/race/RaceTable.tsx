@@ -1,5 +1,5 @@
 import type { LaneFigures } from "../../../../worker/lessons";
-import { number, percent } from "../../../format";
+import { number, percent } from "../../../text/format";
 import { logShare, logTicks } from "../../sampling/axes";
 import { SAMPLER_NAMES } from "../../sampling/names";
 import { R_HAT_LIMIT } from "../../sampling/verdicts";

@@ -1,7 +1,7 @@
-import { count, number } from "../../../format";
-import { linear, ticks } from "../../../plots";
-import { Chart } from "../../../views/Chart";
-import { type Box, PlotAxes } from "../../../views/PlotAxes";
+import { count, number } from "../../../text/format";
+import { linear, ticks } from "../../../text/plots";
+import { Chart } from "../../../ui/Chart";
+import { type Box, PlotAxes } from "../../../ui/PlotAxes";
 import { roomy } from "../../parts/lettering";
 import type { Moment } from "./run";
 

@@ -1,6 +1,6 @@
 /** What is broken in a race, and where its pictures look. Pure. */
 import type { LaneFigures, LessonAsk, LessonLaw, LessonSampler } from "../../../../worker/lessons";
-import { count, number, percent } from "../../../format";
+import { count, number, percent } from "../../../text/format";
 import { R_HAT_LIMIT, type Verdict } from "../../sampling/verdicts";
 import type { BREAKS, SceneValues } from "../../scenes";
 

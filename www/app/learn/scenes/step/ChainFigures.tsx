@@ -1,5 +1,5 @@
-import { count, number, percent } from "../../../format";
-import { AdviceLine } from "../../../views/Chart";
+import { count, number, percent } from "../../../text/format";
+import { AdviceLine } from "../../../ui/Chart";
 import { Board } from "../../canvas/Board";
 import { LessonNumber, LessonNumbers } from "../../parts/controls";
 import { chainVerdict } from "../../sampling/verdicts";

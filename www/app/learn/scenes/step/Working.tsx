@@ -1,5 +1,5 @@
 import type { LessonStep } from "../../../../worker/lessons";
-import { number, signed } from "../../../format";
+import { number, signed } from "../../../text/format";
 import { isSaid } from "../../sampling/pacing";
 import { stepVerdict } from "../../sampling/verdicts";
 

@@ -1,0 +1,179 @@
+/**
+ * What the plots of draws are made of: bands, ellipses, which coefficient to look at first. Pure.
+ *
+ * Rank plots: Vehtari, Gelman, Simpson, Carpenter & Bürkner, “Rank-normalization, folding, and
+ * localization”, Bayesian Analysis 16 (2021).
+ */
+import type {
+  BothSides,
+  ChainFigures,
+  ModeDiagnostics,
+  PairFigures,
+  Report,
+} from "../../worker/protocol";
+import { R_HAT, worstMode } from "./words";
+
+export interface Coefficient {
+  side: "a" | "b";
+  /** From 0. */
+  mode: number;
+}
+
+/** More lines in one plot cannot be told apart. */
+const MOST_CHAINS = 32;
+
+/** The draws of each chain. */
+export function chainsOf(values: ArrayLike<number>, chains: number): number[][] {
+  const length = Math.floor(values.length / chains);
+  return Array.from({ length: chains }, (_, chain) =>
+    Array.from({ length }, (_, i) => values[chain * length + i] ?? Number.NaN),
+  );
+}
+
+/** Which chains are drawn, from 0: all of a few, of many the first and the one that is spoken of. */
+export function shownChains(chains: number, named: number | null): number[] {
+  const first = Array.from({ length: Math.min(chains, MOST_CHAINS) }, (_, chain) => chain);
+  return named === null || first.includes(named) ? first : [...first.slice(0, -1), named];
+}
+
+/**
+ * The coefficient to look at first, of one side or of either: the one whose chains agree least; where all
+ * agree, the one with the fewest effective draws.
+ */
+export function worstCoefficient(report: Report, side: "a" | "b" | null): Coefficient {
+  const both = report.intersection.coefficients;
+  const fallback: Coefficient = { side: side ?? "a", mode: 0 };
+  if (!both) return fallback;
+  const nothing: ModeDiagnostics = {
+    rHat: [],
+    essBulk: [],
+    essTail: [],
+    mcseMean: [],
+    mcseSd: [],
+    autocorrelation: [],
+  };
+  const looked: BothSides<ModeDiagnostics> = {
+    a: side === "b" ? nothing : both.a,
+    b: side === "a" ? nothing : both.b,
+  };
+  // An infinite R-hat is null in JSON: chains that each stay at a point of their own.
+  for (const name of ["a", "b"] as const) {
+    const stuck = looked[name].rHat.findIndex((value) => !Number.isFinite(value));
+    if (stuck >= 0) return { side: name, mode: stuck };
+  }
+  const unlike = worstMode(looked, "rHat");
+  const found = unlike && unlike.value >= R_HAT ? unlike : (worstMode(looked, "essBulk") ?? unlike);
+  return found ? { side: found.side, mode: found.mode - 1 } : fallback;
+}
+
+export interface RankBand {
+  /** Draws in each bar if all chains are alike. */
+  expected: number;
+  low: number;
+  high: number;
+}
+
+/** Standard deviations that bands reach to either side. */
+const BAND = 2;
+
+/**
+ * What chance allows a bar of a rank plot: of N ranks in bins, each goes to one of the chains, so a bar is
+ * hypergeometric with variance e (1 − 1/chains)(1 − 1/bins), e its mean.
+ */
+export function rankBand({ ranks, chains, bins }: ChainFigures): RankBand {
+  const total = ranks.reduce((sum, value) => sum + value, 0);
+  const expected = total / (chains * bins);
+  const reach = BAND * Math.sqrt(expected * (1 - 1 / chains) * (1 - 1 / bins));
+  return { expected, low: Math.max(0, expected - reach), high: expected + reach };
+}
+
+/** Total number of draws behind the figures. */
+export function drawsOf({ ranks }: ChainFigures): number {
+  return ranks.reduce((sum, value) => sum + value, 0);
+}
+
+/** Correlations below this are lost in noise. */
+export function noiseBand(draws: number): number {
+  return BAND / Math.sqrt(draws);
+}
+
+/** The first lag whose correlation is lost in noise; null where none of these is. */
+export function silentLag(autocorrelation: ArrayLike<number>, draws: number): number | null {
+  const band = noiseBand(draws);
+  const lag = Array.from(autocorrelation).findIndex((value) => Math.abs(value) < band);
+  return lag < 0 ? null : lag;
+}
+
+export interface Gaussian {
+  mean: readonly number[];
+  /** Square, row by row. */
+  covariance: readonly number[];
+}
+
+export interface Ellipse {
+  x: number;
+  y: number;
+  /** Semi-axes of one standard deviation, the longer one first. */
+  long: number;
+  short: number;
+  /** Of the longer one to the x axis, in radians, anticlockwise. */
+  angle: number;
+}
+
+/** One standard deviation of two coordinates of a Gaussian. */
+export function ellipseOf({ mean, covariance }: Gaussian, i: number, j: number): Ellipse {
+  const size = mean.length;
+  const at = (row: number, column: number) => covariance[row * size + column] ?? 0;
+  const [xx, xy, yy] = [at(i, i), at(i, j), at(j, j)];
+  const [middle, half] = [(xx + yy) / 2, Math.hypot((xx - yy) / 2, xy)];
+  return {
+    x: mean[i] ?? 0,
+    y: mean[j] ?? 0,
+    long: Math.sqrt(Math.max(0, middle + half)),
+    short: Math.sqrt(Math.max(0, middle - half)),
+    angle: Math.atan2(2 * xy, xx - yy) / 2,
+  };
+}
+
+/** Share of the draws that lie within so many standard deviations in two of their coordinates. */
+export function shareWithin(
+  figures: PairFigures,
+  i: number,
+  j: number,
+  deviations: number,
+): number {
+  const { mean, covariance, draws, count } = figures;
+  const size = figures.modes.length;
+  const at = (row: number, column: number) => covariance[row * size + column] ?? 0;
+  const [xx, xy, yy] = [at(i, i), at(i, j), at(j, j)];
+  const determinant = xx * yy - xy * xy;
+  let within = 0;
+  for (let draw = 0; draw < count; draw += 1) {
+    const x = (draws[draw * size + i] ?? 0) - (mean[i] ?? 0);
+    const y = (draws[draw * size + j] ?? 0) - (mean[j] ?? 0);
+    const squared = (yy * x * x - 2 * xy * x * y + xx * y * y) / determinant;
+    if (squared <= deviations * deviations) within += 1;
+  }
+  return within / count;
+}
+
+/** The same share of a Gaussian, in two dimensions. */
+export function gaussianShare(deviations: number): number {
+  return 1 - Math.exp(-0.5 * deviations * deviations);
+}
+
+export function deviation({ mean, covariance }: Gaussian, i: number): number {
+  return Math.sqrt(Math.max(0, covariance[i * mean.length + i] ?? 0));
+}
+
+export function correlation(law: Gaussian, i: number, j: number): number {
+  const shared = law.covariance[i * law.mean.length + j] ?? 0;
+  return shared / (deviation(law, i) * deviation(law, j));
+}
+
+/** Every pair of the first modes, the lower triangle row by row. */
+export function pairsOf(modes: number): [number, number][] {
+  return Array.from({ length: modes }, (_, j) => j).flatMap((j) =>
+    Array.from({ length: j }, (_, i): [number, number] => [i, j]),
+  );
+}

@@ -1,0 +1,51 @@
+/** Testing a model with shapes: generalization and specificity, as Davies defines them. */
+import { type Signal, signal } from "@preact/signals";
+import { EngineFailure, sentenceOf } from "../../worker/engine-errors";
+import type { DroppedFile, Evaluation } from "../../worker/protocol";
+import { engineClient } from "../state/engine";
+import { type Side, slotKey, slots, spoken } from "../state/state";
+import { evaluationSentence } from "./measured";
+
+export interface Evaluated {
+  /** Of which model. */
+  key: string;
+  unit: string;
+  evaluation: Evaluation | null;
+  problem: { message: string; hint: string } | null;
+}
+
+export const evaluated: Record<Side, Signal<Evaluated | null>> = {
+  a: signal(null),
+  b: signal(null),
+};
+export const evaluating: Record<Side, Signal<boolean>> = { a: signal(false), b: signal(false) };
+
+/** The shapes that a model was made of, where the page still has them. */
+export function trainingFiles(side: Side): DroppedFile[] | null {
+  const slot = slots[side].value;
+  if (slot?.origin.kind !== "shapes" || slot.source.kind !== "files") return null;
+  // Of several sets in one archive it cannot be told which files are those of this one.
+  return slot.parts.length === 1 ? slot.source.files : null;
+}
+
+export async function evaluate(side: Side, files: DroppedFile[], training: boolean): Promise<void> {
+  const slot = slots[side].value;
+  if (!slot || files.length === 0 || evaluating[side].value) return;
+  const about = { key: slotKey(slot), unit: slot.report.unit };
+  const name = side.toUpperCase();
+  evaluating[side].value = true;
+  spoken.value = `Testing model ${name}.`;
+  try {
+    const { signal: kept } = new AbortController();
+    const evaluation = await engineClient().evaluate(kept, slot.model, files, training);
+    evaluated[side].value = { ...about, evaluation, problem: null };
+    spoken.value = evaluationSentence(evaluation, name, about.unit);
+  } catch (thrown) {
+    const problem =
+      thrown instanceof EngineFailure ? thrown : { message: sentenceOf(thrown), hint: "" };
+    evaluated[side].value = { ...about, evaluation: null, problem };
+    spoken.value = `${problem.message} ${problem.hint}`;
+  } finally {
+    evaluating[side].value = false;
+  }
+}

@@ -1,0 +1,109 @@
+/** What the measures of a pair say, in plain words. Pure. */
+import type { Evaluation, Report } from "../../worker/protocol";
+import type { Nouns } from "../state/demos";
+import { count, degrees, length, number, percent } from "../text/format";
+import { figure, type Phrase } from "../text/phrase";
+import type { Group } from "./numbers";
+
+/** From here on a number only says that it is beyond all bounds: the engine's largest is 1.8 × 10³⁰⁸. */
+const BEYOND = 1e300;
+
+export function divergence(value: number): string {
+  return value >= BEYOND ? "too large to tell" : number(value, 4);
+}
+
+/** Said beside the two measures that need noise to exist at all. */
+export function noiseSentence(report: Report): Phrase {
+  const { bhattacharyyaNoise: noise } = report.overlap;
+  return [
+    "Each model has directions that the other lacks altogether, so both measures would be infinite: noise of τ = ",
+    figure("overlap.bhattacharyyaNoise", noise, length(noise, report.models.a.unit)),
+    " is added to every coordinate of both, and as τ → 0 both grow without bound. Compare values at the same τ only.",
+  ];
+}
+
+/** Angles up to here are said to be shared directions, from there on own ones. */
+const [NEAR, FAR] = [10, 45];
+
+export function angleSentence(angles: readonly number[]): string {
+  if (angles.length === 0) return "There are no directions to compare.";
+  const near = angles.filter((angle) => angle < NEAR).length;
+  const far = angles.filter((angle) => angle > FAR).length;
+  return `Of ${count(angles.length)} directions ${near} lie within ${NEAR}° of one another and ${far} more than ${FAR}° apart; at 0° both models have the direction, at 90° one of them has nothing of it.`;
+}
+
+export function angleLabel(angles: readonly number[]): string {
+  const [first, last] = [angles[0] ?? 0, angles.at(-1) ?? 0];
+  return `${angles.length} principal angles, from ${degrees(first)} to ${degrees(last)}.`;
+}
+
+const MOST = 0.95;
+
+/** How many of the modes hold a share of the variance. */
+export function modesFor(compactness: readonly number[], share: number): number | null {
+  const found = compactness.findIndex((value) => value >= share);
+  return found < 0 ? null : found + 1;
+}
+
+export function compactnessSentence(found: NonNullable<Report["compactness"]>): string {
+  const need = (name: string, values: readonly number[]) =>
+    `${name} ${modesFor(values, MOST) ?? `more than ${values.length}`}`;
+  return `For ${percent(MOST)} of the variance ${need("A needs", found.a)} modes, ${need("B", found.b)}, ${need("A∩B", found.intersection)}.`;
+}
+
+const eachWay = (label: string, path: string, show: Group["rows"][number]["show"]) => ({
+  label,
+  metrics: [`differences.aWithoutB.${path}`, `differences.bWithoutA.${path}`],
+  show,
+});
+const inUnit = (value: number, report: Report) => length(value, report.models.a.unit);
+
+export const SPLITTING: Group = {
+  title: "The set difference and the linear splitting",
+  columns: ["A∖B", "B∖A"],
+  rows: [
+    eachWay("Weight of A∩B in the model", "linearSplit.weight", percent),
+    eachWay("Between the two mean shapes", "linearSplit.meanToMean", inUnit),
+    eachWay("Vertex SD of the set difference", "vertexSd.mean", inUnit),
+    eachWay("Vertex SD of the splitting", "linearSplit.vertexSd.mean", inUnit),
+    eachWay("Variance, splitting over difference", "linearSplit.varianceRatio", (value) =>
+      number(value),
+    ),
+    eachWay("Negative share of its variance", "linearSplit.negativeShare", percent),
+  ],
+};
+
+export function hasSplitting({ differences }: Report): boolean {
+  return Boolean(differences.aWithoutB.linearSplit || differences.bWithoutA.linearSplit);
+}
+
+/** What the baseline is, and why it may have negative variance. */
+export const SPLITTING_SENTENCES =
+  "Linear splitting (Hall, Marshall & Martin 2000) takes A∩B out of a model as if the model were a mixture of A∩B, at its weight, and a Gaussian rest: mean and covariance of the rest then follow without a draw. " +
+  "The model is no such mixture, and in directions where A∩B has more variance than its share of the model’s the rest is left with less than none: no law has such a covariance, and the larger the negative share, the less the splitting stands for any shapes.";
+
+const METHODS: Record<Evaluation["method"], (evaluation: Evaluation) => string> = {
+  test: ({ shapes }) =>
+    `${count(shapes)} test ${shapes === 1 ? "shape" : "shapes"} that the model was not made of.`,
+  "leave-one-out": ({ shapes }) =>
+    `The ${count(shapes)} shapes it was made of: each is left out in turn, the model made anew of the others.`,
+  folds: ({ shapes, folds }) =>
+    `The ${count(shapes)} shapes it was made of: a part of ${folds} is left out in turn, the model made anew of the rest.`,
+};
+
+export function methodSentence(evaluation: Evaluation): string {
+  return METHODS[evaluation.method](evaluation);
+}
+
+export function evaluationSentence(evaluation: Evaluation, name: string, unit: string): string {
+  const { modes, generalization, specificity } = evaluation;
+  const [most, near, far] = [modes.at(-1), generalization.at(-1), specificity.at(-1)];
+  if (most === undefined || near === undefined || far === undefined) {
+    return "The model has no modes to evaluate.";
+  }
+  return `With ${count(most)} ${most === 1 ? "mode" : "modes"} ${name} comes to within ${length(near, unit)} of a shape it has not seen (generalization), and its random shapes lie ${length(far, unit)} from the nearest of these (specificity); smaller is better for both.`;
+}
+
+export function shareSentence(nouns: Nouns): string {
+  return `How much of the variance of ${nouns.a} lies in directions that ${nouns.b} has too, and back; the rest no shape of the other model has.`;
+}

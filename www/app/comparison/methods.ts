@@ -1,0 +1,230 @@
+/** A paragraph for the methods section of a paper, and what to cite. Pure; every number is the report's. */
+import type { BothSides, Inference, Report, SamplerName } from "../../worker/protocol";
+import { completed, preparationWords } from "../state/preparation";
+import { count, length, number, percent, plusMinus } from "../text/format";
+import { figure, type Phrase } from "../text/phrase";
+import { DEFINITIONS } from "./words";
+
+export function methods(report: Report): Phrase {
+  return [
+    ...models(report),
+    ...preparation(report),
+    ...tolerance(report),
+    ...sampling(report),
+    ...convergence(report),
+    ...outcome(report),
+    ...differences(report),
+    ` Reference: ${REFERENCE}`,
+  ];
+}
+
+const REFERENCE =
+  "M. Weiherer, F. Klein, B. Egger: Approximating Intersections and Differences Between Linear Statistical Shape Models Using Markov Chain Monte Carlo. WACV 2024, arXiv:2211.16314.";
+
+function models(report: Report): Phrase {
+  const one = (side: "a" | "b"): Phrase => {
+    const { name, points, dimension, modes, format } = report.models[side];
+    const path = `models.${side}`;
+    return [
+      `${side.toUpperCase()}, “${name}” (${format}; `,
+      figure(`${path}.points`, points, count(points)),
+      ` points in ${dimension} dimensions, `,
+      figure(`${path}.modes`, modes, count(modes)),
+      " modes)",
+    ];
+  };
+  return [
+    `Two linear statistical shape models were compared with Shapevenn ${report.engine} by the method of Weiherer et al. (2024): `,
+    ...one("a"),
+    ", and ",
+    ...one("b"),
+    ".",
+  ];
+}
+
+const ALIGNED = {
+  none: "without alignment",
+  rigid: "after B was aligned rigidly to A by its mean shape",
+  similarity: "after B was aligned to A, scale included, by its mean shape",
+};
+
+function preparation(report: Report): Phrase {
+  const { align, modes, prepare } = report.settings;
+  const steps = preparationWords(completed(prepare));
+  const kept: Phrase =
+    modes === null
+      ? []
+      : [", the first ", figure("settings.modes", modes, count(modes)), " modes of each"];
+  const also = steps.length === 0 ? "" : ` (preparation: ${steps.join("; ")})`;
+  return [` They were compared ${ALIGNED[align]}`, ...kept, `${also}.`];
+}
+
+function tolerance(report: Report): Phrase {
+  const { sigma, sigmaRecommended } = report.settings;
+  const { unit } = report.models.a;
+  const found = report.intersection.tolerance;
+  const path = "intersection.tolerance";
+  if (sigma === null) return [];
+  const used = figure("settings.sigma", sigma, length(sigma, unit));
+  if (!sigmaRecommended) {
+    const other: Phrase = found
+      ? [
+          " (recommended would be ",
+          figure(`${path}.recommended`, found.recommended, length(found.recommended, unit)),
+          ")",
+        ]
+      : [];
+    return [" The tolerance σ of the distance likelihood was chosen as ", used, ...other, "."];
+  }
+  const why: Phrase = found
+    ? [
+        ", recommended by the program from the distances that are possible between the models, ",
+        figure(`${path}.nearest`, found.nearest, number(found.nearest)),
+        " to ",
+        figure(`${path}.farthest`, found.farthest, length(found.farthest, unit)),
+      ]
+    : [", recommended by the program"];
+  return [" The tolerance σ of the distance likelihood was ", used, ...why, "."];
+}
+
+function sampling(report: Report): Phrase {
+  const { chains, draws, burnIn, thin, seed, pooling, plausibility, weighted } = report.settings;
+  const setting = (name: "chains" | "draws" | "burnIn" | "thin" | "weighted", value: number) =>
+    figure(`settings.${name}`, value, count(value));
+  const inference = report.intersection.inference;
+  const both = pooling === "both" || pooling === undefined;
+  const from = both ? "from both models in equal shares" : `from ${pooling.toUpperCase()} alone`;
+  const moments: Phrase =
+    inference && (inference.a.moments !== "draws" || inference.b.moments !== "draws")
+      ? [
+          "; its mean and covariance rest on a Gaussian fit and ",
+          setting("weighted", weighted),
+          " weighted draws with gradients a side",
+        ]
+      : [];
+  return [
+    ` The intersection A∩B was sampled ${from} by ${samplerNames(report, inference)}: `,
+    setting("chains", chains),
+    " chains and ",
+    setting("draws", draws),
+    " draws a side, burn-in ",
+    setting("burnIn", burnIn),
+    ", thinning ",
+    setting("thin", thin),
+    `, seed ${seed}`,
+    plausibility === "idempotent" ? ", plausibilities combined by their geometric mean" : "",
+    ...moments,
+    ".",
+  ];
+}
+
+const SAMPLED_BY: Record<SamplerName, string> = {
+  auto: "an automatically chosen sampler",
+  variational: "independent draws from a Gaussian fit",
+  independence: "an independence sampler that proposes from a Gaussian fit",
+  hmc: "split Hamiltonian Monte Carlo",
+  mala: "Langevin steps (MALA)",
+  pcn: "preconditioned Crank–Nicolson steps",
+  paper: "the random walk of the paper",
+  "paper-corrected": "the random walk of the paper with its Hastings factor",
+};
+
+function samplerNames(report: Report, inference: BothSides<Inference> | null | undefined): string {
+  const word = (side: "a" | "b") => {
+    const name = inference?.[side].sampler ?? report.settings.sampler;
+    return SAMPLED_BY[name] ?? name;
+  };
+  const [a, b] = [word("a"), word("b")];
+  return a === b ? a : `${a} (from A) and ${b} (from B)`;
+}
+
+function convergence(report: Report): Phrase {
+  const { rHatMax, essBulkMin, essTailMin, acceptance, paretoK, importanceEss, converged } =
+    report.intersection.diagnostics;
+  const path = "intersection.diagnostics";
+  return [
+    converged ? " The draws converged: " : " The draws did not converge: ",
+    ...(rHatMax === null
+      ? []
+      : ["largest split R-hat ", figure(`${path}.rHatMax`, rHatMax, rHatMax.toFixed(4)), ", "]),
+    "least effective sample size ",
+    figure(`${path}.essBulkMin`, essBulkMin, count(essBulkMin)),
+    " (bulk) and ",
+    figure(`${path}.essTailMin`, essTailMin, count(essTailMin)),
+    " (tails), acceptance ",
+    figure(`${path}.acceptance`, acceptance, percent(acceptance)),
+    ...(paretoK === null
+      ? []
+      : [", Pareto k ", figure(`${path}.paretoK`, paretoK, number(paretoK, 2))]),
+    ...(importanceEss == null
+      ? []
+      : [
+          ", effective size of the weights ",
+          figure(`${path}.importanceEss`, importanceEss, count(importanceEss)),
+        ]),
+    ".",
+  ];
+}
+
+function outcome(report: Report): Phrase {
+  const { modes, meanDistance } = report.intersection;
+  const { varianceOfAInB, varianceOfBInA } = report.overlap;
+  const { unit } = report.models.a;
+  const away = plusMinus(meanDistance.mean, meanDistance.sd);
+  return [
+    " The intersection model has ",
+    figure("intersection.modes", modes, count(modes)),
+    " modes; its shapes lie ",
+    figure("intersection.meanDistance.mean", meanDistance.mean, away.mean),
+    " ± ",
+    figure("intersection.meanDistance.sd", meanDistance.sd, `${away.spread}\u202f${unit}`),
+    " (mean vertex distance) from the nearest shape of the other model. B can make ",
+    figure("overlap.varianceOfAInB", varianceOfAInB, percent(varianceOfAInB)),
+    " of the variance of A, A ",
+    figure("overlap.varianceOfBInA", varianceOfBInA, percent(varianceOfBInA)),
+    " of that of B.",
+  ];
+}
+
+function differences(report: Report): Phrase {
+  const share = (key: "aWithoutB" | "bWithoutA"): Phrase => {
+    const { probability, standardError } = report.differences[key];
+    const path = `differences.${key}`;
+    return [
+      figure(`${path}.probability`, probability, percent(probability)),
+      " (standard error ",
+      figure(`${path}.standardError`, standardError, percent(standardError)),
+      ")",
+    ];
+  };
+  const { difference, differenceDraws } = report.settings;
+  const { label, help } = DEFINITIONS[difference ?? "soft"];
+  return [
+    " The differences A∖B and B∖A were sampled by rejection, ",
+    figure("settings.differenceDraws", differenceDraws, count(differenceDraws)),
+    ` draws each, by the ${label} definition (${help.replace(/\.$/, "")}): `,
+    ...share("aWithoutB"),
+    " of the shapes of A and ",
+    ...share("bWithoutA"),
+    " of those of B are in them.",
+  ];
+}
+
+/** The paper whose method this is, and the program. */
+export function bibTeX(engine: string): string {
+  return `@inproceedings{weiherer2024approximating,
+  author        = {Weiherer, Maximilian and Klein, Finn and Egger, Bernhard},
+  title         = {Approximating Intersections and Differences Between Linear Statistical Shape Models Using {Markov} Chain {Monte} {Carlo}},
+  booktitle     = {Proceedings of the IEEE/CVF Winter Conference on Applications of Computer Vision (WACV)},
+  year          = {2024},
+  eprint        = {2211.16314},
+  archivePrefix = {arXiv}
+}
+
+@software{shapevenn,
+  author  = {{The Shapevenn authors}},
+  title   = {{Shapevenn}: intersections and differences of linear statistical shape models},
+  version = {${engine}}
+}
+`;
+}

@@ -1,0 +1,391 @@
+/** Runs, restores and shows comparisons: whatever is chosen is what gets compared. */
+import { batch, computed, effect } from "@preact/signals";
+import { wasAborted } from "../../worker/engine-errors";
+import type { BothSides, Progress, Region, Report, SweepPoint } from "../../worker/protocol";
+import { demoSource, sourceText } from "../models/sources";
+import { FIRST_DEMO } from "../state/demos";
+import { engineClient, onEngineRestart, report as reportError } from "../state/engine";
+import { latest } from "../state/latest";
+import { selectsPoints } from "../state/preparation";
+import {
+  canPreview,
+  compared,
+  currentBase,
+  currentKey,
+  dismiss,
+  emptyRegions,
+  exaggeration,
+  failedKey,
+  held,
+  inspected,
+  nouns,
+  opening,
+  pairKey,
+  picture,
+  preview,
+  type Result,
+  result,
+  run,
+  settings,
+  shapes,
+  shapesSeed,
+  slots,
+  spoken,
+  tried,
+} from "../state/state";
+import type { Stored } from "../state/stored";
+import { REGIONS } from "../state/view";
+import { plain } from "../text/phrase";
+import { isCloud } from "../viewer/contents";
+import { belief } from "./words";
+
+/** How long the page waits for the next change before it runs. */
+const SETTLE_MS = 500;
+/** How often the picture is refined while running. */
+const REFINE_MS = 1500;
+/** Runs shorter than this show their result and no guess before it: drawing one would only hold them up. */
+const FIRST_GUESS_MS = 800;
+
+type Held = NonNullable<typeof held.value>;
+
+let runController: AbortController | null = null;
+let regionController = new AbortController();
+let stored: Stored | null = null;
+let restoring = false;
+
+/** Whenever what is chosen differs from what is shown, run it, once the changes settle. */
+export function watchChoices(first: Stored | null): void {
+  stored = first;
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  effect(() => {
+    const key = currentKey.value;
+    const busy = opening.a.value !== null || opening.b.value !== null;
+    clearTimeout(timer);
+    if (key === null || busy || key === failedKey.value) return;
+    if (key === result.value?.key && held.peek()?.key === key) return;
+    if (stored?.key === key) {
+      timer = setTimeout(() => void restore(key), 0);
+      return;
+    }
+    // Two that cannot be compared are not tried: beside the models it says why, and what helps.
+    const pair = inspected.value;
+    if (pair?.key !== pairKey.value) return;
+    if (pair?.inspection.problem) {
+      giveUp();
+      return;
+    }
+    timer = setTimeout(() => void start(), SETTLE_MS);
+  });
+  onEngineRestart(() => {
+    held.value = null;
+    restoring = false;
+    run.value = null;
+  });
+}
+
+/** Puts the stored comparison back: its numbers at once, its shapes when the engine has them. */
+async function restore(key: string): Promise<void> {
+  const [a, b] = [slots.a.value, slots.b.value];
+  if (!stored || !a || !b || restoring) return;
+  const base = currentBase.value;
+  restoring = true;
+  forgetRun();
+  dismiss("run");
+  try {
+    const draws = (await stored.draws()).slice(0);
+    preview.value = null;
+    result.value = storedResult(stored);
+    const signal = new AbortController().signal;
+    await engineClient().restore(signal, a.model, b.model, stored.text, draws);
+    held.value = { key, base, selects: false };
+    await showRegions(REGIONS);
+    restoring = false;
+  } catch (thrown) {
+    restoring = false;
+    // Other models have come meanwhile: the stored comparison is as good as it was, for whoever comes back to it.
+    if (slots.a.peek() !== a || slots.b.peek() !== b) {
+      if (currentKey.peek() === key) void restore(key);
+      return;
+    }
+    // A stored comparison that cannot be restored is no use: draw it again.
+    stored = null;
+    if (!wasAborted(thrown)) void start();
+  }
+}
+
+export function storedResult(first: Stored): Result {
+  const { report, text, key } = first;
+  const sources = {
+    a: sourceText(demoSource(FIRST_DEMO.a)),
+    b: sourceText(demoSource(FIRST_DEMO.b)),
+  };
+  return { report, text, key, sources, nouns: FIRST_DEMO.nouns, stored: true, cancelled: false };
+}
+
+export async function start(): Promise<void> {
+  const [a, b] = [slots.a.value, slots.b.value];
+  const key = currentKey.value;
+  if (!a || !b || key === null) return;
+  const running: Held = {
+    key,
+    base: currentBase.value,
+    selects: selectsPoints(settings.value.prepare),
+  };
+  const sources = { a: sourceText(a.source), b: sourceText(b.source) };
+  forgetRun();
+  const controller = new AbortController();
+  runController = controller;
+  batch(() => {
+    run.value = { progress: null, seconds: 0, cancelling: false };
+    failedKey.value = null;
+    dismiss("run");
+    dismiss("page");
+  });
+  spoken.value = "Comparison started.";
+  held.value = null;
+  const putBack = keepPicture();
+  const refine = refiner(running);
+  const begun = performance.now();
+  try {
+    const done = await engineClient().run(
+      controller.signal,
+      a.model,
+      b.model,
+      settings.value,
+      (progress, seconds) => {
+        if (runController !== controller) return;
+        run.value = { progress, seconds, cancelling: controller.signal.aborted };
+        refine(progress, performance.now() - begun);
+      },
+    );
+    if (runController !== controller) return;
+    const report = JSON.parse(done.report) as Report;
+    const nothing = done.cancelled && report.intersection.diagnostics.draws === 0;
+    if (nothing && result.value !== null) {
+      failedKey.value = key;
+      putBack();
+      spoken.value = "Cancelled before there were any draws; what was there stays.";
+      return;
+    }
+    finish(running, report, done, sources);
+    await showRegions(REGIONS);
+  } catch (thrown) {
+    if (runController !== controller) return;
+    failedKey.value = key;
+    putBack();
+    reportError("run", thrown);
+  } finally {
+    if (runController === controller) {
+      runController = null;
+      run.value = null;
+    }
+  }
+}
+
+/** The picture that belongs to the results; a run that comes to nothing leaves both as they were. */
+function keepPicture(): () => void {
+  const [drawn, empty, points] = [shapes.value, emptyRegions.value, compared.value];
+  return () =>
+    batch(() => {
+      preview.value = null;
+      held.value = null;
+      shapes.value = drawn;
+      emptyRegions.value = empty;
+      compared.value = points;
+      comparedKey = null;
+    });
+}
+
+/** Ends the run and keeps what was drawn so far. */
+export function cancel(): void {
+  if (!run.value || !runController) return;
+  run.value = { ...run.value, cancelling: true };
+  runController.abort();
+}
+
+/** Forgets a run that the next request to the engine supersedes; a cancel would measure it first. */
+function forgetRun(): void {
+  runController = null;
+  run.value = null;
+}
+
+/** Ends a run of models that are no longer compared; what it drew is not waited for. */
+function giveUp(): void {
+  const controller = runController;
+  forgetRun();
+  controller?.abort();
+}
+
+function finish(
+  ran: Held,
+  report: Report,
+  { report: text, cancelled }: { report: string; cancelled: boolean },
+  sources: BothSides<string | null>,
+): void {
+  const { key } = ran;
+  batch(() => {
+    preview.value = null;
+    held.value = ran;
+    result.value = { report, text, key, sources, nouns: nouns.value, stored: false, cancelled };
+    run.value = null;
+  });
+  const verdict = plain(belief(report).phrase);
+  spoken.value = cancelled
+    ? `Cancelled; the draws so far are kept. ${verdict}`
+    : `Comparison finished. ${verdict}`;
+}
+
+/** Asks for shapes as soon as there are any, then again now and then, one question at a time. */
+function refiner(running: Held): (progress: Progress, now: number) => void {
+  let asked = Number.NEGATIVE_INFINITY;
+  let asking = false;
+  let wait = REFINE_MS;
+  return (progress, now) => {
+    if (!progress.hasIntersection || asking) return;
+    if (now < FIRST_GUESS_MS || now - asked < wait) return;
+    const wanted: Region[] = asked < 0 ? ["intersection", "a", "b"] : ["intersection"];
+    asking = true;
+    asked = now;
+    held.value = running;
+    const begun = performance.now();
+    showRegions(wanted).finally(() => {
+      asking = false;
+      // Shapes of a large model take the engine seconds: no more than a tenth of a run goes into them.
+      wait = Math.max(REFINE_MS, 10 * (performance.now() - begun));
+    });
+  };
+}
+
+/** How many shapes of a region are asked for: a grid of surfaces, a heap of drawings, a cloud. */
+export function shapeCount(): number {
+  const geometry = slots.a.value?.geometry;
+  if (geometry?.segments) return 60;
+  return geometry && isCloud(geometry) ? 600 : 9;
+}
+
+async function showRegions(regions: Region[]): Promise<void> {
+  if (regions.length === REGIONS.length) {
+    regionController.abort();
+    regionController = new AbortController();
+  }
+  const { signal } = regionController;
+  const seed = shapesSeed.value;
+  await showCompared(signal);
+  await Promise.all(
+    regions.map(async (name) => {
+      try {
+        const found = await engineClient().region(
+          signal,
+          name,
+          shapeCount(),
+          seed,
+          exaggeration.value,
+          picture.value,
+        );
+        batch(() => {
+          shapes.value = { ...shapes.value, [name]: found };
+          const { [name]: _, ...others } = emptyRegions.value;
+          emptyRegions.value = others;
+        });
+      } catch (thrown) {
+        if (signal.aborted || wasAborted(thrown)) return;
+        const why = thrown instanceof Error ? thrown.message : "There is nothing to show.";
+        batch(() => {
+          const { [name]: _, ...others } = shapes.value;
+          shapes.value = others;
+          emptyRegions.value = { ...emptyRegions.value, [name]: why };
+        });
+      }
+    }),
+  );
+}
+
+/** The key of the comparison whose points `compared` holds. */
+let comparedKey: string | null = null;
+
+/** Fetches the points that are compared, where those are not simply the models' own. */
+async function showCompared(signal: AbortSignal): Promise<void> {
+  const shown = held.value;
+  if (shown === null || (shown.key === comparedKey && compared.value !== null)) return;
+  if (!shown.selects) {
+    compared.value = null;
+    return;
+  }
+  try {
+    const found = await engineClient().compared(signal);
+    if (signal.aborted || held.value?.key !== shown.key) return;
+    comparedKey = shown.key;
+    compared.value = found;
+  } catch (thrown) {
+    if (!signal.aborted && !wasAborted(thrown)) reportError("run", thrown);
+  }
+}
+
+/** Other shapes of the same draws. */
+export function resample(): void {
+  shapesSeed.value = (BigInt(shapesSeed.value) + 1n).toString();
+}
+
+const DIFFERENCES: Region[] = ["aWithoutB", "bWithoutA"];
+
+/** Other samples, exaggeration and exclusive modes are other pictures of the same draws. */
+export function watchPictures(): void {
+  let drawn = shapesSeed.value;
+  const show = latest<undefined>(() => {
+    const others = shapesSeed.peek() !== drawn;
+    drawn = shapesSeed.peek();
+    return showRegions(others ? REGIONS : DIFFERENCES);
+  });
+  const picked = computed(() => `${picture.value} ${exaggeration.value} ${shapesSeed.value}`);
+  let shown = picked.value;
+  effect(() => {
+    if (picked.value === shown) return;
+    shown = picked.value;
+    if (held.peek() !== null) show(undefined);
+  });
+}
+
+/** Whether the σ under the slider is still wanted: not once it was put back. */
+let wantsPreview = false;
+
+const askPreview = latest(async (sigma: number) => {
+  const before = held.value;
+  if (!canPreview.value) return;
+  try {
+    const { signal } = regionController;
+    const found = await engineClient().preview(signal, sigma, shapeCount(), shapesSeed.value);
+    // A run that began meanwhile has better to show.
+    if (!wantsPreview || !canPreview.value || held.value !== before) return;
+    batch(() => {
+      preview.value = found.prediction;
+      shapes.value = { ...shapes.value, intersection: found.shapes };
+    });
+  } catch (thrown) {
+    // Where the fit breaks down there is nothing to foresee; the run says what is wrong.
+    if (!wasAborted(thrown)) preview.value = null;
+  }
+});
+
+/** Shows A∩B as it would be at another σ, and what to expect there. */
+export function trySigma(sigma: number): void {
+  tried.value = sigma;
+  wantsPreview = true;
+  askPreview(sigma);
+}
+
+/** Takes the σ that was tried, and runs it as any other change; or gives it up. */
+export function takeSigma(sigma: number | null): void {
+  tried.value = null;
+  if (sigma !== settings.value.sigma) {
+    settings.value = { ...settings.value, sigma };
+    return;
+  }
+  wantsPreview = false;
+  preview.value = null;
+  if (canPreview.value) void showRegions(["intersection"]);
+}
+
+/** The intersection's numbers at one σ, by the fit alone; null where the fit breaks down. */
+export async function sweepPoint(signal: AbortSignal, sigma: number): Promise<SweepPoint | null> {
+  return (await engineClient().sweep(signal, [sigma]))[0] ?? null;
+}

@@ -1,0 +1,527 @@
+/** What a report says, in plain words. Pure: no DOM, no engine. */
+import type {
+  BothSides,
+  DifferenceName,
+  FitMethod,
+  Inference,
+  Inspection,
+  ModeDiagnostics,
+  ModelReport,
+  Origin,
+  Progress,
+  Report,
+  SamplerName,
+} from "../../worker/protocol";
+import type { Nouns } from "../state/demos";
+import { completed, preparationWords, UNSTATED } from "../state/preparation";
+import type { Reading } from "../state/state";
+import { bytes, count, degrees, length, number, percent, plusMinus } from "../text/format";
+import { figure, type Phrase } from "../text/phrase";
+
+/** The thresholds of src/report.rs. */
+export const R_HAT = 1.01;
+export const ESS = 400;
+
+/** From here on “nearly everything” is a fair word. */
+const NEARLY_ALL = 0.99;
+
+export function headline(report: Report, nouns: Nouns): Phrase {
+  const { varianceOfAInB, varianceOfBInA } = report.overlap;
+  return [
+    `${capital(nouns.b)} can make `,
+    figure("overlap.varianceOfAInB", varianceOfAInB, percent(varianceOfAInB)),
+    ` of the variance of ${nouns.a}; the other way round it is `,
+    figure("overlap.varianceOfBInA", varianceOfBInA, percent(varianceOfBInA)),
+    ".",
+  ];
+}
+
+/** How far, in σ, a shape may lie from the other model for “both can make” to be a fair word. */
+const WITHIN = 2;
+
+export function shared(report: Report): Phrase {
+  const { meanDistance, vertexSd } = report.intersection;
+  const unit = report.models.a.unit;
+  const [a, b] = [report.models.a.vertexSd.mean, report.models.b.vertexSd.mean];
+  const away = plusMinus(meanDistance.mean, meanDistance.sd);
+  const meet = meanDistance.mean <= WITHIN * (report.settings.sigma ?? Number.POSITIVE_INFINITY);
+  return [
+    meet ? "A shape that both can make lies " : "The shapes that come nearest to both lie ",
+    figure("intersection.meanDistance.mean", meanDistance.mean, away.mean),
+    " ± ",
+    figure("intersection.meanDistance.sd", meanDistance.sd, `${away.spread}\u202f${unit}`),
+    meet ? " from the nearest shape of the other model. Its" : " from the other model. Their",
+    " points vary by ",
+    figure("intersection.vertexSd.mean", vertexSd.mean, length(vertexSd.mean, unit)),
+    " on average, against ",
+    figure("models.a.vertexSd.mean", a, number(a)),
+    " in A and ",
+    figure("models.b.vertexSd.mean", b, number(b)),
+    " in\u202fB.",
+  ];
+}
+
+export function differences(report: Report, nouns: Nouns): Phrase {
+  const a = report.differences.aWithoutB.probability;
+  const b = report.differences.bWithoutA.probability;
+  const ofA = figure("differences.aWithoutB.probability", a, percent(a));
+  const ofB = figure("differences.bWithoutA.probability", b, percent(b));
+  const { aWithoutB, bWithoutA } = report.differences;
+  // A run that is ended early has made no difference, or one of them: 0 % is no finding then.
+  if (bWithoutA.diagnostics.evaluations === 0) {
+    if (aWithoutB.diagnostics.evaluations === 0) {
+      return ["The run was ended before the differences were drawn."];
+    }
+    return [ofA, ` of ${nouns.shapesOfA} are in A∖B; the run was ended before B∖A was drawn.`];
+  }
+  const each: Phrase = [ofA, ` of ${nouns.shapesOfA} and `, ofB, ` of ${nouns.shapesOfB}`];
+  const definition = report.settings.difference ?? "soft";
+  if (definition !== "soft") {
+    return ["The differences hold ", ...each, `: those ${HARD[definition]}.`];
+  }
+  if (nearlyAllDiffers(report)) {
+    return [
+      ...each,
+      " lie further than σ from the other model: at this σ nearly everything differs. ",
+      "Choose a larger σ to see what is special to one of them.",
+    ];
+  }
+  if (Math.max(a, b) <= 1 - NEARLY_ALL) {
+    return ["At this σ almost nothing differs: only ", ...each, " are out of the other’s reach."];
+  }
+  return [...each, " are out of the other model’s reach at this σ."];
+}
+
+const HARD: Record<Exclude<DifferenceName, "soft">, string> = {
+  distance: "that lie farthest from the other model",
+  relative: "whose own deviation from the mean the other model follows least",
+  outside: "whose nearest shape in the other model is least plausible there",
+};
+
+export type DifferencePicture = DifferenceName | "exclusiveModes";
+
+/** What each definition of a difference means. */
+export const DEFINITIONS: Record<DifferencePicture, { label: string; help: string }> = {
+  soft: {
+    label: "paper’s",
+    help: "A shape of A counts the more, the more σ it lies from its nearest shape in B: with probability 1 − exp(−½(d/σ)²).",
+  },
+  distance: {
+    label: "beyond a distance",
+    help: "A shape of A counts if it lies at least a certain distance from its nearest shape in B.",
+  },
+  relative: {
+    label: "relative",
+    help: "A shape of A counts if B misses a large part of what sets it apart from A’s mean: its distance to B over its own deviation.",
+  },
+  outside: {
+    label: "outside Q₂",
+    help: "A shape of A counts if its nearest shape in B is one that B hardly ever makes, so many standard deviations from B’s mean.",
+  },
+  exclusiveModes: {
+    label: "exclusive modes",
+    help: "Not drawn at random: the directions of A that B misses most, one after the other, each at +3 standard deviations.",
+  },
+};
+
+/** From here on a difference looks like the model itself. */
+const SAME_AS_MODEL = 0.95;
+
+/** Said where the paper's difference shows nothing that the model itself does not. */
+export function nearlyTheModel(report: Report): Phrase | null {
+  if ((report.settings.difference ?? "soft") !== "soft") return null;
+  const { aWithoutB, bWithoutA } = report.differences;
+  const [a, b] = [aWithoutB.overlapWithPrior ?? 0, bWithoutA.overlapWithPrior ?? 0];
+  const ofA = figure("differences.aWithoutB.overlapWithPrior", a, percent(a));
+  const ofB = figure("differences.bWithoutA.overlapWithPrior", b, percent(b));
+  const same = (overlap: number) => overlap > SAME_AS_MODEL;
+  if (!same(a) && !same(b)) return null;
+  const which: Phrase =
+    same(a) && same(b)
+      ? ["each model: ", ofA, " like A, ", ofB, " like B."]
+      : same(a)
+        ? ["A: ", ofA, " like it."]
+        : ["B: ", ofB, " like it."];
+  return ["At this σ the paper’s difference is nearly all of ", ...which];
+}
+
+/** What the other model misses, mode by mode; null where the report does not say. */
+export function exclusive(report: Report, side: "a" | "b"): Phrase | null {
+  const key = side === "a" ? "aWithoutB" : "bWithoutA";
+  const found = report.differences[key].exclusive;
+  if (!found) return null;
+  const path = `differences.${key}.exclusive`;
+  const [own, other] = side === "a" ? ["A", "B"] : ["B", "A"];
+  const strongest = found.residualSd.slice(0, 3);
+  const sentence: Phrase = [
+    `${other} misses `,
+    figure(`${path}.unexplained`, found.unexplained, percent(found.unexplained)),
+    ` of the variance of ${own}`,
+  ];
+  if (strongest.length === 0) return [...sentence, "."];
+  return [
+    ...sentence,
+    ...strongest.flatMap(
+      (sd, i): Phrase => [
+        i === 0 ? "; its strongest exclusive modes by " : ", ",
+        figure(`${path}.residualSd.${i}`, sd, number(sd)),
+      ],
+    ),
+    `\u202f${report.models.a.unit} per standard deviation.`,
+  ];
+}
+
+function nearlyAllDiffers(report: Report): boolean {
+  const { aWithoutB, bWithoutA } = report.differences;
+  const soft = (report.settings.difference ?? "soft") === "soft";
+  return soft && Math.min(aWithoutB.probability, bWithoutA.probability) >= NEARLY_ALL;
+}
+
+/** The warnings that the sentences above do not say already. */
+export function furtherWarnings(report: Report): Report["warnings"] {
+  const said = new Set(["not-converged"]);
+  if (nearlyAllDiffers(report)) said.add("nearly-all-differs");
+  return report.warnings.filter(({ code }) => !said.has(code));
+}
+
+export function spaces(report: Report): Phrase {
+  const angles = report.overlap.principalAnglesDegrees;
+  const first = angles[0];
+  const last = angles.at(-1);
+  const { meanToMean } = report.overlap;
+  const sentence: Phrase = [
+    "The two mean shapes are ",
+    figure("overlap.meanToMean", meanToMean, length(meanToMean, report.models.a.unit)),
+    " apart per point.",
+  ];
+  if (first === undefined || last === undefined) return sentence;
+  return [
+    ...sentence,
+    " The directions of change they have most in common differ by ",
+    figure("overlap.principalAnglesDegrees.0", first, degrees(first)),
+    ", those least so by ",
+    figure(`overlap.principalAnglesDegrees.${angles.length - 1}`, last, degrees(last)),
+    ".",
+  ];
+}
+
+/** “Converged” is the engine's word: no other figure makes the page say it. */
+export function belief(report: Report): { converged: boolean; phrase: Phrase } {
+  const { converged, rHatMax, essBulkMin, paretoK, importanceEss } =
+    report.intersection.diagnostics;
+  const path = "intersection.diagnostics";
+  const chains: Phrase = [
+    ...(rHatMax === null
+      ? []
+      : ["R-hat ", figure(`${path}.rHatMax`, rHatMax, rHatMax.toFixed(4)), ", "]),
+    "at least ",
+    figure(`${path}.essBulkMin`, essBulkMin, count(essBulkMin)),
+    " effective draws for every mode",
+  ];
+  const byChains = (rHatMax ?? 1) < R_HAT && essBulkMin >= ESS;
+  const weights: Phrase =
+    paretoK === null || importanceEss == null
+      ? []
+      : [
+          "Pareto k ",
+          figure(`${path}.paretoK`, paretoK, number(paretoK, 2)),
+          ", effective size of the weights ",
+          figure(`${path}.importanceEss`, importanceEss, count(importanceEss)),
+        ];
+  // What it converged by; all there is where it has not.
+  let evidence = chains;
+  if (weights.length > 0 && !converged) evidence = [...chains, "; ", ...weights];
+  if (weights.length > 0 && converged && !byChains) evidence = weights;
+  const phrase: Phrase = converged
+    ? ["Converged: ", ...evidence, "."]
+    : ["Not converged yet: ", ...evidence, ". Ask for more draws before quoting these numbers."];
+  return { converged, phrase };
+}
+
+/**
+ * While running: whether what is there so far looks well. The engine looks at the first modes only
+ * then; whether the draws have converged is for the report to say.
+ */
+export function liveBelief(progress: Progress): string {
+  const { rHatMax, essBulkMin } = progress;
+  if (rHatMax === null && essBulkMin === null) return "waiting for the first draws";
+  const settled = (rHatMax ?? 1) < R_HAT && (essBulkMin ?? 0) >= ESS;
+  return settled ? LOOKS_WELL : "not converged yet";
+}
+
+export const LOOKS_WELL = "looks well so far, judged at the end";
+
+const MOMENTS: Record<Inference["moments"], string> = {
+  "closed-form":
+    "mean and variance come from the fit in closed form; the correction by weighted draws is within its own error",
+  weighted:
+    "mean and variance are those of the Gaussian fit, corrected by weighted draws and gradients",
+  draws: "mean and variance are those of the draws",
+};
+
+const FIT_WORDS: Record<FitMethod, string> = {
+  variational: "variational",
+  reweighted: "reweighted",
+  laplace: "Laplace",
+  rms: "RMS",
+};
+
+/** Which sampler ran on a side, why, and what the moments come from. */
+export function inferred(report: Report, side: "a" | "b"): string | null {
+  const found = report.intersection.inference?.[side];
+  if (!found) return null;
+  const reason = found.reason.trim().replace(/[.\s]+$/, "");
+  return (
+    `${capital(SAMPLER_WORDS[found.sampler] ?? found.sampler)}` +
+    `${reason === "" ? "" : `: ${reason}`}. ` +
+    `Built on the ${FIT_WORDS[found.fit] ?? found.fit} fit; ${MOMENTS[found.moments] ?? found.moments}.`
+  );
+}
+
+interface Worst {
+  mode: number;
+  side: "a" | "b";
+  value: number;
+}
+
+/** The worst of one figure over all modes of both sides; modes counted from 1. */
+export function worstMode(
+  both: BothSides<ModeDiagnostics>,
+  which: "rHat" | "essBulk" | "essTail",
+): Worst | null {
+  let worst: Worst | null = null;
+  for (const side of ["a", "b"] as const) {
+    for (const [i, value] of both[side][which].entries()) {
+      const worse =
+        which === "rHat"
+          ? (found: Worst) => value > found.value
+          : (found: Worst) => value < found.value;
+      if (Number.isFinite(value) && (worst === null || worse(worst))) {
+        worst = { mode: i + 1, side, value };
+      }
+    }
+  }
+  return worst;
+}
+
+export function worstModes(report: Report): Phrase | null {
+  const both = report.intersection.coefficients;
+  if (!both) return null;
+  const named = (
+    which: "rHat" | "essBulk" | "essTail",
+    text: (value: number) => string,
+  ): Phrase => {
+    const found = worstMode(both, which);
+    if (!found) return [];
+    const path = `intersection.coefficients.${found.side}.${which}.${found.mode - 1}`;
+    return [
+      figure(path, found.value, text(found.value)),
+      ` for mode\u00a0${found.mode} of ${found.side.toUpperCase()}`,
+    ];
+  };
+  const rHat = named("rHat", (value) => value.toFixed(4));
+  const bulk = named("essBulk", count);
+  const tail = named("essTail", count);
+  if (bulk.length === 0) return null;
+  return [
+    ...(rHat.length === 0 ? ["Worst: "] : ["Worst R-hat ", ...rHat, "; "]),
+    "fewest effective draws ",
+    ...bulk,
+    ...(tail.length === 0 ? [] : [", in the tails ", ...tail]),
+    ".",
+  ];
+}
+
+/** From here on a mode is not determined on its own, in radians; as in src/report.rs. */
+const MOST_TURN = 0.2;
+
+/** Neighbouring modes that turn into one another, as runs of modes counted from 1. */
+export function unsettledModes(turns: number[]): number[][] {
+  const runs: number[][] = [];
+  turns.forEach((turn, i) => {
+    if (turn <= MOST_TURN) return;
+    const last = runs.at(-1);
+    if (last?.at(-1) === i) last.push(i + 1);
+    else runs.push([i + 1]);
+  });
+  return runs;
+}
+
+/** Said of modes whose variances are too close to tell them apart. */
+export function unsettled(report: Report): string | null {
+  const turns = report.intersection.accuracy?.modeTurns ?? [];
+  const runs = unsettledModes(turns);
+  const first = runs[0];
+  if (!first) return null;
+  const [from = 0, next] = first;
+  const last = first.at(-1) ?? from;
+  const also =
+    runs.length === 1 ? "" : ` The same holds for ${listed(runs.slice(1).map(runName))}.`;
+  if (next === undefined) {
+    return `Mode ${from} is not determined well: its direction may turn by more than ${Math.round((MOST_TURN * 180) / Math.PI)}°.${also}`;
+  }
+  if (first.length === 2) {
+    return `Modes ${from} and ${next} have nearly equal variance: only the two together are determined.${also}`;
+  }
+  return `Modes ${from} to ${last} have nearly equal variances: only all of them together are determined.${also}`;
+}
+
+function runName(run: number[]): string {
+  const [from, next] = run;
+  if (next === undefined) return `mode ${from}`;
+  return run.length === 2 ? `modes ${from} and ${next}` : `modes ${from} to ${run.at(-1)}`;
+}
+
+function listed(names: string[]): string {
+  if (names.length < 2) return names.join("");
+  return `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`;
+}
+
+/** From here on the two sides describe different sets of shapes. */
+const DISAGREE = 0.5;
+
+export function sidesDisagree(report: Report): boolean {
+  return (report.intersection.disagreement?.covariance ?? 0) > DISAGREE;
+}
+
+/** How far what either side alone would give lies apart. */
+export function twoSides(report: Report): Phrase | null {
+  const found = report.intersection.disagreement;
+  if (!found) return null;
+  const path = "intersection.disagreement";
+  return [
+    "The shapes of A near B and those of B near A give two models; A∩B is made of both in equal shares. Their means are ",
+    figure(`${path}.meanToMean`, found.meanToMean, length(found.meanToMean, report.models.a.unit)),
+    " apart, their covariances differ by ",
+    figure(`${path}.covariance`, found.covariance, percent(found.covariance)),
+    sidesDisagree(report)
+      ? ": the two sides describe different sets of shapes. Look at each alone before trusting what they have in common."
+      : ".",
+  ];
+}
+
+const STAGES: Record<Progress["stage"], string> = {
+  prepare: "Preparing",
+  fit: "First guess of A∩B",
+  intersection: "Sampling A∩B",
+  differences: "Sampling A∖B and B∖A",
+  measure: "Measuring",
+  done: "Finishing",
+};
+
+export function stageName(stage: Progress["stage"]): string {
+  return STAGES[stage];
+}
+
+/** Seconds left, once there is something to judge by. */
+export function secondsLeft(fraction: number, seconds: number): number | null {
+  return fraction < 0.03 || seconds < 0.5 ? null : (seconds * (1 - fraction)) / fraction;
+}
+
+const SAMPLER_WORDS: Record<SamplerName, string> = {
+  auto: "automatic sampler",
+  variational: "Gaussian fit alone",
+  independence: "independence sampler",
+  hmc: "Hamiltonian Monte Carlo",
+  mala: "Langevin steps",
+  pcn: "Crank–Nicolson steps",
+  paper: "paper’s random walk",
+  "paper-corrected": "paper’s walk, corrected",
+};
+
+export function settingsSentence(report: Report): string {
+  const { sigma, sigmaRecommended, sampler, chains, draws, seed, align, modes } = report.settings;
+  const { pooling, plausibility, difference } = report.settings;
+  const unit = report.models.a.unit;
+  const parts = [
+    `σ ${sigma === null ? "recommended" : length(sigma, unit)}${sigmaRecommended ? " (recommended)" : ""}`,
+    SAMPLER_WORDS[sampler] ?? sampler,
+    `${chains} chains`,
+    `${count(draws)} draws a side`,
+    `seed ${seed}`,
+  ];
+  if (pooling && pooling !== "both") parts.push(`from ${pooling.toUpperCase()} alone`);
+  if (plausibility === "idempotent") parts.push("idempotent");
+  if (difference && difference !== "soft") {
+    parts.push(`difference ${DEFINITIONS[difference].label}`);
+  }
+  if (modes !== null) parts.push(`first ${modes} modes`);
+  if (align !== "none") parts.push(align === "rigid" ? "rigidly aligned" : "aligned with scale");
+  parts.push(...preparationWords(completed(report.settings.prepare)));
+  return parts.join(" · ");
+}
+
+/** While a file is opened: how far it is read. */
+export function readingSentence(read: Reading | null): string {
+  if (read === null) return "Opening…";
+  const does = read.arrives ? "Downloading" : "Reading";
+  if (read.of === null) return `${does}: ${bytes(read.bytes)} so far`;
+  if (read.bytes >= read.of && !read.arrives) return "Making the model…";
+  const of = bytes(read.of);
+  const unit = of.slice(of.indexOf("\u202f"));
+  const done = unit.endsWith("MB")
+    ? number(read.bytes / 1e6)
+    : String(Math.round(read.bytes / 1e3));
+  return `${does} ${done} of ${of}`;
+}
+
+/** How a model was made that is not in a file; null for one that is. */
+export function originSentence(origin: Origin): string | null {
+  switch (origin.kind) {
+    case "file":
+      return null;
+    case "shapes":
+      return `Made here from ${count(origin.count)} shapes, aligned rigidly${origin.scaled ? " and brought to one size" : ""}.`;
+    case "blendshapes":
+      return `Made here from ${count(origin.count)} blendshapes, by ${count(origin.sampled)} sampled shapes.`;
+  }
+}
+
+/** What the size suggests of a unit that the file does not state. */
+export function unitSentence(report: ModelReport): string | null {
+  if (report.unit !== UNSTATED) return null;
+  const guess = report.unitGuess ? `, probably ${report.unitGuess}` : "";
+  return `Unit not stated${guess}.`;
+}
+
+/** From here on a basis was not orthonormal but for rounding in single precision. */
+const ROUNDING = 1e-4;
+
+export function basisSentence(report: ModelReport): string | null {
+  const off = report.orthogonality ?? 0;
+  const dropped = report.droppedModes ?? 0;
+  const sentences: string[] = [];
+  if (off > ROUNDING) sentences.push(`Basis not orthonormal (off by ${number(off, 2)}), made so.`);
+  if (dropped > 0) {
+    sentences.push(`${count(dropped)} mode${dropped === 1 ? "" : "s"} without variance left out.`);
+  }
+  return sentences.length === 0 ? null : sentences.join(" ");
+}
+
+/** The pair in one line, when all is well. */
+export function pairLine(found: Inspection, unit: string): string {
+  const { compared, points, triangles, meanDistance } = found;
+  const same = points.a === points.b;
+  const parts =
+    compared === null
+      ? [`${count(points.a)} and ${count(points.b)} points`]
+      : [`${count(compared)} points ${same && compared === points.a ? "in common" : "compared"}`];
+  if (triangles !== "unknown") parts.push(triangles === "same" ? "same faces" : "other faces");
+  const apart = meanDistance.now ?? meanDistance.before;
+  if (apart !== null) parts.push(apart === 0 ? "same mean" : `means ${length(apart, unit)} apart`);
+  return parts.join(" · ");
+}
+
+/** What aligning would do for the distance of the means. */
+export function alignmentWords(found: Inspection, unit: string): string | null {
+  const { before, rigid, similarity } = found.meanDistance;
+  const parts: string[] = [];
+  if (before !== null) parts.push(`${length(before, unit)} apart as they stand`);
+  if (rigid !== null) parts.push(`${length(rigid, unit)} aligned rigidly`);
+  if (similarity !== null) parts.push(`${length(similarity, unit)} with scale`);
+  return parts.length === 0 ? null : parts.join(", ");
+}
+
+function capital(text: string): string {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}

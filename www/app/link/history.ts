@@ -1,0 +1,325 @@
+/** Keeps the address in step with the state, and the state with the address: Back is undo. */
+import { batch, computed, effect, untracked } from "@preact/signals";
+import { applyLesson, settledLesson } from "../learn/state";
+import { HASH_DIGITS } from "../models/address/codec";
+import { arrange, giveUpAdding, restoreShelf } from "../models/list/actions";
+import { closeUnused } from "../models/list/handles";
+import { measure } from "../models/list/matrix";
+import { isUsed } from "../models/list/order";
+import { demoModels, giveUpOpening, openPair } from "../models/opening";
+import { demoSource, first, isOpen, sourceText, wantedOf } from "../models/sources";
+import { findDemo } from "../state/demos";
+import { applyExplorer, lockedHeat, settledExplorer } from "../state/exploring";
+import type { LinkedModels } from "../state/linked-models";
+import {
+  begun,
+  camera,
+  demo,
+  diagnosedMode,
+  diagnosedSide,
+  embedded,
+  exaggeration,
+  linked,
+  lockedRange,
+  mapMode,
+  namesInLinks,
+  page,
+  painting,
+  picture,
+  region,
+  room,
+  SIDES,
+  type Side,
+  type Slot,
+  type Source,
+  settings,
+  settledExaggeration,
+  shapesSeed,
+  shelf,
+  slotKey,
+  slots,
+  spoken,
+  vertex,
+  vertexMap,
+  view,
+  type Wanted,
+} from "../state/state";
+import { joins, type Place, steps } from "../state/undo";
+import { fitsLink, type LinkState, readLink, writeLink } from "./link";
+
+const WRITE_AFTER_MS = 1000;
+
+export const { undoable, redoable } = steps;
+
+/** What of the page no link can hold. */
+export const unlinkable = computed(() => ({
+  files: SIDES.filter((side) => slots[side].value?.source.kind === "files"),
+  shelf: isUsed(shelf.value) && shelf.value.some(({ source }) => source.kind !== "demo"),
+  points: !fitsLink(settings.value.prepare.points),
+}));
+
+/** How a link says which models these are; one that is not open yet as the last link said it. */
+function models(): LinkedModels {
+  const asked = linked.value;
+  const each = <T>(of: (slot: Slot) => T, otherwise: (side: Side) => T) => {
+    const [a, b] = SIDES.map((side) => {
+      const slot = slots[side].value;
+      return slot ? of(slot) : otherwise(side);
+    });
+    return { a: a ?? null, b: b ?? null };
+  };
+  return {
+    urls: demo.value
+      ? null
+      : each(
+          ({ source }) => sourceText(source),
+          (side) => asked?.urls?.[side] ?? null,
+        ),
+    names: each(
+      ({ source }) => (source.kind === "files" && namesInLinks.value ? source.name : null),
+      (side) => asked?.names[side] ?? null,
+    ),
+    hashes: each(
+      ({ source, report }) =>
+        source.kind === "demo" ? null : (report.fingerprint?.slice(0, HASH_DIGITS) ?? null),
+      (side) => asked?.hashes[side] ?? null,
+    ),
+    // The part of each file, where it is not the first.
+    parts: each(
+      ({ part, parts }) => (part === parts[0] ? null : part),
+      (side) => asked?.parts[side] ?? null,
+    ),
+  };
+}
+
+/** Those of the page's own models that are on the shelf, if it is in use. */
+function shelved(): string[] {
+  if (!isUsed(shelf.value)) return [];
+  return shelf.value.flatMap(({ source }) => (source.kind === "demo" ? source.name : []));
+}
+
+/** All that makes the picture, as far as an address can say it. */
+function present(): LinkState {
+  return {
+    page: page.value,
+    lesson: settledLesson.value,
+    embed: embedded.value,
+    demo: demo.value?.id ?? "files",
+    ...models(),
+    settings: settings.value,
+    room: room.value,
+    view: view.value,
+    map: vertexMap.value,
+    mapMode: mapMode.value,
+    vertex: vertex.value,
+    explorer: settledExplorer.value,
+    scale: lockedRange.value,
+    heatScale: lockedHeat.value,
+    side: diagnosedSide.value,
+    coefficient: diagnosedMode.value,
+    region: region.value,
+    picture: picture.value,
+    exaggeration: settledExaggeration.value,
+    shapes: shapesSeed.value,
+    shelf: shelved(),
+    measure: measure.value,
+    camera: camera.value,
+  };
+}
+
+export function currentLink(embed = embedded.value): string {
+  return writeLink({ ...present(), embed });
+}
+
+/** The same as a whole address, for somebody else. */
+export function sharedAddress(embed = false): string {
+  const address = new URL(location.href);
+  address.hash = currentLink(embed);
+  return address.href;
+}
+
+/** Puts the present state into the address, without a step of its own. */
+export function writeAddress(): void {
+  history.replaceState(history.state, "", `#${currentLink()}`);
+}
+
+/**
+ * What is a step to undo: all of a link but the camera, which only follows along, what is only about links, and
+ * what no link holds.
+ */
+const step = computed(() => {
+  // What goes on in a comparison behind them is no step of other pages.
+  if (page.value === "gallery") return page.value;
+  if (page.value === "learn") return JSON.stringify([page.value, settledLesson.value]);
+  const open = SIDES.map((side) => slots[side].value && slotKey(slots[side].value));
+  const look = { ...present(), camera: null, embed: null, names: null };
+  return JSON.stringify([open, shelf.value.map(slotKey), look]);
+});
+
+let applied = "";
+
+/** `takes` is asked whether it sees to a link that somebody typed or followed. */
+export function keepLink(takes: (link: LinkState) => boolean): void {
+  applied = untracked(() => step.value);
+  steps.begin(placed());
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  effect(() => {
+    const fragment = `#${currentLink()}`;
+    const meaningful = step.value !== applied;
+    clearTimeout(timer);
+    if (meaningful) {
+      applied = step.value;
+      // What is written down of a step is nothing that another one waits for.
+      // The Back button of a page with a frame in it is about that page.
+      const join = joins() || embedded.peek();
+      untracked(() => (join ? steps.join(placed(), fragment) : steps.push(placed(), fragment)));
+      return;
+    }
+    timer = setTimeout(writeAddress, WRITE_AFTER_MS);
+  });
+  addEventListener("popstate", (event) => void follow(event.state, takes));
+  addEventListener("keydown", undoByKey);
+}
+
+export function undo(): void {
+  steps.undo();
+  if (undoable.peek()) spoken.value = "Undone.";
+}
+
+export function redo(): void {
+  steps.redo();
+  if (redoable.peek()) spoken.value = "Done again.";
+}
+
+/** Where the page is. */
+function placed(): Place {
+  const wanted = (side: Side): Wanted | null => {
+    const slot = slots[side].peek();
+    return slot && wantedOf(slot);
+  };
+  const [a, b] = [wanted("a"), wanted("b")];
+  return {
+    models: a && b && { a, b },
+    shelf: shelf.peek().map(wantedOf),
+    points: settings.peek().prepare.points,
+  };
+}
+
+/** Undo and redo as everywhere, but never out of the page, nor where text is typed. */
+function undoByKey(event: KeyboardEvent): void {
+  if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
+  // While something is painted, strokes are undone.
+  if (painting.peek() !== null) return;
+  const { target } = event;
+  if (target instanceof HTMLInputElement && !/range|radio|checkbox|file/.test(target.type)) return;
+  const key = event.key.toLowerCase();
+  const again = (key === "z" && event.shiftKey) || (key === "y" && !event.shiftKey);
+  if (key !== "z" && !again) return;
+  event.preventDefault();
+  if (again) redo();
+  else undo();
+}
+
+/** How often the browser went to another step: what was begun for a former one is given up. */
+let journeys = 0;
+
+/** Takes over what the address says; with the models, so that nothing half-changed is compared. */
+async function follow(state: unknown, takes: (link: LinkState) => boolean): Promise<void> {
+  journeys += 1;
+  const mine = journeys;
+  const place = steps.arrive(state);
+  const link = readLink(location.hash);
+  if (place === null) {
+    linked.value = link;
+    embedded.value = link.embed;
+  }
+  if (link.page !== "compare" || !begun.peek()) {
+    batch(() => apply(link));
+    return;
+  }
+  if (place === null && takes(link)) return;
+  const wanted = place?.shelf ?? shelfOf(link);
+  giveUpOpening();
+  giveUpAdding();
+  const complete = () => {
+    if (mine !== journeys) return;
+    apply(link);
+    const { prepare } = settings.value;
+    if (place)
+      settings.value = { ...settings.value, prepare: { ...prepare, points: place.points } };
+    arrange(wanted);
+    applied = step.value;
+  };
+  const models = place?.models ?? modelsOf(link);
+  const changed = (side: Side) => {
+    const slot = slots[side].value;
+    const wanted = models?.[side];
+    if (!wanted || (slot && isOpen(slot, wanted))) return null;
+    return wanted;
+  };
+  const [a, b] = [changed("a"), changed("b")];
+  const opened = (a || b) && (await openPair(a, b, () => batch(complete)));
+  if (!opened) batch(complete);
+  closeUnused();
+  if (mine === journeys) await restoreShelf(wanted);
+}
+
+/** What an address says of models; those of nobody's own files. */
+export function modelsOf(link: LinkState): Record<Side, Wanted | null> | null {
+  const { urls: found, parts: named } = link;
+  if (found) {
+    const wanted = (side: Side): Wanted | null => {
+      const address = found[side];
+      return address === null
+        ? null
+        : { source: sourceOf(address), part: named[side], scale: false };
+    };
+    return { a: wanted("a"), b: wanted("b") };
+  }
+  const known = findDemo(link.demo);
+  return known ? demoModels(known) : null;
+}
+
+function sourceOf(address: string): Source {
+  const demo = /^demo:(.+)/.exec(address)?.[1];
+  return demo ? demoSource(demo) : { kind: "url", url: address };
+}
+
+/** What an address says of the shelf. */
+export function shelfOf(link: LinkState): Wanted[] {
+  return link.shelf.map((name) => first(demoSource(name)));
+}
+
+export function apply(link: LinkState): void {
+  take(link);
+  applied = step.value;
+}
+
+/** The same as a step that can be undone. */
+export function take(link: LinkState): void {
+  batch(() => {
+    embedded.value = link.embed;
+    page.value = link.page;
+    // What is compared stays as it is while something else is looked at.
+    if (link.page === "learn") applyLesson(link.lesson);
+    if (link.page !== "compare") return;
+    settings.value = link.settings;
+    room.value = link.room;
+    view.value = link.view;
+    vertexMap.value = link.map;
+    mapMode.value = link.mapMode;
+    vertex.value = link.vertex;
+    applyExplorer(link.explorer);
+    lockedRange.value = link.scale;
+    lockedHeat.value = link.heatScale;
+    diagnosedSide.value = link.side;
+    diagnosedMode.value = link.coefficient;
+    region.value = link.region;
+    picture.value = link.picture;
+    exaggeration.value = link.exaggeration;
+    settledExaggeration.value = link.exaggeration;
+    measure.value = link.measure;
+    shapesSeed.value = link.shapes;
+    camera.value = link.camera;
+  });
+}

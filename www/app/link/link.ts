@@ -1,0 +1,359 @@
+/**
+ * State ⇄ URL fragment, as plain `k=v` that can be read and edited by hand.
+ *
+ * Every link of an older page must keep opening: unknown keys are ignored, unreadable values fall
+ * back to the default, and what is not given is the default.
+ */
+import type { PointSelection, Preparation, Settings, SidePreparation } from "../../worker/protocol";
+import { defaultLesson, type LessonState, readLesson, writeLesson } from "../learn/link";
+import { misreadAddresses, readModels, writeModels } from "../models/address/codec";
+import { MEASURE_NAMES, type MeasureName } from "../models/list/measures";
+import { type Camera, HOME } from "../state/camera";
+import { DEMO_MODELS, findDemo } from "../state/demos";
+import {
+  defaultExplorer,
+  type ExplorerState,
+  readExplorer,
+  writeExplorer,
+} from "../state/explorer";
+import { type LinkedModels, noLinkedModels } from "../state/linked-models";
+import { UNITS } from "../state/preparation";
+import {
+  ALIGNMENTS,
+  budgetOf,
+  DEFAULTS,
+  DIFFERENCES,
+  FITS,
+  leastDraws,
+  MOST_DRAWS,
+  type Options,
+  PLAUSIBILITIES,
+  parseCount,
+  parsePercent,
+  parsePositive,
+  parseSeed,
+  percentText,
+  RANGES,
+  SAMPLERS,
+  SIDES_USED,
+  SUBSAMPLE,
+} from "../state/settings";
+import {
+  FIRST_VIEW,
+  MAPS,
+  MOST_EXAGGERATION,
+  PAGES,
+  PICTURES,
+  REGIONS,
+  ROOMS,
+  VIEW_MODES,
+  type ViewState,
+} from "../state/view";
+import { parseRanges } from "../text/ranges";
+
+export const LINK_VERSION = 1;
+
+/** What of a link is settings of the run. */
+export const SETTING_KEYS = (
+  "align modes sigma sampler seed chains draws burnin thin " +
+  "fit sides plaus noise weighted diff leaves beyond diffdraws " +
+  "unit-a unit-b modes-a modes-b variance-a variance-b rebase convert points subsample"
+).split(" ");
+
+/** Longer links are cut by the programs that pass them on. */
+const LONGEST_RANGES = 2000;
+
+const MOST_VERTICES = 1e7;
+
+/** Everything that makes the picture. */
+export interface LinkState extends LinkedModels, ViewState {
+  /** What is taught, on the page that teaches. */
+  lesson: LessonState;
+  explorer: ExplorerState;
+  /** Range of the colours of what is missed while it is locked; 0 is the other end. */
+  heatScale: number | null;
+  /** Models that come with the page and are in the table, if there are more than two. */
+  shelf: string[];
+  /** What the table shows of each pair. */
+  measure: MeasureName;
+}
+
+export function defaultLink(): LinkState {
+  return {
+    ...FIRST_VIEW,
+    ...noLinkedModels(),
+    lesson: defaultLesson(),
+    explorer: defaultExplorer(),
+    heatScale: null,
+    shelf: [],
+    measure: "variance",
+  };
+}
+
+export function writeLink(state: LinkState): string {
+  const pairs: [string, string | number][] = [["v", LINK_VERSION], ...pagePairs(state)];
+  return pairs.map(([key, value]) => `${key}=${escapeValue(String(value))}`).join("&");
+}
+
+function pagePairs(state: LinkState): [string, string | number][] {
+  const { page, lesson, embed } = state;
+  const frame: [string, string][] = embed ? [["embed", "1"]] : [];
+  if (page === "compare") return [...frame, ...comparisonPairs(state)];
+  return [...frame, ["page", page], ...(page === "learn" ? writeLesson(lesson) : [])];
+}
+
+function comparisonPairs(state: LinkState): [string, string | number][] {
+  const { settings, camera } = state;
+  const pairs: [string, string | number][] = [];
+  if (state.urls) pairs.push(...writeModels(state));
+  else pairs.push(["demo", state.demo]);
+  pairs.push(
+    ["align", settings.align],
+    ["modes", settings.modes ?? "all"],
+    ["sigma", settings.sigma ?? "auto"],
+    ["sampler", settings.sampler],
+    ["seed", settings.seed],
+    ["chains", settings.chains],
+    ["draws", settings.draws],
+    ["burnin", settings.burnIn],
+    ["thin", settings.thin],
+    ...rareSettings(settings),
+    ...preparationPairs(settings.prepare),
+    ["view", state.view],
+  );
+  pairs.push(...lookPairs(state));
+  const turned = cameraText(camera);
+  if (turned !== cameraText(HOME)) pairs.push(["camera", turned]);
+  return pairs;
+}
+
+/** How the comparison is looked at, as far as that is not as at first. */
+function lookPairs(state: LinkState): [string, string | number][] {
+  const first = defaultLink();
+  const plain = (
+    [
+      ["room", state.room, first.room],
+      ["map", state.map, first.map],
+      ["mode", state.mapMode + 1, first.mapMode + 1],
+      ["vertex", state.vertex, first.vertex],
+      ["scale", state.scale?.map(shortNumber).join(",") ?? null, null],
+      ["heat-scale", state.heatScale === null ? null : shortNumber(state.heatScale), null],
+      ["side", state.side, first.side],
+      ["coefficient", state.coefficient === null ? null : state.coefficient + 1, null],
+      ["region", state.region, first.region],
+      ["picture", state.picture, first.picture],
+      ["exaggerate", state.exaggeration, first.exaggeration],
+      ["shapes", state.shapes, first.shapes],
+      ["shelf", state.shelf.join(","), first.shelf.join(",")],
+      ["measure", state.measure, first.measure],
+    ] as const
+  ).flatMap(([key, value, standard]): [string, string | number][] =>
+    value === standard || value === null ? [] : [[key, value]],
+  );
+  return [...plain, ...writeExplorer(state.explorer)];
+}
+
+/** Settings that links leave out while they are the default, to stay short. */
+function rareSettings(settings: Settings): [string, string | number][] {
+  const pairs: [string, Exclude<keyof Settings, "prepare">, (string | number | null)?][] = [
+    ["fit", "fit"],
+    ["sides", "pooling"],
+    ["plaus", "plausibility"],
+    ["noise", "noise"],
+    ["weighted", "weighted"],
+    ["diff", "difference"],
+    ["leaves", "differenceQuantile", percentText(settings.differenceQuantile)],
+    ["beyond", "differenceThreshold"],
+    ["diffdraws", "differenceDraws"],
+  ];
+  return pairs
+    .filter(([, name]) => settings[name] !== DEFAULTS[name])
+    .map(([key, name, text]) => [key, text ?? settings[name] ?? ""]);
+}
+
+/** What is done to the models first; nothing of a pair that is compared as it stands. */
+function preparationPairs(prepare: Preparation): [string, string | number][] {
+  const pairs: [string, string | number][] = [];
+  for (const side of ["a", "b"] as const) {
+    const { unit, modes, variance } = prepare[side];
+    if (unit !== null) pairs.push([`unit-${side}`, unit]);
+    if (modes !== null) pairs.push([`modes-${side}`, modes]);
+    if (variance !== null) pairs.push([`variance-${side}`, percentText(variance)]);
+  }
+  const rebased = (["a", "b"] as const).filter((side) => prepare[side].rebase).join("");
+  if (rebased !== "") pairs.push(["rebase", rebased]);
+  if (prepare.convert) pairs.push(["convert", "yes"]);
+  const { points, subsample } = prepare;
+  if (points?.by === "map") pairs.push(["points", "map"]);
+  if (points?.by === "region" && fitsLink(points)) pairs.push(["points", points.ranges]);
+  if (subsample !== null) pairs.push(["subsample", subsample]);
+  return pairs;
+}
+
+/** Whether a link can hold which points are compared: not the pairs of a list, nor a frayed region. */
+export function fitsLink(points: PointSelection | null): boolean {
+  if (points?.by === "list") return false;
+  return points?.by !== "region" || points.ranges.length <= LONGEST_RANGES;
+}
+
+export function readLink(fragment: string): LinkState {
+  const given = new URLSearchParams(fragment.replace(/^#/, ""));
+  const fallback = defaultLink();
+  const page = oneOf(given.get("page"), PAGES) ?? fallback.page;
+  const embed = given.get("embed") === "1";
+  // Keys of a lesson and of a comparison may have the same names.
+  if (page !== "compare") return { ...fallback, page, embed, lesson: readLesson(given) };
+  return {
+    page,
+    embed,
+    lesson: fallback.lesson,
+    demo: findDemo(given.get("demo") ?? "")?.id ?? fallback.demo,
+    ...readModels(given),
+    settings: readSettings(given),
+    room: oneOf(given.get("room"), ROOMS) ?? fallback.room,
+    map: oneOf(given.get("map"), MAPS) ?? fallback.map,
+    mapMode: valid(parseCount(given.get("mode") ?? "", ...RANGES.modes), 1) - 1,
+    vertex: valid<number | null>(parseCount(given.get("vertex") ?? "", 0, MOST_VERTICES), null),
+    explorer: readExplorer(given),
+    scale: readScale(given.get("scale")),
+    heatScale: valid(parsePositive(given.get("heat-scale") ?? ""), null),
+    side: oneOf(given.get("side"), ["a", "b"] as const) ?? null,
+    coefficient: readCoefficient(given.get("coefficient")),
+    view: oneOf(given.get("view"), VIEW_MODES) ?? fallback.view,
+    region: oneOf(given.get("region"), REGIONS) ?? null,
+    picture: oneOf(given.get("picture"), PICTURES) ?? fallback.picture,
+    exaggeration: readExaggeration(given.get("exaggerate")),
+    shapes: valid(parseSeed(given.get("shapes") ?? "1"), fallback.shapes),
+    shelf: readShelf(given.get("shelf")),
+    measure: oneOf(given.get("measure"), MEASURE_NAMES) ?? fallback.measure,
+    camera: readCamera(given.get("camera")),
+  };
+}
+
+function readSettings(given: URLSearchParams): Settings {
+  const named = <T extends string>(key: string, options: Options<T>, fallback: T) =>
+    oneOf(given.get(key), Object.keys(options) as T[]) ?? fallback;
+  const sampler = named("sampler", SAMPLERS, DEFAULTS.sampler);
+  const budget = budgetOf(sampler);
+  const count = (key: string, [least, most]: readonly [number, number], fallback: number) =>
+    valid(parseCount(given.get(key) ?? "", least, most), fallback);
+  const positive = (key: string) => valid(parsePositive(given.get(key) ?? ""), null);
+  const modes = count("modes", RANGES.modes, 0);
+  const chains = count("chains", RANGES.chains, budget.chains);
+  const least = leastDraws(chains);
+  return {
+    sigma: positive("sigma"),
+    noise: positive("noise"),
+    seed: valid(parseSeed(given.get("seed") ?? ""), DEFAULTS.seed),
+    sampler,
+    fit: named("fit", FITS, DEFAULTS.fit),
+    pooling: named("sides", SIDES_USED, DEFAULTS.pooling),
+    plausibility: named("plaus", PLAUSIBILITIES, DEFAULTS.plausibility),
+    chains,
+    draws: count("draws", [least, MOST_DRAWS], Math.max(budget.draws, least)),
+    burnIn: count("burnin", RANGES.burnIn, budget.burnIn),
+    thin: count("thin", RANGES.thin, budget.thin),
+    weighted: count("weighted", RANGES.weighted, DEFAULTS.weighted),
+    difference: oneOf(given.get("diff"), DIFFERENCES) ?? DEFAULTS.difference,
+    differenceQuantile: valid(parsePercent(given.get("leaves") ?? ""), DEFAULTS.differenceQuantile),
+    differenceThreshold: positive("beyond"),
+    differenceDraws: count("diffdraws", RANGES.differenceDraws, DEFAULTS.differenceDraws),
+    modes: modes === 0 ? null : modes,
+    align: named("align", ALIGNMENTS, DEFAULTS.align),
+    prepare: readPreparation(given),
+  };
+}
+
+function readPreparation(given: URLSearchParams): Preparation {
+  const rebased = given.get("rebase") ?? "";
+  const count = (key: string, [least, most]: readonly [number, number]) =>
+    valid<number | null>(parseCount(given.get(key) ?? "", least, most), null);
+  const side = (name: "a" | "b"): SidePreparation => ({
+    unit: oneOf(given.get(`unit-${name}`), UNITS) ?? null,
+    modes: count(`modes-${name}`, RANGES.modes),
+    variance: valid<number | null>(parsePercent(given.get(`variance-${name}`) ?? ""), null),
+    rebase: /^[ab]+$/.test(rebased) && rebased.includes(name),
+  });
+  const points = given.get("points");
+  const ranges = parseRanges(points ?? "");
+  return {
+    a: side("a"),
+    b: side("b"),
+    convert: given.get("convert") === "yes",
+    points:
+      points === "map" ? { by: "map" } : ranges === "invalid" ? null : { by: "region", ranges },
+    subsample: count("subsample", SUBSAMPLE),
+  };
+}
+
+/** What an address asks for in words this page does not know, as `key=value`. */
+export function misread(fragment: string): string[] {
+  const given = new URLSearchParams(fragment.replace(/^#/, ""));
+  const words: Record<string, string[]> = {
+    sampler: Object.keys(SAMPLERS),
+    fit: Object.keys(FITS),
+    sides: Object.keys(SIDES_USED),
+    plaus: Object.keys(PLAUSIBILITIES),
+    diff: DIFFERENCES,
+    align: Object.keys(ALIGNMENTS),
+    "unit-a": [...UNITS],
+    "unit-b": [...UNITS],
+  };
+  const settings = Object.entries(words).flatMap(([key, known]) => {
+    const value = given.get(key);
+    return value === null || known.includes(value) ? [] : `${key}=${value}`;
+  });
+  return [...misreadAddresses(given), ...settings];
+}
+
+/** As many digits as single precision has. */
+function shortNumber(value: number): string {
+  return String(Number(value.toPrecision(7)));
+}
+
+function readScale(text: string | null): [number, number] | null {
+  const [low = Number.NaN, high = Number.NaN, ...more] = (text ?? "").split(",").map(Number);
+  return low < high && Number.isFinite(high - low) && more.length === 0 ? [low, high] : null;
+}
+
+function readCoefficient(text: string | null): number | null {
+  const mode = parseCount(text ?? "", ...RANGES.modes);
+  return mode === "invalid" ? null : mode - 1;
+}
+
+function readExaggeration(text: string | null): number {
+  const value = Number(text ?? 0);
+  return value >= 0 && value <= MOST_EXAGGERATION ? value : 0;
+}
+
+function readCamera(text: string | null): Camera {
+  const [yaw, pitch, zoom, x, y] = (text ?? "").split(",").map(Number);
+  if (![yaw, pitch, zoom].every((value) => Number.isFinite(value))) return HOME;
+  return { yaw: yaw ?? 0, pitch: pitch ?? 0, zoom: zoom || 1, x: x || 0, y: y || 0 };
+}
+
+function cameraText(camera: Camera): string {
+  const { yaw, pitch, zoom, x, y } = camera;
+  const parts = [yaw.toFixed(2), pitch.toFixed(2), zoom.toFixed(2)];
+  if (x !== 0 || y !== 0) parts.push(x.toFixed(2), y.toFixed(2));
+  return parts.join(",");
+}
+
+function valid<T>(value: T | "invalid", fallback: T): T {
+  return value === "invalid" ? fallback : value;
+}
+
+function oneOf<T extends string>(text: string | null, allowed: readonly T[]): T | undefined {
+  return allowed.find((value) => value === text);
+}
+
+/** Each model once, and those that there are. */
+function readShelf(text: string | null): string[] {
+  const names = new Set((text ?? "").split(","));
+  return [...names].filter((name) => DEMO_MODELS.includes(name));
+}
+
+/** Only what would break the fragment: the rest stays readable. */
+function escapeValue(text: string): string {
+  return text.replace(/[%&#+\s]/g, (character) => encodeURIComponent(character));
+}

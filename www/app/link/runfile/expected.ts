@@ -1,0 +1,155 @@
+/** What a run file says of its two models, and whether those that are open are the same. Pure. */
+import type { BothSides, ModelReport, Report, RunFile, Settings } from "../../../worker/protocol";
+import { completed } from "../../state/preparation";
+import { DEFAULTS, settingsOf } from "../../state/settings";
+import type { LinkState } from "../link";
+
+export interface ExpectedModel {
+  /** Null where a link leaves it out. */
+  name: string | null;
+  part: string | null;
+  /** `demo:NAME`, an address, or null for a file of one's own. */
+  source: string | null;
+  /** Hash of its content, or the start of it; reports of older engines lack it. */
+  fingerprint: string | null;
+}
+
+/** A run that waits for its models. */
+export interface ExpectedRun {
+  /** Name of its file; null for a link. */
+  file: string | null;
+  /** What else a link says. */
+  link: LinkState | null;
+  models: BothSides<ExpectedModel>;
+  settings: Settings;
+  /** Version of the engine that wrote it, where it says so. */
+  engine: string | null;
+  /** The numbers, where it is a report. */
+  report: Report | null;
+}
+
+/** Run files are short; a report of a few hundred modes has a few hundred kilobytes. */
+export const LARGEST_RUN = 16e6;
+
+/** Whether the text of a .json is that of a run file or a report, be it damaged, and no model. */
+export function looksLikeRun(text: string): boolean {
+  if (/"shapevenn"\s*:\s*\d/.test(text)) return true;
+  return (
+    /"schema"\s*:\s*\d/.test(text) && ['"models"', '"settings"'].every((k) => text.includes(k))
+  );
+}
+
+/** A run as the engine read it from `text`. */
+export function expectedRun(
+  file: string,
+  text: string,
+  run: RunFile,
+  version: string,
+): ExpectedRun {
+  const whole = JSON.parse(text.replace(/^\ufeff/, "")) as { engine?: unknown } & Partial<Report>;
+  const engine = typeof whole.engine === "string" ? whole.engine : null;
+  const model = (side: "a" | "b"): ExpectedModel => {
+    const { name, part = null, source = null, fingerprint = null } = run.models[side];
+    return { name, part: part || null, source: source || null, fingerprint: fingerprint || null };
+  };
+  return {
+    file,
+    link: null,
+    engine,
+    models: { a: model("a"), b: model("b") },
+    settings: chosen(run.settings, engine === version),
+    report: whole.intersection ? (whole as Report) : null,
+  };
+}
+
+/**
+ * The settings as they were chosen: σ is left to the engine where it had chosen it. Another version of the
+ * engine might choose otherwise, and is told the number.
+ */
+function chosen(given: Settings & { sigmaRecommended?: boolean }, same: boolean): Settings {
+  const { sigmaRecommended = false, ...rest } = given;
+  const { sigma } = rest;
+  return settingsOf({
+    ...DEFAULTS,
+    ...rest,
+    prepare: completed(rest.prepare),
+    sigma,
+    sigmaRecommended: same && sigmaRecommended,
+  });
+}
+
+/** "same", as far as anybody can tell; "unknown" where no fingerprint says it; "missing": nothing is open. */
+export type Verdict = "same" | "other" | "unknown" | "missing";
+
+export interface OpenModel {
+  report: Pick<ModelReport, "name" | "fingerprint">;
+  /** As a run file says it. */
+  source: string | null;
+}
+
+export function verdictOf(expected: ExpectedModel, open: OpenModel | null): Verdict {
+  if (open === null) return "missing";
+  const { fingerprint } = open.report;
+  if (expected.fingerprint !== null && fingerprint) {
+    return fingerprint.startsWith(expected.fingerprint) ? "same" : "other";
+  }
+  // A run file that was written by hand names only where its models are.
+  return expected.source !== null && expected.source === open.source ? "same" : "unknown";
+}
+
+/** What is to be done about one of the models; null where it is the right one. */
+export function adviceOf(
+  expected: ExpectedModel,
+  open: OpenModel | null,
+  side: "a" | "b",
+  of: "run file" | "link" = "run file",
+): string | null {
+  const letter = side.toUpperCase();
+  const words = `The ${of} was made with ${modelWords(expected)}`;
+  switch (verdictOf(expected, open)) {
+    case "same":
+      return null;
+    case "missing":
+      return `${words}; open it as ${letter}.`;
+    case "unknown":
+      return `${words}; whether that is what is open as ${letter} cannot be told without fingerprints.`;
+    case "other": {
+      const found = `“${open?.report.name}” (${shortened(open?.report.fingerprint)})`;
+      if (expected.source !== null && expected.source === open?.source) {
+        return `The ${of} was made with another ${modelWords(expected)} than is found there now, ${found}.`;
+      }
+      return `${words}; open it as ${letter}. What is open is ${found}.`;
+    }
+  }
+}
+
+/** “male.h5” (3f2a…), with its part where it was not the only one. */
+export function modelWords({ name, part, fingerprint }: ExpectedModel): string {
+  const file = name === null ? "a file" : `“${name}”`;
+  const named = part !== null && part !== "shape" ? `${file}, ${part}` : file;
+  return fingerprint === null ? named : `${named} (${shortened(fingerprint)})`;
+}
+
+function shortened(fingerprint: string | undefined): string {
+  return fingerprint ? `${fingerprint.slice(0, 4)}…` : "unknown";
+}
+
+/** How the numbers of two reports differ: none but what took how long; null where they are the same. */
+export function firstDifference(one: Report, other: Report): string | null {
+  return differs({ ...one, seconds: null }, { ...other, seconds: null }, "");
+}
+
+function differs(one: unknown, other: unknown, path: string): string | null {
+  // −0 is written as 0 by some programs that a report may have come through.
+  if (one === other) return null;
+  if (!isObject(one) || !isObject(other)) return path;
+  for (const key of new Set([...Object.keys(one), ...Object.keys(other)])) {
+    const found = differs(one[key], other[key], path === "" ? key : `${path}.${key}`);
+    if (found !== null) return found;
+  }
+  return null;
+}
+
+function isObject(value: unknown): value is Record<string, unknown> {
+  return typeof value === "object" && value !== null;
+}

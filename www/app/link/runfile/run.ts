@@ -1,0 +1,228 @@
+/** Runs again what a run file says: at once where its models are open or can be fetched, else when they are. */
+import { batch, computed, effect, signal } from "@preact/signals";
+import { wasAborted } from "../../../worker/engine-errors";
+import type { DroppedFile } from "../../../worker/protocol";
+import { looksLikeAddress } from "../../models/address/address";
+import { openPair } from "../../models/opening";
+import {
+  baseName,
+  demoSource,
+  first,
+  isOpen,
+  nameOf,
+  sourceText,
+  wantedOf,
+} from "../../models/sources";
+import { DEMO_MODELS } from "../../state/demos";
+import { engineClient, report } from "../../state/engine";
+import {
+  currentKey,
+  dismiss,
+  engine,
+  opening,
+  result,
+  SIDES,
+  type Side,
+  type Slot,
+  settings,
+  shelf,
+  slots,
+  spoken,
+  type Wanted,
+} from "../../state/state";
+import { currentStep, joinStep } from "../../state/undo";
+import { saveText } from "../../ui/download";
+import { take } from "../history";
+import type { LinkState } from "../link";
+import { expectedByLink } from "../waiting";
+import {
+  adviceOf,
+  type ExpectedModel,
+  type ExpectedRun,
+  expectedRun,
+  firstDifference,
+  LARGEST_RUN,
+  looksLikeRun,
+  type OpenModel,
+  verdictOf,
+} from "./expected";
+
+/** The run whose models are not both open yet. */
+export const awaited = signal<ExpectedRun | null>(null);
+/** The run whose settings were taken over, while they are what is chosen. */
+const taken = signal<{ run: ExpectedRun; key: string | null; same: boolean } | null>(null);
+
+export const repeated = computed(() => {
+  const found = taken.value;
+  return found && found.key === currentKey.value ? found.run : null;
+});
+
+/** Whether its models are the very ones, too. */
+export const sameModels = computed(() => taken.value?.same ?? false);
+
+/** Whether what is shown has the numbers of the report: the first that differs, or null; else undefined. */
+export const reproduced = computed(() => {
+  const [run, shown] = [repeated.value, result.value];
+  if (!run?.report || !shown || shown.key !== taken.value?.key) return undefined;
+  return firstDifference(run.report, shown.report);
+});
+
+/** What is to be done before the run can begin, by side. */
+export const advice = computed(() => {
+  const run = awaited.value;
+  const kind = run?.link ? "link" : "run file";
+  const of = (side: Side) => (run ? adviceOf(run.models[side], openAs(side), side, kind) : null);
+  return { a: of("a"), b: of("b") };
+});
+
+function openAs(side: Side): OpenModel | null {
+  const slot = slots[side].value;
+  return slot && { report: slot.report, source: sourceText(slot.source) };
+}
+
+/** The one of these files that is a run file, with its text. */
+export async function runAmong(
+  files: DroppedFile[],
+): Promise<{ file: DroppedFile; text: string } | null> {
+  for (const file of files) {
+    if (!/\.json$/i.test(file.name) || file.blob.size > LARGEST_RUN) continue;
+    const text = await file.blob.text();
+    if (looksLikeRun(text)) return { file, text };
+  }
+  return null;
+}
+
+/** Takes over what the file says. With `models` to come, only the settings and what to expect of them. */
+export async function openRun(name: string, text: string, models: boolean): Promise<void> {
+  dismiss("page");
+  try {
+    const { signal } = new AbortController();
+    const read = await engineClient().readRun(signal, text);
+    const run = expectedRun(baseName(name), text, read, engine.value?.version ?? "");
+    await awaitRun(run, models);
+  } catch (thrown) {
+    if (!wasAborted(thrown)) report("page", thrown);
+  }
+}
+
+/** Waits for its models, and opens those of them that can be fetched unless others are to come. */
+async function awaitRun(run: ExpectedRun, models = false): Promise<void> {
+  awaited.value = run;
+  taken.value = null;
+  if (!models) await openPair(fetchable(run, "a"), fetchable(run, "b"));
+}
+
+/** Waits for the files that a link names and does not hold; null where it holds everything. */
+export function awaitLink(link: LinkState): Promise<void> | null {
+  const run = expectedByLink(link);
+  // Nobody waits for a former link any more.
+  if (awaited.peek()?.link) awaited.value = null;
+  return run && awaitRun(run);
+}
+
+/** What the run file says where to find, unless it is open. */
+function fetchable(run: ExpectedRun, side: Side): Wanted | null {
+  const { source, part } = run.models[side];
+  const demo = /^demo:(.+)/.exec(source ?? "")?.[1];
+  const slot = slots[side].value;
+  let wanted: Wanted | null = null;
+  if (demo !== undefined) wanted = DEMO_MODELS.includes(demo) ? first(demoSource(demo)) : null;
+  else if (source && looksLikeAddress(source)) {
+    wanted = { source: { kind: "url", url: source }, part, scale: false };
+  }
+  return wanted && slot && isOpen(slot, wanted) ? null : wanted;
+}
+
+/** Whenever other models are open: whether they are those of the run that waits. */
+export function watchRunFile(): void {
+  /** The step of the history in which its models were not there yet. */
+  let waitedAt: number | null = null;
+  effect(() => {
+    const run = awaited.value;
+    const busy = opening.a.value !== null || opening.b.value !== null;
+    const { a, b } = { a: openAs("a"), b: openAs("b") };
+    if (run === null) waitedAt = null;
+    if (run === null || busy) return;
+    // Once the step that opened them is written down.
+    queueMicrotask(() => {
+      if (awaited.peek() !== run) return;
+      if (isSame(run.models.a, a) && isSame(run.models.b, b)) {
+        // Opening the models and what they are opened for are undone together.
+        takeOver(run, waitedAt === null ? null : waitedAt + 1);
+      } else {
+        waitedAt = currentStep();
+        if (opening.a.peek() === null && opening.b.peek() === null) void takeFromShelf(run);
+      }
+    });
+  });
+  effect(() => {
+    const sentences = Object.values(advice.value).flatMap((sentence) => sentence ?? []);
+    if (sentences.length > 0) spoken.value = sentences.join(" ");
+  });
+}
+
+function isSame(expected: ExpectedModel, open: OpenModel | null): boolean {
+  return verdictOf(expected, open) === "same";
+}
+
+/** Its models may be open in other places: on the shelf, or the other way round, or as another part of their file. */
+async function takeFromShelf(run: ExpectedRun): Promise<void> {
+  const found = (side: Side): Wanted | null => {
+    const expected = run.models[side];
+    if (isSame(expected, openAs(side)) || expected.fingerprint === null) return null;
+    const open = (slot: Slot) => ({ report: slot.report, source: null });
+    const slot = shelf.value.find((one) => isSame(expected, open(one)));
+    return slot ? wantedOf(slot) : partOf(expected);
+  };
+  const [a, b] = [found("a"), found("b")];
+  const complete = SIDES.every(
+    (side) => isSame(run.models[side], openAs(side)) || (side === "a" ? a : b) !== null,
+  );
+  if (complete && (a || b)) await openPair(a, b);
+}
+
+/** The part that is expected, of an open file of that name of which only other parts are open. */
+function partOf({ name, part }: ExpectedModel): Wanted | null {
+  if (name === null || part === null) return null;
+  const files = shelf.value.filter(({ source }) => nameOf(source) === name);
+  const file = files.find(({ parts }) => parts.includes(part));
+  return file && files.every((one) => one.part !== part) ? { ...wantedOf(file), part } : null;
+}
+
+/** Its settings become those of the page, as a part of a step or as one of their own. */
+function takeOver(run: ExpectedRun, step: number | null, same = true): void {
+  const change = () => {
+    if (run.link) take(run.link);
+    else settings.value = run.settings;
+    awaited.value = null;
+    taken.value = { run, key: currentKey.value, same };
+  };
+  if (step === null) batch(change);
+  else joinStep(change, step);
+  spoken.value = `The settings of ${run.file ?? "the link"} are taken over.`;
+}
+
+/** Whatever models are open: its settings for them. */
+export function useSettingsAnyway(): void {
+  // Of other models its numbers cannot be expected.
+  if (awaited.value) takeOver({ ...awaited.value, report: null }, null, false);
+}
+
+export function forgetRunFile(): void {
+  batch(() => {
+    awaited.value = null;
+    taken.value = null;
+  });
+}
+
+export async function saveRun(): Promise<void> {
+  const shown = result.value;
+  if (!shown) return;
+  try {
+    const { signal } = new AbortController();
+    saveText("shapevenn-run.json", await engineClient().runFile(signal, shown.sources));
+    dismiss("page");
+  } catch (thrown) {
+    report("page", thrown);
+  }
+}

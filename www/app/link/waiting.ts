@@ -1,0 +1,30 @@
+/** A link that names files which it cannot hold waits for them, as a run file waits for its models. */
+
+import { fileName } from "../models/address/address";
+import type { LinkedModels } from "../state/linked-models";
+import type { LinkState } from "./link";
+import type { ExpectedModel, ExpectedRun } from "./runfile/expected";
+
+/** What such a link expects; null where everything that it names can be fetched. Pure. */
+export function expectedByLink(link: LinkState): ExpectedRun | null {
+  const { urls, hashes, parts } = link;
+  if (!urls || (urls.a !== null && urls.b !== null)) return null;
+  const model = (side: "a" | "b"): ExpectedModel => {
+    const name = askedName(link, side);
+    return { name, source: urls[side], part: parts[side], fingerprint: hashes[side] };
+  };
+  return {
+    file: null,
+    link,
+    models: { a: model("a"), b: model("b") },
+    settings: link.settings,
+    engine: null,
+    report: null,
+  };
+}
+
+/** What a model that a link says by itself is called; null for a file whose name is left out. */
+export function askedName({ urls, names }: LinkedModels, side: "a" | "b"): string | null {
+  const address = urls?.[side] ?? null;
+  return address === null ? names[side] : fileName(address.replace(/^demo:/, ""));
+}

@@ -1,0 +1,37 @@
+/** Whether what is found at an address is still what the link was made with. */
+import { computed, effect, untracked } from "@preact/signals";
+import { dismiss, linked, notify, SIDES, type Side, slots, spoken } from "../../state/state";
+import { nameOf } from "../sources";
+import { HASH_DIGITS } from "./codec";
+
+/** What is other than it was, in a sentence for each side. */
+const differences = computed(() => SIDES.flatMap((side) => difference(side) ?? []));
+
+function difference(side: Side): string | null {
+  const [slot, models] = [slots[side].value, linked.value];
+  if (slot?.source.kind !== "url" || models?.urls?.[side] !== slot.source.url) return null;
+  const found = slot.report.fingerprint?.slice(0, HASH_DIGITS);
+  const expected = models.hashes[side];
+  // A link asks for one part of a file; who chooses another one knows.
+  const part = models.parts[side] ?? slot.parts[0];
+  if (!found || !expected || found.startsWith(expected) || slot.part !== part) return null;
+  return `“${nameOf(slot.source)}” is not what the link was made with: its fingerprint is ${found}, ${expected} was expected.`;
+}
+
+export function watchContent(): void {
+  effect(() => {
+    const found = differences.value;
+    untracked(() => tell(found.join(" ")));
+  });
+}
+
+function tell(message: string): void {
+  if (message === "") {
+    dismiss("content");
+    return;
+  }
+  const hint =
+    "The file there was changed since. It stays open, but the numbers may differ from those of whoever made the link.";
+  notify("content", "other-content", message, hint);
+  spoken.value = `${message} ${hint}`;
+}

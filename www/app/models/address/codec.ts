@@ -1,0 +1,58 @@
+/**
+ * How a link says which two models are compared: a pair that comes with the page, addresses, or the names and
+ * fingerprints of files that no link can hold. Pure.
+ */
+import { DEMO_MODELS } from "../../state/demos";
+import { type Each, type LinkedModels, noLinkedModels } from "../../state/linked-models";
+import { looksLikeAddress } from "./address";
+
+/** Digits of a fingerprint in a link: enough that nobody meets two models that share them. */
+export const HASH_DIGITS = 16;
+
+export function writeModels(models: LinkedModels): [string, string][] {
+  const { urls, parts, names, hashes } = models;
+  if (!urls) return [];
+  const each = (key: string, of: Each<string | null>) =>
+    (["a", "b"] as const).flatMap((side): [string, string][] => {
+      const value = of[side];
+      return value === null ? [] : [[`${key}${side}`, value]];
+    });
+  return [
+    ...each("", urls),
+    ...each("name-", names),
+    ...each("hash-", hashes),
+    ...each("part-", parts),
+  ];
+}
+
+export function readModels(given: URLSearchParams): LinkedModels {
+  const each = <T>(read: (side: "a" | "b") => T): Each<T> => ({ a: read("a"), b: read("b") });
+  const parts = each((side) => given.get(`part-${side}`));
+  const urls = each((side) => addressIn(given, side));
+  const names = each((side) => (given.has(side) ? null : given.get(`name-${side}`) || null));
+  const hashes = each((side) => hashIn(given.get(`hash-${side}`)));
+  // Without an address, a name or a hash nothing is said of a model.
+  const said = each(
+    (side) => urls[side] ?? (given.has(side) ? null : (names[side] ?? hashes[side])),
+  );
+  if (said.a === null || said.b === null) return { ...noLinkedModels(), parts };
+  return { urls, parts, names, hashes };
+}
+
+/** Which of the addresses that a link gives are none, as `key=value`. */
+export function misreadAddresses(given: URLSearchParams): string[] {
+  return (["a", "b"] as const).flatMap((side) =>
+    given.has(side) && addressIn(given, side) === null ? [`${side}=${given.get(side)}`] : [],
+  );
+}
+
+function addressIn(given: URLSearchParams, side: "a" | "b"): string | null {
+  const text = given.get(side) ?? "";
+  if (text.startsWith("demo:")) return DEMO_MODELS.includes(text.slice(5)) ? text : null;
+  return looksLikeAddress(text) ? text : null;
+}
+
+function hashIn(text: string | null): string | null {
+  const digits = text?.toLowerCase() ?? "";
+  return /^[0-9a-f]{8,32}$/.test(digits) ? digits.slice(0, HASH_DIGITS) : null;
+}

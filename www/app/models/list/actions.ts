@@ -1,0 +1,180 @@
+/** Putting models on the shelf, taking them from it, and choosing which two of them are compared. */
+import { EngineFailure, sentenceOf, wasAborted } from "../../../worker/engine-errors";
+import { report } from "../../state/engine";
+import {
+  demo,
+  dismiss,
+  type Reading,
+  room,
+  type Side,
+  type Slot,
+  type Source,
+  settings,
+  shelf,
+  shelving,
+  slotKey,
+  slots,
+  spoken,
+  type Wanted,
+} from "../../state/state";
+import { currentStep, joinStep } from "../../state/undo";
+import { choosing, forget, openPair } from "../opening";
+import { first, isOpen, type NamedSource, nameOf, openWanted, wantedOf } from "../sources";
+import { carry, closeUnused, putDown } from "./handles";
+import { pairSettings } from "./measures";
+import { arranged, isSame, isUsed, withModels } from "./order";
+
+let opening: AbortController | null = null;
+
+/**
+ * Opens models one after the other and puts them on the shelf at once, so that one step undoes it: that of
+ * the history given, if it still is the present one.
+ */
+export async function addModels(wanted: Wanted[], step: number | null = null): Promise<void> {
+  dismiss("page");
+  const added = await openAll(wanted);
+  if (added === null) return;
+  const add = () => {
+    shelf.value = withModels(shelf.value, added);
+  };
+  if (step === null) add();
+  else joinStep(add, step);
+  putDown(added.map(({ model }) => model));
+  if (added.length > 0) spoken.value = `${shelf.value.length} models are open.`;
+}
+
+/** Models that a link or a step of the history has on the shelf, in its order. */
+export async function restoreShelf(wanted: Wanted[]): Promise<void> {
+  const begun = currentStep();
+  const added = await openAll(wanted);
+  if (added === null) return;
+  joinStep(() => arrange(wanted, added), begun);
+  putDown(added.map(({ model }) => model));
+}
+
+/** Of the models that are open, these, in this order, and the two that are compared. */
+export function arrange(wanted: Wanted[], added: readonly Slot[] = []): void {
+  const open = withModels(shelf.value, added);
+  const keys = wanted.flatMap((one) => open.find((slot) => isOpen(slot, one)) ?? []).map(slotKey);
+  shelf.value = arranged(open, keys, { a: slots.a.value, b: slots.b.value });
+}
+
+/** Ends the opening; what is open by then stays. */
+export function cancelAdding(): void {
+  opening?.abort("enough");
+}
+
+/** Ends the opening, and nothing of it is wanted any more. */
+export function giveUpAdding(): void {
+  opening?.abort("discard");
+  opening = null;
+  shelving.value = null;
+}
+
+/** Those that are not on the shelf yet; each is carried. Null where nobody wants them any more. */
+async function openAll(wanted: Wanted[]): Promise<Slot[] | null> {
+  giveUpAdding();
+  const controller = new AbortController();
+  opening = controller;
+  const { signal } = controller;
+  const added: Slot[] = [];
+  const failed: { name: string; thrown: unknown }[] = [];
+  for (const [done, one] of wanted.entries()) {
+    if (signal.aborted) break;
+    if ([...shelf.peek(), ...added].some((slot) => isOpen(slot, one))) continue;
+    const name = nameOf(one.source);
+    const tell = (read: Reading | null) => {
+      if (opening === controller) shelving.value = { name, read, done, of: wanted.length };
+    };
+    tell(null);
+    try {
+      const slot = await openWanted(signal, one, tell);
+      carry(slot.model);
+      added.push(slot);
+    } catch (thrown) {
+      if (!signal.aborted && !wasAborted(thrown)) failed.push({ name, thrown });
+    }
+  }
+  if (opening === controller) {
+    opening = null;
+    shelving.value = null;
+  }
+  if (signal.reason === "discard") {
+    putDown(added.map(({ model }) => model));
+    return null;
+  }
+  tellFailed(failed);
+  return added;
+}
+
+function tellFailed(failed: { name: string; thrown: unknown }[]): void {
+  const [one] = failed;
+  if (!one) return;
+  const names = failed.map(({ name }) => `“${name}”`).join(", ");
+  const all = new EngineFailure({
+    code: "models",
+    message: `${failed.length} models cannot be opened: ${names}. ${sentenceOf(one.thrown)}`,
+    hint: one.thrown instanceof EngineFailure ? one.thrown.hint : "",
+  });
+  report("page", failed.length === 1 ? one.thrown : all);
+}
+
+/** Takes one from the shelf; those that are compared stay. */
+export function removeModel(slot: Slot): void {
+  if (isSame(slot, slots.a.value) || isSame(slot, slots.b.value)) return;
+  shelf.value = shelf.value.filter((one) => !isSame(one, slot));
+  closeUnused();
+  spoken.value = `${nameOf(slot.source)} is closed. It can be undone.`;
+}
+
+/** Leaves only the two that are compared. */
+export function keepCompared(): void {
+  const { a, b } = { a: slots.a.value, b: slots.b.value };
+  shelf.value = shelf.value.filter((slot) => isSame(slot, a) || isSame(slot, b));
+  closeUnused();
+}
+
+/** Compares the pair of a cell, as the cell has it, and shows its regions. */
+export async function comparePair(a: Slot, b: Slot): Promise<void> {
+  const change = (side: Side, slot: Slot) =>
+    isSame(slot, slots[side].value) ? null : wantedOf(slot);
+  const [nextA, nextB] = [change("a", a), change("b", b)];
+  if (nextA === null && nextB === null) {
+    room.value = "regions";
+    return;
+  }
+  await openPair(nextA, nextB, () => {
+    settings.value = pairSettings(settings.value);
+    room.value = "regions";
+  });
+}
+
+/** Makes a model of the shelf A or B; the two change places where it was the other one. */
+export async function chooseFor(side: Side, slot: Slot): Promise<void> {
+  const other = side === "a" ? "b" : "a";
+  const former = slots[side].value;
+  const swaps = former !== null && isSame(slot, slots[other].value);
+  const wanted = { [side]: wantedOf(slot), [other]: swaps ? wantedOf(former) : null };
+  await openPair(wanted.a ?? null, wanted.b ?? null);
+}
+
+/** What was dropped goes on the shelf, all of it; `a` and `b` of it are compared, null keeps what is. */
+export async function openEvery(
+  models: NamedSource[],
+  a: Source | null,
+  b: Source | null,
+): Promise<void> {
+  choosing.value = null;
+  room.value = "models";
+  // A pair that came with the page makes way; what somebody opened stays beside the rest.
+  const former = isUsed(shelf.value) || demo.value !== null ? [] : [...shelf.value];
+  for (const { model } of former) carry(model);
+  const begun = currentStep();
+  const changed = await openPair(a && first(a), b && first(b), () => {
+    forget()();
+    shelf.value = withModels(former, shelf.value);
+  });
+  putDown(former.map(({ model }) => model));
+  const wanted = models.map(({ source }) => first(source));
+  await addModels(wanted, changed ? begun + 1 : null);
+}

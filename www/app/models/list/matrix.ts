@@ -1,0 +1,166 @@
+/** How each model of the shelf lies to each other one: asked pair by pair while the table is looked at. */
+import { computed, effect, signal } from "@preact/signals";
+import {
+  EngineFailure,
+  isEngineError,
+  sentenceOf,
+  wasAborted,
+} from "../../../worker/engine-errors";
+import type { Relation, Settings } from "../../../worker/protocol";
+import { engineClient } from "../../state/engine";
+import { reopening, room, type Slot, settings, shelf, slotKey } from "../../state/state";
+import { ITSELF, type MeasureName, pairSettings, relationKey } from "./measures";
+
+/** Which number of each pair is shown. */
+export const measure = signal<MeasureName>("variance");
+
+/** Somebody ended the work on the table. */
+export const paused = signal(false);
+
+interface Known {
+  relation: Relation;
+  /** Settings under which it holds, without and with those that matter to the laws only. */
+  base: string;
+  laws: string;
+}
+
+/** What each pair was last found to be, by the keys of its models. It stays until something newer is known. */
+const known = signal<ReadonlyMap<string, Known>>(new Map());
+/** Everything that was found, for settings that are chosen again. */
+const memory = new Map<string, Relation>();
+const MOST_REMEMBERED = 5000;
+
+/** How long the table waits for the next change before it is worked out. */
+const SETTLE_MS = 300;
+
+const wants = computed(() => ({
+  base: relationKey(settings.value, false),
+  laws: relationKey(settings.value, true),
+  ofLaws: measure.value === "bhattacharyya",
+}));
+
+function pairOf(row: Slot, column: Slot): string {
+  return `${slotKey(row)}\n${slotKey(column)}`;
+}
+
+export interface Cell {
+  relation: Relation | null;
+  /** Found with other settings than are chosen. */
+  stale: boolean;
+}
+
+export function cellOf(row: Slot, column: Slot): Cell {
+  if (row === column) return { relation: ITSELF, stale: false };
+  const found = known.value.get(pairOf(row, column));
+  return { relation: found?.relation ?? null, stale: found !== undefined && !isCurrent(found) };
+}
+
+function isCurrent(found: Known): boolean {
+  const { base, laws, ofLaws } = wants.value;
+  return ofLaws ? found.laws === laws : found.base === base;
+}
+
+/** Pairs of two different models, row by row. */
+const pairs = computed(() =>
+  shelf.value.flatMap((row) =>
+    shelf.value.flatMap((column): [Slot, Slot][] => (row === column ? [] : [[row, column]])),
+  ),
+);
+
+/** How many pairs are known as the settings want them, of how many. */
+export const progress = computed(() => {
+  const done = pairs.value.filter((pair) => {
+    const found = known.value.get(pairOf(...pair));
+    return found !== undefined && isCurrent(found);
+  });
+  return { done: done.length, of: pairs.value.length };
+});
+
+/** Works on the table whenever it is looked at and something of it is not known. */
+export function watchMatrix(): void {
+  let timer: ReturnType<typeof setTimeout> | undefined;
+  let controller = new AbortController();
+  const models = computed(() => shelf.value.map((slot) => `${slot.model} ${slotKey(slot)}`).join());
+  effect(() => {
+    const { base, laws, ofLaws } = wants.value;
+    const looked = room.value === "models" && !paused.value && !reopening.value;
+    const changed = `${models.value} ${base} ${ofLaws ? laws : ""}`;
+    clearTimeout(timer);
+    controller.abort();
+    // Whoever comes back to it wants all of it.
+    if (room.value !== "models") paused.value = false;
+    if (!looked || changed === "") return;
+    controller = new AbortController();
+    const { signal } = controller;
+    timer = setTimeout(() => void relateAll(signal), SETTLE_MS);
+  });
+}
+
+export function cancelMatrix(): void {
+  paused.value = true;
+}
+
+export function continueMatrix(): void {
+  paused.value = false;
+}
+
+async function relateAll(signal: AbortSignal): Promise<void> {
+  const chosen = pairSettings(settings.peek());
+  const { base, laws, ofLaws } = wants.peek();
+  for (const [row, column] of pairs.peek()) {
+    const key = pairOf(row, column);
+    const found = known.peek().get(key);
+    if (found && (ofLaws ? found.laws === laws : found.base === base)) continue;
+    try {
+      const place = `${key}\n${laws}`;
+      const relation = memory.get(place) ?? (await relate(signal, row, column, chosen));
+      if (signal.aborted) return;
+      remember(place, relation);
+      known.value = new Map(known.peek()).set(key, { relation, base, laws });
+    } catch {
+      // Ended on purpose, or the engine is gone and says so: the rest is asked for when it is back.
+      return;
+    }
+  }
+}
+
+/** What the engine refuses outright stands in the cell like what cannot be compared. */
+async function relate(
+  signal: AbortSignal,
+  row: Slot,
+  column: Slot,
+  chosen: Settings,
+): Promise<Relation> {
+  try {
+    return await engineClient().relate(signal, row.model, column.model, chosen);
+  } catch (thrown) {
+    if (wasAborted(thrown) || isGone(thrown)) throw thrown;
+    const { code, hint } = isEngineError(thrown) ? thrown : { code: "unexpected", hint: "" };
+    return { ...UNRELATED, problem: { code, message: sentenceOf(thrown), hint } };
+  }
+}
+
+function isGone(thrown: unknown): boolean {
+  return thrown instanceof EngineFailure && thrown.code === "engine-stopped";
+}
+
+const UNRELATED: Relation = {
+  ...ITSELF,
+  varianceOfAInB: Number.NaN,
+  varianceOfBInA: Number.NaN,
+  grassmann: Number.NaN,
+  grassmannAffine: Number.NaN,
+  anglesDegrees: [],
+  meanToMean: Number.NaN,
+  bhattacharyya: null,
+};
+
+/** The oldest are forgotten first. */
+function remember(place: string, relation: Relation): void {
+  memory.delete(place);
+  memory.set(place, relation);
+  for (const oldest of memory.keys()) {
+    if (memory.size <= MOST_REMEMBERED) break;
+    memory.delete(oldest);
+  }
+}

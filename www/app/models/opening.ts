@@ -1,0 +1,268 @@
+/** Opening models into the two slots. A model that cannot be opened leaves the former one. */
+import { batch, signal } from "@preact/signals";
+import { EngineFailure, wasAborted } from "../../worker/engine-errors";
+import type { DroppedFile } from "../../worker/protocol";
+import type { Demo } from "../state/demos";
+import { engineClient, report } from "../state/engine";
+import { withoutSides } from "../state/preparation";
+import {
+  change,
+  compared,
+  demo,
+  dismiss,
+  emptyRegions,
+  lockedRange,
+  notify,
+  opening,
+  painting,
+  type Reading,
+  reopening,
+  SIDES,
+  type Side,
+  type Slot,
+  type Source,
+  settings,
+  shelf,
+  slots,
+  sourceKey,
+  spoken,
+  type Wanted,
+} from "../state/state";
+import { carry, closeUnused, putDown } from "./list/handles";
+import { afterChoice } from "./list/order";
+import {
+  baseName,
+  demoSource,
+  filesSource,
+  first,
+  isOpen,
+  type NamedSource,
+  nameOf,
+  type OnRead,
+  openWanted,
+} from "./sources";
+
+const loads: Record<Side, AbortController | null> = { a: null, b: null };
+
+/** More models than two were dropped, and nobody has said yet which are meant. */
+export const choosing = signal<NamedSource[] | null>(null);
+
+/** A demo that an address asks for, with whatever settings. */
+export function demoModels({ a, b }: Demo): Record<Side, Wanted> {
+  return { a: first(demoSource(a)), b: first(demoSource(b)) };
+}
+
+/** A demo that a visitor chooses, with the σ that suits it. */
+export async function chooseDemo(chosen: Demo): Promise<void> {
+  const { a, b } = demoModels(chosen);
+  await openPair(a, b, forget(chosen.sigma ?? null));
+}
+
+/**
+ * Both change at once, so that no comparison of an old with a new one begins between. `alongside` is
+ * changed in the same step. Resolves to whether anything changed: where neither can be opened, nothing
+ * does.
+ */
+export async function openPair(
+  a: Wanted | null,
+  b: Wanted | null,
+  alongside: () => void = () => {},
+): Promise<boolean> {
+  const opened = await Promise.all([a && load("a", a), b && load("b", b)]);
+  const some = opened.some((slot) => slot !== null);
+  if (some) show({ a: opened[0], b: opened[1] }, alongside);
+  putDown(opened.flatMap((slot) => slot?.model ?? []));
+  return some;
+}
+
+/** Lengths in use, those of the former models, say nothing of these. */
+export function forget(sigma: number | null = null): () => void {
+  return () => change({ sigma, noise: null, differenceThreshold: null });
+}
+
+/** Files that were dropped or chosen: one model fills the slot it was meant for, two fill both. */
+export async function openModels(files: DroppedFile[], side: Side): Promise<void> {
+  if (files.length === 0) return;
+  dismiss("page");
+  const models = await modelsIn(files, side);
+  const [one, two, ...rest] = models ?? [];
+  if (!one || !models) return;
+  if (rest.length > 0) {
+    choosing.value = models;
+    spoken.value = `${models.length} models were found. Choose two of them.`;
+  } else if (two) {
+    await openPair(first(one.source), first(two.source), forget());
+  } else {
+    await openSource(side, one.source);
+  }
+}
+
+/** What was chosen of several models; null keeps the one that is there. */
+export async function openChosen(a: Source | null, b: Source | null): Promise<void> {
+  choosing.value = null;
+  if (a && b) await openPair(first(a), first(b), forget());
+  else if (a) await openSource("a", a);
+  else if (b) await openSource("b", b);
+}
+
+async function openSource(side: Side, source: Source): Promise<void> {
+  // Whoever compares several models with one of their own keeps the σ they chose.
+  const alongside = demo.peek() === null ? undefined : forget();
+  await reread(side, first(source), alongside);
+}
+
+async function reread(side: Side, wanted: Wanted, alongside?: () => void): Promise<void> {
+  await openPair(side === "a" ? wanted : null, side === "b" ? wanted : null, alongside);
+}
+
+/** The models that these files make; null where they cannot be looked at. */
+export async function modelsIn(
+  files: DroppedFile[],
+  side: Side | null,
+): Promise<NamedSource[] | null> {
+  const groups = await grouped(files, side);
+  return (
+    groups?.map((group) => {
+      const own = group.files.flatMap((index) => files[index] ?? []);
+      return { name: group.name, source: filesSource(group.name, own) };
+    }) ?? null
+  );
+}
+
+/** Which files belong together; null where they cannot be looked at. */
+async function grouped(files: DroppedFile[], side: Side | null) {
+  const [only] = files;
+  if (only && files.length === 1) return [{ name: baseName(only.name), files: [0] }];
+  const controller = side ? begin(side, `${files.length} files`) : new AbortController();
+  try {
+    const groups = await engineClient().groups(controller.signal, files);
+    if (groups.length > 0) return groups;
+    throw new EngineFailure({
+      code: "no-models",
+      message: `None of the ${files.length} files is a shape model.`,
+      hint: "Open models, or a folder of meshes with the same points in the same order.",
+    });
+  } catch (thrown) {
+    if (!wasAborted(thrown)) report("page", thrown);
+    return null;
+  } finally {
+    if (side) end(side, controller);
+  }
+}
+
+/** Another model of the same file. */
+export async function choosePart(side: Side, part: string): Promise<void> {
+  const slot = slots[side].value;
+  if (!slot || part === slot.part) return;
+  await reread(side, { source: slot.source, part, scale: slot.scale });
+}
+
+/** The shapes of a set, with or without their sizes. */
+export async function chooseScale(side: Side, scale: boolean): Promise<void> {
+  const slot = slots[side].value;
+  if (slot) await reread(side, { source: slot.source, part: slot.part, scale });
+}
+
+export async function openParts(source: Source, a: string, b: string): Promise<void> {
+  const part = (name: string): Wanted => ({ source, part: name, scale: false });
+  await openPair(part(a), part(b), forget());
+}
+
+/** Gives up what is being opened; the former model stays. */
+export function cancelOpening(side: Side): void {
+  loads[side]?.abort();
+  spoken.value = `Opening model ${side} was cancelled.`;
+}
+
+function show(opened: Record<Side, Slot | null>, alongside: () => void): void {
+  batch(() => {
+    const sides = { a: replaces("a", opened.a), b: replaces("b", opened.b) };
+    if (sides.a || sides.b) change({ prepare: withoutSides(settings.value.prepare, sides) });
+    const before = { a: slots.a.value, b: slots.b.value };
+    for (const side of SIDES) {
+      const slot = opened[side];
+      if (!slot) continue;
+      slots[side].value = slot;
+      opening[side].value = null;
+    }
+    const now = { a: slots.a.value, b: slots.b.value };
+    shelf.value = afterChoice(shelf.value, before, now);
+    // Every population lies in the frame of its own first shape: side by side those mean nothing.
+    const populations = SIDES.every((side) => slots[side].value?.origin.kind === "shapes");
+    if (populations && settings.value.align === "none") change({ align: "rigid" });
+    emptyRegions.value = {};
+    // A link that opens its models brings its own.
+    if (before.a || before.b) lockedRange.value = null;
+    compared.value = null;
+    painting.value = null;
+    dismiss("run");
+    dismiss("pair");
+    alongside();
+  });
+  closeUnused();
+}
+
+/** A declared unit, a number of modes and a list of points are about one model. */
+function replaces(side: Side, slot: Slot | null): boolean {
+  const former = slots[side].value;
+  if (!slot || !former) return false;
+  return sourceKey(slot.source) !== sourceKey(former.source) || slot.part !== former.part;
+}
+
+function begin(side: Side, name: string): AbortController {
+  loads[side]?.abort();
+  const controller = new AbortController();
+  loads[side] = controller;
+  opening[side].value = { name, read: null };
+  dismiss(side);
+  return controller;
+}
+
+function end(side: Side, controller: AbortController): void {
+  if (loads[side] !== controller) return;
+  loads[side] = null;
+  opening[side].value = null;
+}
+
+/** Null if it failed or another was asked for meanwhile; else whoever asked puts the model down. */
+export async function load(side: Side, wanted: Wanted): Promise<Slot | null> {
+  const { source } = wanted;
+  const name = nameOf(source);
+  const controller = begin(side, name);
+  const onRead = (read: Reading) => {
+    if (loads[side] === controller) opening[side].value = { name, read };
+  };
+  const again = source.kind === "url" ? () => void reread(side, wanted) : null;
+  try {
+    const slot = await openToShow(controller.signal, wanted, onRead);
+    if (source.kind !== "demo") spoken.value = `${name} opened as model ${side}.`;
+    return slot;
+  } catch (thrown) {
+    if (!wasAborted(thrown)) report(side, thrown, again);
+    else if (again && loads[side] === controller && slots[side].peek() === null) {
+      notify(side, "not-downloaded", `“${name}” was not downloaded.`, "", again);
+    }
+    return null;
+  } finally {
+    end(side, controller);
+  }
+}
+
+/** With its geometry; one that is on the shelf is not opened again. Whoever asked puts it down. */
+async function openToShow(signal: AbortSignal, wanted: Wanted, onRead: OnRead): Promise<Slot> {
+  const kept = reopening.peek() ? undefined : shelf.peek().find((slot) => isOpen(slot, wanted));
+  const slot = kept ?? (await openWanted(signal, wanted, onRead));
+  carry(slot.model);
+  try {
+    const geometry = slot.geometry ?? (await engineClient().geometry(signal, slot.model));
+    return slot.geometry === geometry ? slot : { ...slot, geometry };
+  } catch (thrown) {
+    putDown([slot.model]);
+    throw thrown;
+  }
+}
+
+/** Gives up whatever is being opened as A or B. */
+export function giveUpOpening(): void {
+  for (const side of SIDES) loads[side]?.abort();
+}

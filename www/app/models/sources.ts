@@ -1,0 +1,105 @@
+/** Where models come from, and how one of them is opened. */
+import { EngineFailure } from "../../worker/engine-errors";
+import type { DroppedFile, OpenedModel } from "../../worker/protocol";
+import { packagedFile } from "../state/demos";
+import { engineClient } from "../state/engine";
+import { type Reading, type Slot, type Source, slotKey, type Wanted } from "../state/state";
+import { fileName } from "./address/address";
+import { fetchModel } from "./address/fetching";
+
+export interface NamedSource {
+  name: string;
+  source: Source;
+}
+
+let fileSerial = 0;
+
+/** The first model of a source, as it is. */
+export function first(source: Source): Wanted {
+  return { source, part: null, scale: false };
+}
+
+export function demoSource(name: string): Source {
+  return { kind: "demo", name };
+}
+
+export function filesSource(name: string, files: DroppedFile[]): Source {
+  fileSerial += 1;
+  return { kind: "files", name, files, serial: fileSerial };
+}
+
+/** What would open this model again. */
+export function wantedOf({ source, part, scale }: Wanted): Wanted {
+  return { source, part, scale };
+}
+
+/** Whether an open model is the one that is wanted. */
+export function isOpen(slot: Slot, wanted: Wanted): boolean {
+  return (
+    slotKey(slot) === slotKey({ ...slot, ...wanted, part: wanted.part ?? slot.parts[0] ?? "" })
+  );
+}
+
+export function nameOf(source: Source): string {
+  return source.kind === "url" ? fileName(source.url) : source.name;
+}
+
+export function baseName(path: string): string {
+  return path.split("/").pop() ?? path;
+}
+
+/** As a run file names it: of a file of one's own, nothing. */
+export function sourceText(source: Source): string | null {
+  if (source.kind === "demo") return `demo:${source.name}`;
+  return source.kind === "url" ? source.url : null;
+}
+
+export type OnRead = (read: Reading) => void;
+
+/** Without its geometry, which only the two that are compared need. */
+export async function openWanted(
+  signal: AbortSignal,
+  wanted: Wanted,
+  onRead: OnRead,
+): Promise<Slot> {
+  const { source, part, scale } = wanted;
+  const client = engineClient();
+  let opened: OpenedModel;
+  let bytes: number | null = null;
+  if (source.kind === "demo") {
+    const file = packagedFile(source.name);
+    const packaged = file === null ? null : await packagedBytes(signal, file);
+    opened = await client.openDemo(signal, source.name, packaged);
+  } else {
+    const arrive = (bytes: number, of: number | null) => onRead({ bytes, of, arrives: true });
+    const files =
+      source.kind === "files" ? source.files : [await fetchModel(signal, source.url, arrive)];
+    bytes = files.reduce((sum, { blob }) => sum + blob.size, 0);
+    opened = await client.open(signal, files, part, scale, (bytes, of) => onRead({ bytes, of }));
+  }
+  const { format, parts, model, report, origin, hasMap } = opened;
+  return {
+    source,
+    scale,
+    bytes,
+    geometry: null,
+    format,
+    parts,
+    model,
+    part: opened.part,
+    report,
+    origin,
+    hasMap,
+  };
+}
+
+async function packagedBytes(signal: AbortSignal, file: string): Promise<ArrayBuffer> {
+  const response = await fetch(file, { signal }).catch(() => null);
+  signal.throwIfAborted();
+  if (response?.ok) return response.arrayBuffer();
+  throw new EngineFailure({
+    code: "download",
+    message: `${file}, which comes with the page, cannot be loaded: ${response ? `the server answered ${response.status}` : "there was no answer"}.`,
+    hint: "Check the connection and load the page again.",
+  });
+}

@@ -1,0 +1,203 @@
+import { useEffect, useRef } from "preact/hooks";
+import type { ModelReport } from "../../worker/protocol";
+import { basisSentence, originSentence, readingSentence, unitSentence } from "../comparison/words";
+import { askedName } from "../link/waiting";
+import { cancelOpening, choosePart, chooseScale, openParts } from "../models/opening";
+import { nameOf } from "../models/sources";
+import { cardPicture, drawable } from "../stage/stage-controller";
+import { keptModes } from "../state/preparation";
+import {
+  demo,
+  linked,
+  opening,
+  partName,
+  result,
+  type Side,
+  type Slot,
+  settings,
+  slots,
+} from "../state/state";
+import { isDark } from "../state/theme";
+import { bytes, count, length } from "../text/format";
+import { Notices } from "../ui/Notices";
+import { Scree } from "../ui/Scree";
+import { ModesKept } from "./ModesKept";
+import { OpenButtons } from "./OpenButtons";
+
+const PICTURE_PX = 84;
+
+export function ModelCard({ side }: { side: Side }) {
+  const slot = slots[side].value;
+  // Before the engine is up, the stored report already describes both models.
+  const report = slot?.report ?? result.value?.report.models[side];
+  const ofFile = slot && slot.source.kind !== "demo" ? nameOf(slot.source) : undefined;
+  const asked = linked.value && askedName(linked.value, side);
+  const name = ofFile ?? report?.name ?? demo.value?.[side] ?? asked ?? "";
+  const busy = opening[side].value;
+  return (
+    <section
+      class="card"
+      data-side={side}
+      aria-label={`Model ${side.toUpperCase()}`}
+      aria-busy={busy !== null}
+    >
+      <div class="card-head">
+        <span class="letter" aria-hidden="true">
+          {side.toUpperCase()}
+        </span>
+        <div class="card-title">
+          <h2 title={busy?.name ?? name}>{busy?.name ?? name}</h2>
+          <p class="format">
+            {busy ? readingSentence(busy.read) : (report?.format ?? "Not open yet")}
+          </p>
+        </div>
+        {busy ? <CancelButton side={side} /> : <OpenButtons side={side} />}
+      </div>
+      {busy?.read?.of && busy.read.bytes < busy.read.of && (
+        <progress
+          class="bar"
+          value={busy.read.bytes}
+          max={busy.read.of}
+          aria-label={`Reading ${busy.name}`}
+        />
+      )}
+      <Notices place={side} />
+      {slot && slot.parts.length > 1 && <Parts side={side} slot={slot} name={name} />}
+      {report && (
+        <div class="card-body">
+          <Picture side={side} />
+          <dl class="facts">
+            <Fact term="points" value={count(report.points)} />
+            <Fact term="modes" value={count(report.modes)} />
+            <Fact term="size" value={length(report.size, report.unit)} />
+            {slot?.bytes && <Fact term="file" value={bytes(slot.bytes)} />}
+          </dl>
+          <figure class="scree">
+            <Scree
+              deviations={report.standardDeviations}
+              side={side}
+              kept={keptModes(report.standardDeviations, settings.value.prepare[side])}
+            />
+            <figcaption>SD per mode</figcaption>
+          </figure>
+        </div>
+      )}
+      {slot && <Made side={side} slot={slot} />}
+      {report && demo.value === null && <Basis report={report} />}
+      {report?.notes.map((note) => (
+        <p key={note} class="note">
+          {note}
+        </p>
+      ))}
+    </section>
+  );
+}
+
+function CancelButton({ side }: { side: Side }) {
+  return (
+    <button type="button" class="open" onClick={() => cancelOpening(side)}>
+      Cancel<span class="unseen"> opening model {side.toUpperCase()}</span>
+    </button>
+  );
+}
+
+/** The models of one file: which of them this is, and two of them against one another. */
+function Parts({ side, slot, name }: { side: Side; slot: Slot; name: string }) {
+  const { parts, part, source } = slot;
+  const both = parts.includes("shape") && parts.includes("expression");
+  const others = slots[side === "a" ? "b" : "a"].value;
+  const shown =
+    others?.source === source && [part, others.part].sort().join() === "expression,shape";
+  return (
+    <div class="card-row">
+      <select
+        class="parts"
+        aria-label={`Part of ${name}`}
+        value={part}
+        onChange={(event) => void choosePart(side, event.currentTarget.value)}
+      >
+        {parts.map((one) => (
+          <option key={one} value={one}>
+            {one === "shape" ? "shape (identity)" : partName(one)}
+          </option>
+        ))}
+      </select>
+      {both && !shown && (
+        <button
+          type="button"
+          class="as-link"
+          onClick={() => void openParts(source, "shape", "expression")}
+        >
+          Compare identity with expression
+        </button>
+      )}
+    </div>
+  );
+}
+
+/** How a model came about that was not in a file, and what can be chosen about that. */
+function Made({ side, slot }: { side: Side; slot: Slot }) {
+  const { origin, report } = slot;
+  const { modes, variance } = settings.value.prepare[side];
+  const sentence = originSentence(origin);
+  return (
+    <>
+      {sentence && <p class="made">{sentence}</p>}
+      {origin.kind === "shapes" && (
+        <label class="check">
+          <input
+            type="checkbox"
+            checked={slot.scale}
+            onChange={(event) => void chooseScale(side, event.currentTarget.checked)}
+          />
+          Also bring to one size
+        </label>
+      )}
+      {(sentence || modes !== null || variance !== null) && (
+        <ModesKept side={side} deviations={report.standardDeviations} />
+      )}
+    </>
+  );
+}
+
+/** What a file left open, or got wrong. */
+function Basis({ report }: { report: ModelReport }) {
+  const sentences = [unitSentence(report), basisSentence(report)].filter(Boolean);
+  return sentences.length === 0 ? null : <p class="note">{sentences.join(" ")}</p>;
+}
+
+function Fact({ term, value }: { term: string; value: string }) {
+  return (
+    <div>
+      <dt>{term}</dt>
+      <dd>{value}</dd>
+    </div>
+  );
+}
+
+/** Drawn by the one viewer of the page and copied here. */
+function Picture({ side }: { side: Side }) {
+  const target = useRef<HTMLCanvasElement>(null);
+  const key = `${drawable.value} ${isDark()}`;
+  const geometry = slots[side].value?.geometry;
+  useEffect(() => {
+    const canvas = target.current;
+    const picture = cardPicture(side, PICTURE_PX);
+    if (!canvas) return;
+    if (!picture) {
+      canvas.width = 0; // Clears what was there of another model.
+      return;
+    }
+    canvas.width = picture.width;
+    canvas.height = picture.height;
+    canvas.getContext("2d")?.drawImage(picture, 0, 0);
+  }, [geometry, key, side]);
+  return (
+    <canvas
+      ref={target}
+      class="picture"
+      role="img"
+      aria-label={`Mean shape of model ${side.toUpperCase()}`}
+    />
+  );
+}

@@ -1,0 +1,27 @@
+import type { Side } from "../state/state";
+import { FileButton } from "../ui/FileButton";
+import { openFiles } from "./intake";
+
+/** Files, as many as belong together; or a folder of them. */
+export function OpenButtons({ side }: { side: Side }) {
+  const name = side.toUpperCase();
+  return (
+    <div class="open-buttons">
+      <FileButton
+        className="open"
+        label={`File for model ${name}`}
+        onFiles={(files) => void openFiles(files, side)}
+      >
+        Open model…<span class="unseen"> for {name}</span>
+      </FileButton>
+      <FileButton
+        className="as-link"
+        label={`Folder for model ${name}`}
+        folder
+        onFiles={(files) => void openFiles(files, side)}
+      >
+        Open folder…<span class="unseen"> for {name}</span>
+      </FileButton>
+    </div>
+  );
+}

@@ -1,0 +1,94 @@
+import { useSignal } from "@preact/signals";
+import { bibTeX, methods } from "../comparison/methods";
+import { saveAsOffered } from "../pictures/FigureDialog";
+import { taking } from "../pictures/Taking";
+import { result } from "../state/state";
+import { plain } from "../text/phrase";
+import { copyText } from "../ui/download";
+import { Phrase } from "../ui/Phrase";
+
+/** Figures and animations among what can be taken away. */
+export function Pictures({ ready }: { ready: boolean }) {
+  return (
+    <>
+      <fieldset class="download-row">
+        <legend>Figure</legend>
+        <button
+          type="button"
+          disabled={!ready}
+          title="Five blocks of random shapes, as in the paper"
+          aria-label="Figure of random shapes .png"
+          onClick={() => void saveAsOffered("shapes")}
+        >
+          shapes
+        </button>
+        <button
+          type="button"
+          disabled={!ready}
+          title="Standard deviations of the five regions with one colour bar, as in the paper"
+          aria-label="Figure of variance .png"
+          onClick={() => void saveAsOffered("variance")}
+        >
+          variance
+        </button>
+        <button
+          type="button"
+          disabled={!ready}
+          onClick={() => {
+            taking.value = "figure";
+          }}
+        >
+          other…<span class="unseen"> figure</span>
+        </button>
+      </fieldset>
+      <fieldset class="download-row">
+        <legend>Film</legend>
+        <button
+          type="button"
+          disabled={!ready}
+          title="A mode that swings, or the way from A to B, as GIF or WebM"
+          onClick={() => {
+            taking.value = "film";
+          }}
+        >
+          Animation…
+        </button>
+      </fieldset>
+    </>
+  );
+}
+
+/** What a paper says of a comparison. */
+export function Methods() {
+  const report = result.value?.report;
+  const said = useSignal("");
+  if (!report) return null;
+  const copy = async (text: string, what: string) => {
+    said.value = (await copyText(text)) ? `${what} copied` : "Copy it from the text below";
+  };
+  const paragraph = methods(report);
+  const citations = bibTeX(report.engine);
+  return (
+    <>
+      <fieldset class="download-row">
+        <legend>Text</legend>
+        <button type="button" onClick={() => void copy(plain(paragraph), "Methods paragraph")}>
+          Copy methods paragraph
+        </button>
+        <button type="button" onClick={() => void copy(citations, "BibTeX")}>
+          Copy BibTeX
+        </button>
+      </fieldset>
+      <p class="small" role="status">
+        {said.value}
+      </p>
+      <details class="more methods">
+        <summary>Methods paragraph and BibTeX</summary>
+        <p class="methods-text">
+          <Phrase parts={paragraph} />
+        </p>
+        <pre>{citations}</pre>
+      </details>
+    </>
+  );
+}

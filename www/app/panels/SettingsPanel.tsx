@@ -1,0 +1,233 @@
+import type { DifferenceName, Settings } from "../../worker/protocol";
+import { DEFINITIONS } from "../comparison/words";
+import {
+  budgetOf,
+  DEFAULTS,
+  DIFFERENCES,
+  FITS,
+  leastDraws,
+  MOST_DRAWS,
+  type Options,
+  PLAUSIBILITIES,
+  parseCount,
+  parsePercent,
+  parsePositive,
+  parseSeed,
+  percentText,
+  RANGES,
+  SAMPLERS,
+  SIDES_USED,
+} from "../state/settings";
+import { change, settings, slots, unit } from "../state/state";
+import { Choice } from "../ui/Choice";
+import { TypedField } from "../ui/TypedField";
+import { SigmaField } from "./SigmaField";
+
+export function SettingsPanel() {
+  const now = settings.value;
+  return (
+    <section class="settings" aria-label="Settings">
+      <SigmaField />
+      <Choice
+        label="Sampler"
+        value={now.sampler}
+        options={SAMPLERS}
+        standard={DEFAULTS.sampler}
+        onChoose={(sampler) => change({ sampler, ...budgetOf(sampler) })}
+      />
+      <ModesField />
+      <TypedField
+        label="Seed"
+        value={now.seed}
+        standard={DEFAULTS.seed}
+        parse={parseSeed}
+        onChange={(seed) => change({ seed })}
+        wrong="a whole number below 2⁶⁴"
+      />
+      <CountField
+        label="Chains"
+        name="chains"
+        standard={budgetOf(now.sampler).chains}
+        range={RANGES.chains}
+        onChange={(chains) => change({ chains, draws: Math.max(now.draws, leastDraws(chains)) })}
+      />
+      <CountField
+        label="Draws a side"
+        name="draws"
+        standard={budgetOf(now.sampler).draws}
+        range={[leastDraws(now.chains), MOST_DRAWS]}
+      />
+      <More />
+    </section>
+  );
+}
+
+const RARE = [
+  "fit",
+  "pooling",
+  "plausibility",
+  "noise",
+  "weighted",
+  "difference",
+  "differenceQuantile",
+  "differenceThreshold",
+  "differenceDraws",
+] as const satisfies (keyof Settings)[];
+
+function More() {
+  const now = settings.value;
+  const changed = RARE.filter((name) => now[name] !== DEFAULTS[name]).length;
+  return (
+    <details class="more-settings">
+      <summary>
+        More{changed > 0 && <span class="standard">&nbsp;· {changed} changed</span>}
+      </summary>
+      <Choice
+        label="Fit"
+        value={now.fit}
+        options={FITS}
+        standard={DEFAULTS.fit}
+        onChoose={(fit) => change({ fit })}
+      />
+      <Choice
+        label="Sides"
+        value={now.pooling}
+        options={SIDES_USED}
+        standard={DEFAULTS.pooling}
+        onChoose={(pooling) => change({ pooling })}
+      />
+      <Choice
+        label="Plausibility"
+        value={now.plausibility}
+        options={PLAUSIBILITIES}
+        standard={DEFAULTS.plausibility}
+        onChoose={(plausibility) => change({ plausibility })}
+        alwaysHelp
+      />
+      <TypedField
+        label="Noise level"
+        value={now.noise === null ? "" : String(now.noise)}
+        standard=""
+        placeholder="none"
+        suffix={unit.value}
+        parse={parsePositive}
+        onChange={(noise) => change({ noise })}
+        wrong={`a positive length in ${unit.value}`}
+        help="How far a true member of either population lies from its own model; the recommended σ heeds it."
+      />
+      <CountField
+        label="Weighted"
+        accessibleLabel="Weighted draws"
+        name="weighted"
+        standard={DEFAULTS.weighted}
+        range={RANGES.weighted}
+        suffix="draws"
+        help="Weighted draws with gradients, on each side, that correct the mean and variance of the fit."
+      />
+      <h3>Differences</h3>
+      <DifferenceFields />
+    </details>
+  );
+}
+
+const DEFINED = Object.fromEntries(
+  DIFFERENCES.map((name) => {
+    const { label, help } = DEFINITIONS[name];
+    return [name, { label: label.charAt(0).toUpperCase() + label.slice(1), help }];
+  }),
+) as Options<DifferenceName>;
+
+function DifferenceFields() {
+  const now = settings.value;
+  const scoreUnit = { soft: "", distance: unit.value, relative: "× its own", outside: "SD" };
+  return (
+    <>
+      <Choice
+        label="Definition"
+        value={now.difference}
+        options={DEFINED}
+        standard={DEFAULTS.difference}
+        onChoose={(difference) => change({ difference, differenceThreshold: null })}
+        alwaysHelp
+      />
+      {now.difference !== "soft" && (
+        <>
+          <TypedField
+            label="Leaves out"
+            value={percentText(now.differenceQuantile)}
+            standard={percentText(DEFAULTS.differenceQuantile)}
+            suffix="% of the shapes"
+            parse={parsePercent}
+            onChange={(differenceQuantile) =>
+              change({ differenceQuantile, differenceThreshold: null })
+            }
+            wrong="0 to below 100"
+            help="Share of the model’s own shapes that are not in its difference."
+          />
+          <TypedField
+            label="Threshold"
+            value={now.differenceThreshold === null ? "" : String(now.differenceThreshold)}
+            standard=""
+            placeholder="none"
+            suffix={scoreUnit[now.difference]}
+            parse={parsePositive}
+            onChange={(differenceThreshold) => change({ differenceThreshold })}
+            wrong="a positive number, or nothing"
+            help="Where a shape begins to count, instead of a share of the shapes."
+          />
+        </>
+      )}
+      <CountField
+        label="Draws"
+        accessibleLabel="Draws of a difference"
+        name="differenceDraws"
+        standard={DEFAULTS.differenceDraws}
+        range={RANGES.differenceDraws}
+      />
+    </>
+  );
+}
+
+function ModesField() {
+  const now = settings.value;
+  const most = Math.max(slots.a.value?.report.modes ?? 0, slots.b.value?.report.modes ?? 0);
+  return (
+    <TypedField
+      label="Modes used"
+      value={now.modes === null ? "" : String(now.modes)}
+      standard=""
+      placeholder="all"
+      suffix={most > 0 ? `of ${most}` : ""}
+      parse={(text) =>
+        text.trim() === "" || text.trim() === "all" ? null : parseCount(text, ...RANGES.modes)
+      }
+      onChange={(modes) => change({ modes })}
+      wrong="a whole number, or nothing for all"
+    />
+  );
+}
+
+interface CountFieldProps {
+  label: string;
+  accessibleLabel?: string;
+  name: "chains" | "draws" | "weighted" | "differenceDraws";
+  standard: number;
+  range: readonly [number, number];
+  onChange?: (value: number) => void;
+  suffix?: string;
+  help?: string;
+}
+
+function CountField({ name, standard, range, onChange, ...shown }: CountFieldProps) {
+  const [least, most] = range;
+  return (
+    <TypedField
+      {...shown}
+      value={String(settings.value[name])}
+      standard={String(standard)}
+      parse={(text) => parseCount(text, least, most)}
+      onChange={onChange ?? ((value) => change({ [name]: value }))}
+      wrong={`${least} to ${most.toLocaleString("en").replaceAll(",", "\u202f")}`}
+    />
+  );
+}

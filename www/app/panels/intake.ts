@@ -1,0 +1,21 @@
+/** What was dropped or chosen: models, a run file, or a run file with its models. */
+import type { DroppedFile } from "../../worker/protocol";
+import { openRun, runAmong } from "../link/runfile/run";
+import { openModels } from "../models/opening";
+import { page, type Side } from "../state/state";
+
+/** Folders of shapes have no run file among them. */
+const MOST_LOOKED_INTO = 20;
+
+export async function openFiles(files: DroppedFile[], side: Side): Promise<void> {
+  if (page.peek() !== "compare") {
+    // What is opened is seen where it is compared. That begins with the models of its link, which those
+    // of the files then take the place of.
+    page.value = "compare";
+    await Promise.resolve();
+  }
+  const run = files.length <= MOST_LOOKED_INTO ? await runAmong(files) : null;
+  const models = files.filter((file) => file !== run?.file);
+  if (run) await openRun(run.file.name, run.text, models.length > 0);
+  await openModels(models, side);
+}

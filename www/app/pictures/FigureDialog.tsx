@@ -1,0 +1,239 @@
+import { useSignal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+import { MAP_WORDS } from "../stage/map-words";
+import { mapIsWanted, shownMap } from "../stage/maps";
+import { scene } from "../stage/stage-controller";
+import { latest } from "../state/latest";
+import { result, shapes, vertexMap } from "../state/state";
+import { copyText } from "../ui/download";
+import { Modal } from "../ui/Modal";
+import { NumberField } from "../ui/NumberField";
+import { Segments } from "../ui/Segments";
+import type { FigureKind } from "./caption";
+import {
+  type Background,
+  captionFor,
+  drawFigure,
+  FIRST_OPTIONS,
+  type FigureOptions,
+  figureOptions,
+  saveFigure,
+} from "./figure";
+import { LARGEST_PX, SMALLEST_PX, widthInPixels } from "./layout";
+import { closeDarkroom } from "./offscreen";
+
+const BACKGROUNDS: [Background, string][] = [
+  ["white", "White"],
+  ["transparent", "Transparent"],
+  ["dark", "Transparent, light lettering"],
+];
+const COUNTS = [4, 9, 16, 25];
+
+function set(part: Partial<FigureOptions>): void {
+  figureOptions.value = { ...figureOptions.value, ...part };
+}
+
+/** The paper's figures, at the size they are wanted. */
+export function FigureDialog({ onClose }: { onClose: () => void }) {
+  const options = figureOptions.value;
+  const across = widthInPixels(options);
+  const fits = across >= SMALLEST_PX && across <= LARGEST_PX;
+  const saving = useSignal(false);
+  const copied = useSignal("");
+  useEffect(() => {
+    mapIsWanted.value = options.shows === "map";
+    return () => {
+      mapIsWanted.value = false;
+    };
+  }, [options.shows]);
+  useEffect(() => closeDarkroom, []);
+  const kinds: [FigureKind, string][] = [
+    ["shapes", "Random shapes"],
+    ["variance", "Variance"],
+    ...(vertexMap.value === "sd" ? [] : ([["map", MAP_WORDS[vertexMap.value].label]] as const)),
+    ["means", "Means"],
+  ].map(([kind, label]) => [kind as FigureKind, label ?? ""]);
+  const save = async () => {
+    saving.value = true;
+    await saveFigure(options);
+    saving.value = false;
+  };
+  return (
+    <Modal title="Figure of the five regions" onClose={onClose}>
+      <Segments
+        legend="What the figure shows"
+        name="figure-shows"
+        value={kinds.some(([kind]) => kind === options.shows) ? options.shows : "variance"}
+        options={kinds}
+        onChoose={(shows) => set({ shows })}
+      />
+      <Preview options={options} />
+      <div class="modal-fields">
+        <Size options={options} />
+        {options.shows === "shapes" && <Count value={options.shapes} />}
+        <label class="number-field">
+          <span>Background</span>
+          <select
+            value={options.background}
+            onChange={(event) => set({ background: event.currentTarget.value as Background })}
+          >
+            {BACKGROUNDS.map(([name, label]) => (
+              <option key={name} value={name}>
+                {label}
+              </option>
+            ))}
+          </select>
+        </label>
+        <NumberField
+          label="Lettering, pt"
+          value={options.points}
+          least={4}
+          most={24}
+          onChange={(points) => points !== null && set({ points })}
+        />
+        <Check label="Labels" part="labels" />
+        {(options.shows === "variance" || options.shows === "map") && (
+          <Check label="Colour bar" part="bar" />
+        )}
+        <Check label="Caption" part="caption" />
+      </div>
+      <div class="modal-foot">
+        <span class="small grow" role="status">
+          {fits
+            ? `${across} pixels wide, seen as the page shows it now`
+            : `A figure is ${SMALLEST_PX} to ${LARGEST_PX} pixels wide; this would be ${across}.`}
+        </span>
+        <button
+          type="button"
+          class="quiet"
+          onClick={() =>
+            void copyText(captionFor(options)).then((done) => {
+              copied.value = done ? "Caption copied" : "Copying is not allowed here";
+            })
+          }
+        >
+          {copied.value || "Copy caption"}
+        </button>
+        <button
+          type="button"
+          class="primary"
+          disabled={!fits || saving.value || !result.value}
+          onClick={() => void save()}
+        >
+          {saving.value ? "Drawing…" : "Save PNG"}
+        </button>
+      </div>
+    </Modal>
+  );
+}
+
+function Size({ options }: { options: FigureOptions }) {
+  const { unit, width, dpi } = options;
+  const most = unit === "px" ? LARGEST_PX : Math.floor((25.4 * LARGEST_PX) / dpi);
+  return (
+    <>
+      <NumberField
+        label="Width"
+        value={width}
+        least={1}
+        most={Math.max(1, most)}
+        onChange={(value) => value !== null && set({ width: value })}
+      />
+      <select
+        aria-label="Unit of the width"
+        value={unit}
+        onChange={(event) => {
+          // The same size in the other unit, so far as whole numbers go.
+          const across = widthInPixels(options);
+          const millimetres = Math.max(1, Math.round((25.4 * across) / dpi));
+          if (event.currentTarget.value === "px") set({ unit: "px", width: across });
+          else set({ unit: "mm", width: millimetres });
+        }}
+      >
+        <option value="mm">mm</option>
+        <option value="px">pixels</option>
+      </select>
+      <NumberField
+        label="Resolution, dpi"
+        value={dpi}
+        least={36}
+        most={2400}
+        onChange={(value) => value !== null && set({ dpi: value })}
+      />
+    </>
+  );
+}
+
+function Count({ value }: { value: number }) {
+  const flat = scene.value.geometry.a?.segments !== null && scene.value.geometry.a !== null;
+  // Drawings lie over one another, as many as the page shows.
+  if (flat) return null;
+  return (
+    <label class="number-field">
+      <span>Shapes in a block</span>
+      <select
+        value={String(value)}
+        onChange={(event) => set({ shapes: Number(event.currentTarget.value) })}
+      >
+        {COUNTS.map((count) => (
+          <option key={count} value={String(count)}>
+            {count}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}
+
+function Check({ label, part }: { label: string; part: "labels" | "bar" | "caption" }) {
+  return (
+    <label class="check">
+      <input
+        type="checkbox"
+        checked={figureOptions.value[part]}
+        onChange={(event) => set({ [part]: event.currentTarget.checked })}
+      />
+      {label}
+    </label>
+  );
+}
+
+const PREVIEW_PX = 680;
+
+/** The whole figure, small: drawn as it will be saved. */
+function Preview({ options }: { options: FigureOptions }) {
+  const place = useRef<HTMLDivElement>(null);
+  const problem = useSignal("");
+  const draw = useRef(
+    latest(async (wanted: FigureOptions) => {
+      try {
+        const across = Math.round(PREVIEW_PX * Math.min(devicePixelRatio, 2));
+        const canvas = await drawFigure(wanted, across);
+        problem.value = canvas ? "" : "There are no shapes to draw yet.";
+        if (canvas) place.current?.replaceChildren(canvas);
+      } catch (thrown) {
+        problem.value = thrown instanceof Error ? thrown.message : String(thrown);
+      }
+    }),
+  );
+  const [map, drawn] = [shownMap.value, shapes.value];
+  // Also when there is something else to draw by the same options.
+  useEffect(() => draw.current(options), [options, map, drawn]);
+  return (
+    <div
+      class="figure-preview"
+      data-background={options.background}
+      role="img"
+      aria-label={`Preview of the figure: ${captionFor(options)}`}
+    >
+      <div ref={place} />
+      {problem.value && <p class="small">{problem.value}</p>}
+    </div>
+  );
+}
+
+/** One click in the list of downloads: as it would first be offered. */
+export async function saveAsOffered(shows: FigureKind): Promise<void> {
+  await saveFigure({ ...FIRST_OPTIONS, shows });
+  closeDarkroom();
+}

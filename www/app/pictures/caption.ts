@@ -1,0 +1,71 @@
+/** What is said under a figure. Pure. */
+import type { Report } from "../../worker/protocol";
+import { DEFINITIONS } from "../comparison/words";
+import { completed, preparationWords } from "../state/preparation";
+import { count, length } from "../text/format";
+
+/** What the five blocks hold: the two figures of the paper, and what else the page draws. */
+export type FigureKind = "shapes" | "variance" | "map" | "means";
+
+export interface Shown {
+  shows: FigureKind;
+  /** What is coloured, with its unit. */
+  map: string;
+  /** Shapes in each block; all over one another where `overlaid`. */
+  shapes: number;
+  overlaid: boolean;
+  /** What is drawn of the differences beside their draws as they are; empty where that is all. */
+  differences: string;
+  /** The vertex whose ellipsoid is drawn, how many SD, and in how many dimensions. */
+  vertex: { number: number; deviations: number; dimension: 2 | 3 } | null;
+}
+
+export function captionOf(shown: Shown, report: Report): string {
+  return [what(shown), ellipsoid(shown), models(report), settings(report)]
+    .filter((sentence) => sentence !== "")
+    .join(" ");
+}
+
+const BLOCKS = "A, A∖B, A∩B, B∖A and B";
+
+function what({ shows, map, shapes, overlaid, differences }: Shown): string {
+  const also = differences === "" ? "" : ` Of A∖B and B∖A: ${differences}.`;
+  switch (shows) {
+    case "means":
+      return `Mean shapes of ${BLOCKS}.${also}`;
+    case "shapes": {
+      const how = overlaid ? "one over the other" : "side by side";
+      return `Random shapes of ${BLOCKS}, ${count(shapes)} of each, ${how}.${also}`;
+    }
+    case "variance":
+    case "map":
+      return `${map}, on the mean shapes of ${BLOCKS}; one scale for all.${also}`;
+  }
+}
+
+function ellipsoid({ vertex, shows }: Shown): string {
+  if (vertex === null || shows === "shapes") return "";
+  const name = vertex.dimension === 2 ? "Ellipses" : "Ellipsoids";
+  return `${name}: covariance of vertex ${vertex.number} at ${vertex.deviations} SD.`;
+}
+
+function models(report: Report): string {
+  const one = (side: "a" | "b") => {
+    const { name, points, modes } = report.models[side];
+    return `${side.toUpperCase()}: ${name} (${count(points)} points, ${count(modes)} modes)`;
+  };
+  return `${one("a")}; ${one("b")}.`;
+}
+
+function settings(report: Report): string {
+  const { sigma, seed, difference, align, modes, prepare } = report.settings;
+  const parts = [
+    ...(sigma === null ? [] : [`σ ${length(sigma, report.models.a.unit)}`]),
+    `seed ${seed}`,
+    ...((difference ?? "soft") === "soft" ? [] : [`difference ${DEFINITIONS[difference].label}`]),
+    ...(modes === null ? [] : [`first ${count(modes)} modes`]),
+    ...(align === "none" ? [] : [align === "rigid" ? "rigidly aligned" : "aligned with scale"]),
+    ...preparationWords(completed(prepare)),
+  ];
+  return `${parts.join(", ")}; Shapevenn ${report.engine}.`.replace(/^s/, "S");
+}

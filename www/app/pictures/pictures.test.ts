@@ -1,0 +1,194 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { crc32 } from "node:zlib";
+import { star } from "../../worker/mock-models";
+import { mockReport } from "../../worker/mock-report";
+import type { Settings } from "../../worker/protocol";
+import { bibTeX, methods } from "../comparison/methods";
+import { valueAt } from "../comparison/numbers";
+import { plain } from "../text/phrase";
+import { captionOf, type Shown } from "./caption";
+import {
+  blend,
+  FIRST_FILM,
+  type FilmOptions,
+  filmSentence,
+  frameCount,
+  labelAt,
+  momentOf,
+  positionAt,
+} from "./film";
+import { layoutFigure, UNITS_PER_INCH, widthInPixels, wrapped } from "./layout";
+import { withResolution } from "./png";
+
+const seconds = { load: 0, prepare: 0, sample: 0, total: 0 };
+const reportWith = (settings: Partial<Settings>) =>
+  mockReport(star("stars-1-a", 0), star("stars-1-b", 1), settings, seconds);
+
+const shown: Shown = {
+  shows: "shapes",
+  map: "Standard deviation per vertex, mm",
+  shapes: 9,
+  overlaid: false,
+  differences: "",
+  vertex: null,
+};
+
+test("the methods paragraph holds σ, how it was chosen, the seed, the engine and the paper", () => {
+  const chosen = plain(methods(reportWith({ sigma: 0.3, seed: "4711" })));
+  assert.match(
+    chosen,
+    /σ of the distance likelihood was chosen as 0\.300\u202funits \(recommended would be/,
+  );
+  assert.match(chosen, /seed 4711/);
+  assert.match(chosen, /Shapevenn mock/);
+  assert.match(chosen, /“stars-1-a”/);
+  assert.match(chosen, /WACV 2024, arXiv:2211\.16314\.$/);
+  const recommended = plain(methods(reportWith({ sigma: null })));
+  assert.match(recommended, /recommended by the program from the distances that are possible/);
+  assert.doesNotMatch(recommended, /chosen as/);
+});
+
+test("every number of the methods paragraph is the report's own", () => {
+  const report = reportWith({ modes: 3 });
+  const figures = methods(report).filter((part) => typeof part !== "string");
+  assert.ok(figures.length > 25, `${figures.length} numbers`);
+  for (const part of figures) {
+    if (typeof part !== "string")
+      assert.equal(part.value, valueAt(report, part.metric), part.metric);
+  }
+});
+
+test("the methods paragraph says what was done to the models and which sampler ran where", () => {
+  const report = reportWith({ align: "similarity", plausibility: "idempotent", pooling: "a" });
+  const text = plain(methods(report));
+  assert.match(text, /aligned to A, scale included/);
+  assert.match(text, /from A alone/);
+  assert.match(
+    text,
+    /independence sampler.*\(from A\) and split Hamiltonian Monte Carlo \(from B\)/,
+  );
+  assert.match(text, /geometric mean/);
+  assert.match(plain(methods(reportWith({ difference: "outside" }))), /outside Q₂ definition/);
+  assert.doesNotMatch(text, /undefined|null|NaN/);
+});
+
+test("BibTeX has the paper and this version of the program", () => {
+  const text = bibTeX("0.1.0");
+  assert.match(text, /@inproceedings\{[\s\S]*eprint +=.*2211\.16314/);
+  assert.match(text, /@software\{shapevenn,[\s\S]*version = \{0\.1\.0\}/);
+  assert.equal(text.split("{").length, text.split("}").length);
+});
+
+test("a caption says models, σ, seed and what is shown", () => {
+  const report = reportWith({ sigma: 0.3, seed: "7", align: "rigid" });
+  const text = captionOf(shown, report);
+  assert.match(text, /^Random shapes of A, A∖B, A∩B, B∖A and B, 9 of each, side by side\./);
+  assert.match(text, /A: stars-1-a \(120 points, 3 modes\); B: stars-1-b/);
+  assert.match(text, /σ 0\.300\u202funits, seed 7, rigidly aligned; Shapevenn mock\.$/);
+  const vertex = { number: 5, deviations: 2, dimension: 2 as const };
+  assert.doesNotMatch(captionOf({ ...shown, vertex }, report), /Ellipse/);
+  const map = captionOf({ ...shown, shows: "variance", vertex, differences: "γ 1.0" }, report);
+  assert.match(map, /^Standard deviation per vertex, mm, on the mean shapes of A/);
+  assert.match(map, /Of A∖B and B∖A: γ 1\.0\. Ellipses: covariance of vertex 5 at 2 SD\./);
+  assert.match(captionOf({ ...shown, overlaid: true, shapes: 60 }, report), /60 of each, one over/);
+});
+
+test("a figure is as wide as asked for, in pixels or in print", () => {
+  assert.equal(widthInPixels({ width: 1234, unit: "px", dpi: 300 }), 1234);
+  assert.equal(widthInPixels({ width: 254, unit: "mm", dpi: 300 }), 3000);
+});
+
+test("its five blocks are alike, side by side in the paper's order, and nothing overlaps", () => {
+  const frame = { centre: [0, 0, 0] as [number, number, number], halfWidth: 1, halfHeight: 1.25 };
+  const em = (8 / 72) * UNITS_PER_INCH;
+  const parts = { em, cells: 9, labels: true, bar: true, captionLines: 2 };
+  const layout = layoutFigure(1000, frame, parts);
+  const blocks = [...layout.blocks];
+  assert.deepEqual(
+    blocks.map(([region]) => region),
+    ["a", "aWithoutB", "intersection", "bWithoutA", "b"],
+  );
+  let right = 0;
+  for (const [, { x, y, width, height }] of blocks) {
+    assert.ok(x >= right && y > layout.labels && y + height < layout.bar);
+    assert.ok(Math.abs(height / width - 1.25) < 1e-9, "a grid of cells as the shapes are");
+    right = x + width;
+  }
+  assert.ok(right < 1000 && layout.bar < layout.caption && layout.caption + 2 * em < layout.height);
+  const bare = layoutFigure(1000, frame, { ...parts, labels: false, bar: false, captionLines: 0 });
+  assert.ok(bare.height < layout.height - 5 * em);
+});
+
+test("captions are wrapped between words", () => {
+  const lines = wrapped("one two three four", 8, (text) => text.length);
+  assert.deepEqual(lines, ["one two", "three", "four"]);
+  assert.deepEqual(
+    wrapped("", 8, (text) => text.length),
+    [],
+  );
+});
+
+test("a PNG says how large it is printed, in a chunk whose checksum is right", () => {
+  const png = new Uint8Array(60).map((_, i) => i);
+  const whole = withResolution(png, 300);
+  assert.deepEqual(whole.subarray(0, 33), png.subarray(0, 33));
+  assert.deepEqual(whole.subarray(54), png.subarray(33));
+  const view = new DataView(whole.buffer);
+  assert.equal(Buffer.from(whole.subarray(37, 41)).toString(), "pHYs");
+  assert.equal(view.getUint32(41), 11811);
+  assert.equal(view.getUint32(50), crc32(whole.subarray(37, 50)));
+});
+
+const film = (part: Partial<FilmOptions>): FilmOptions => ({ ...FIRST_FILM, ...part });
+
+test("a mode swings from −3 to 3 SD and back; without a loop it ends there", () => {
+  assert.equal(positionAt(film({}), 0), -3);
+  assert.equal(positionAt(film({}), 0.5), 3);
+  assert.equal(positionAt(film({}), 1), -3);
+  assert.equal(positionAt(film({ loops: false }), 1), 3);
+  const morph = film({ subject: "morph" });
+  assert.deepEqual(
+    [0, 0.5, 1].map((t) => positionAt(morph, t)),
+    [0, 2, 0],
+  );
+});
+
+test("a film that loops does not show its first frame twice, another ends on its last moment", () => {
+  const frames = frameCount(film({ seconds: 2 }));
+  assert.equal(frames, 50);
+  assert.ok(momentOf(film({ seconds: 2 }), frames - 1) < 1);
+  assert.equal(momentOf(film({ seconds: 2, loops: false }), frames - 1), 1);
+});
+
+test("between its shapes a film mixes them, beyond them it stays", () => {
+  const key = (at: number, value: number) => ({
+    at,
+    shape: Float32Array.from([value, -value]),
+    tint: [value, 0, 0] as const,
+  });
+  const keys = [key(0, 0), key(1, 10), key(2, 40)];
+  const at = (position: number) => [...(blend(keys, position)?.shape ?? [])];
+  assert.deepEqual(at(0.5), [5, -5]);
+  assert.deepEqual(at(1), [10, -10]);
+  assert.deepEqual(at(1.5), [25, -25]);
+  assert.deepEqual(
+    [at(-1), at(3)],
+    [
+      [0, -0],
+      [40, -40],
+    ],
+  );
+  assert.deepEqual(blend(keys, 1.5)?.tint, [25, 0, 0]);
+});
+
+test("a film says what it is and where it is", () => {
+  const report = reportWith({});
+  assert.equal(labelAt(film({ mode: 1 }), 1.52), "A∩B, mode 2: +1.5 SD");
+  assert.equal(labelAt(film({ subject: "morph" }), 1.5), "A∩B → B, 50\u202f%");
+  assert.equal(labelAt(film({ subject: "morph" }), 0), "A");
+  assert.match(
+    filmSentence(film({ subject: "a" }), report),
+    /^Mode 1 of A \(stars-1-a\), −3 to \+3 SD and back/,
+  );
+});

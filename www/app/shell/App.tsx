@@ -1,0 +1,129 @@
+import { RunFileCard } from "../link/runfile/RunFileCard";
+import { awaited } from "../link/runfile/run";
+import { Chooser } from "../panels/Chooser";
+import { Consent } from "../panels/Consent";
+import { Downloads } from "../panels/Downloads";
+import { ModelCard } from "../panels/ModelCard";
+import { PairCard } from "../panels/PairCard";
+import { RunPanel } from "../panels/RunPanel";
+import { SettingsPanel } from "../panels/SettingsPanel";
+import { Taking } from "../pictures/Taking";
+import { ShareDialog } from "../share/ShareDialog";
+import { demo, embedded, page, result, room, spoken } from "../state/state";
+import { wide } from "../state/wide";
+import { Diagnostics } from "../tabs/diagnostics/Diagnostics";
+import { Explorer } from "../tabs/explore/Explorer";
+import { ExploreStage } from "../tabs/explore/ExploreStage";
+import { Measures } from "../tabs/measures/Measures";
+import { ModelTable } from "../tabs/models/ModelTable";
+import { Headline, Results } from "../tabs/regions/Results";
+import { Stage } from "../tabs/regions/Stage";
+import { Later } from "../ui/Later";
+import { Notices } from "../ui/Notices";
+import { About } from "./About";
+import { DropOverlay } from "./DropOverlay";
+import { Embedded } from "./Embedded";
+import { Header } from "./Header";
+import { Rooms } from "./Rooms";
+
+export function App() {
+  return embedded.value ? (
+    <>
+      <Spoken />
+      <PageShown framed />
+    </>
+  ) : (
+    <WholePage />
+  );
+}
+
+function WholePage() {
+  return (
+    <>
+      <Header />
+      <PageShown framed={false} />
+      <DropOverlay />
+      <Chooser />
+      <Taking />
+      <ShareDialog />
+      <Spoken />
+    </>
+  );
+}
+
+/** What the page is for just now; of a comparison, in a frame only the shapes. */
+function PageShown({ framed }: { framed: boolean }) {
+  switch (page.value) {
+    case "learn":
+      return <Later key="learn" load={learn} />;
+    case "gallery":
+      return <Later key="gallery" load={gallery} />;
+    case "compare":
+      return framed ? <Embedded /> : <Comparison />;
+  }
+}
+
+const learn = () => import("./Learn").then(({ Learn }) => Learn);
+const gallery = () => import("../gallery/Gallery").then(({ Gallery }) => Gallery);
+
+function Comparison() {
+  // Before anything is compared, what a link waits for is all that there is.
+  const linkIsAll = Boolean(awaited.value?.link) && result.value === null;
+  const explores = room.value === "explore";
+  return (
+    <main class="comparison" data-room={room.value}>
+      <div class="centre">
+        <Notices place="page" />
+        <Notices place="link" />
+        <Notices place="content" />
+        <Consent />
+        {linkIsAll && <RunFileCard />}
+        <Headline />
+        <Rooms />
+        <Stage />
+        {explores && <ExploreStage />}
+        {explores && !wide.value && <Explorer />}
+        {room.value === "measures" && <Measures />}
+        {room.value === "diagnostics" && <Diagnostics />}
+        {room.value === "models" && <ModelTable />}
+      </div>
+      <div class="rail models">
+        <ModelCard side="a" />
+        <ModelCard side="b" />
+        {!linkIsAll && <RunFileCard />}
+        <p class="privacy">
+          {demo.value && `${demo.value.note} `}
+          Drop files or folders anywhere. Your files stay on this computer.
+        </p>
+        <PairCard />
+        <RunPanel />
+        <SettingsPanel />
+      </div>
+      <div class="rail reading">
+        {explores && wide.value && <Explorer />}
+        {explores ? <FoldedResults /> : <Results />}
+        <Downloads />
+        <About />
+      </div>
+    </main>
+  );
+}
+
+/** For screen readers. */
+function Spoken() {
+  return (
+    <p class="unseen" aria-live="polite">
+      {spoken.value}
+    </p>
+  );
+}
+
+/** Out of the way of the sliders. */
+function FoldedResults() {
+  return (
+    <details class="more">
+      <summary>Results of the comparison</summary>
+      <Results />
+    </details>
+  );
+}

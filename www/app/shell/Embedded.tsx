@@ -1,0 +1,72 @@
+import { sharedAddress } from "../link/history";
+import { RunFileCard } from "../link/runfile/RunFileCard";
+import { awaited } from "../link/runfile/run";
+import { Consent } from "../panels/Consent";
+import { MAP_WORDS } from "../stage/map-words";
+import { regionLabel } from "../stage/names";
+import { alone, inspection, nouns, room, run, vertexMap, view } from "../state/state";
+import { Diagnostics } from "../tabs/diagnostics/Diagnostics";
+import { ExploreStage } from "../tabs/explore/ExploreStage";
+import { Measures } from "../tabs/measures/Measures";
+import { ModelTable } from "../tabs/models/ModelTable";
+import { Headline } from "../tabs/regions/Results";
+import { Stage } from "../tabs/regions/Stage";
+import { percent } from "../text/format";
+import { Notices } from "../ui/Notices";
+
+/** The page as a frame in another page: one room, one line of caption, and the way out of the frame. */
+export function Embedded() {
+  return (
+    <main class="embedded" data-room={room.value}>
+      <div class="centre">
+        {(["page", "link", "content", "a", "b", "pair", "run"] as const).map((place) => (
+          <Notices key={place} place={place} />
+        ))}
+        <Problem />
+        <Consent />
+        {awaited.value && <RunFileCard />}
+        <Stage />
+        {room.value === "explore" && <ExploreStage />}
+        {room.value === "measures" && <Measures />}
+        {room.value === "diagnostics" && <Diagnostics />}
+        {room.value === "models" && <ModelTable />}
+      </div>
+      <footer class="caption">
+        <p class="caption-what">{shown()}</p>
+        <Headline />
+        <a href={sharedAddress()} target="_blank" rel="noopener">
+          Open in Shapevenn
+        </a>
+      </footer>
+    </main>
+  );
+}
+
+/** Why the two cannot be compared; the remedies are a click away in the whole page. */
+function Problem() {
+  const problem = inspection.value?.problem;
+  return problem ? (
+    <div class="notice" role="alert" data-code={problem.code}>
+      <div>
+        <p class="notice-message">{problem.message}</p>
+        <p class="notice-hint">{problem.hint}</p>
+      </div>
+    </div>
+  ) : null;
+}
+
+/** Whose, and what of them. */
+function shown(): string {
+  const { a, b } = nouns.value;
+  const whose = `A: ${a}. B: ${b}.`;
+  if (run.value) return `${whose} Comparing, ${percent(run.value.progress?.fraction ?? 0)} …`;
+  if (room.value !== "regions") return whose;
+  const what = {
+    mean: "Mean shapes",
+    samples: "Random shapes",
+    sd: MAP_WORDS[vertexMap.value].label,
+  }[view.value];
+  return alone.value === null
+    ? `${whose} ${what}.`
+    : `${whose} ${what} of ${regionLabel(alone.value)}.`;
+}

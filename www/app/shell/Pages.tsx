@@ -1,0 +1,33 @@
+import { begun, page, painting } from "../state/state";
+import { PAGES, type PageName } from "../state/view";
+
+const NAMES: Record<PageName, string> = {
+  compare: "Compare",
+  learn: "Learn",
+  gallery: "Gallery",
+};
+
+/** What the page is for. Links, so that each can be opened in a window of its own. */
+export function Pages() {
+  return (
+    <nav class="pages" aria-label="Pages">
+      {PAGES.map((name) => (
+        <a
+          key={name}
+          href={name === "compare" ? "#v=1" : `#v=1&page=${name}`}
+          aria-current={page.value === name ? "page" : undefined}
+          data-page={name}
+          onClick={(event) => {
+            if (event.ctrlKey || event.metaKey || event.shiftKey) return;
+            // A comparison that was begun is gone back to, not begun anew.
+            if (name === "compare" && !begun.value) return;
+            event.preventDefault();
+            if (painting.value === null) page.value = name;
+          }}
+        >
+          {NAMES[name]}
+        </a>
+      ))}
+    </nav>
+  );
+}

@@ -1,0 +1,153 @@
+/** Opens the page: numbers first, then the engine, the models and their shapes. */
+import { batch, effect } from "@preact/signals";
+import { storedResult, watchChoices, watchPictures } from "../comparison/run";
+import { titleOf } from "../learn/scenes";
+import { lessonState, scene } from "../learn/state";
+import { apply, keepLink, modelsOf, shelfOf } from "../link/history";
+import { type LinkState, misread, readLink, SETTING_KEYS } from "../link/link";
+import { awaitLink, watchRunFile } from "../link/runfile/run";
+import { watchContent } from "../models/address/checked";
+import { restoreShelf } from "../models/list/actions";
+import { watchMatrix } from "../models/list/matrix";
+import { watchEngine } from "../models/list/reopen";
+import { demoModels, openPair } from "../models/opening";
+import { watchPair } from "../models/pair";
+import { watchMaps } from "../stage/maps";
+import { FIRST_DEMO } from "../state/demos";
+import { engineClient } from "../state/engine";
+import { settingsKey } from "../state/settings";
+import {
+  begun,
+  embedded,
+  linked,
+  notify,
+  nouns,
+  page,
+  pageState,
+  result,
+  run,
+  settings,
+} from "../state/state";
+import { fetchStored } from "../state/stored";
+import { watchTheme } from "../state/theme";
+import { joinUntil } from "../state/undo";
+import { watchExplorer } from "../tabs/explore/asking";
+import { watchPlaying } from "../tabs/explore/playing";
+
+export function boot(): void {
+  const link = readLink(location.hash);
+  linked.value = link;
+  apply(link);
+  watchTheme();
+  watchDocument();
+  watchEngine();
+  if (link.page === "compare") {
+    void bootComparison(link).then(() => {
+      keepLink(waits);
+      return restoreShelf(shelfOf(link));
+    });
+    return;
+  }
+  keepLink(waits);
+  // Other pages need none of it, until somebody turns to the comparison.
+  const stop = effect(() => {
+    if (page.value !== "compare") return;
+    queueMicrotask(() => {
+      stop();
+      const link = readLink(location.hash);
+      void joinUntil(bootComparison(link)).then(() => restoreShelf(shelfOf(link)));
+    });
+  });
+}
+
+/** Whether what a link compares must be brought first. */
+const waits = (link: LinkState) => awaitLink(link) !== null;
+
+async function bootComparison(link: LinkState): Promise<void> {
+  begun.value = true;
+  tellMisread();
+  engineClient();
+  const models = openModels(link);
+  const stored = await fetchStored();
+  if (stored && wants(link, settingsKey(stored.settings))) {
+    // Whoever restores sees whether this failed; until then it is not unhandled.
+    stored.draws().catch(() => undefined);
+    batch(() => {
+      settings.value = stored.settings;
+      result.value = storedResult(stored);
+    });
+  }
+  watchPair();
+  watchChoices(stored);
+  watchPictures();
+  watchExplorer();
+  watchPlaying();
+  watchMaps();
+  watchMatrix();
+  watchRunFile();
+  watchContent();
+  await models;
+}
+
+/** Whether the address asks for the stored comparison, as an address that says nothing does. */
+function wants(link: LinkState, storedKey: string): boolean {
+  if (link.urls || link.demo !== FIRST_DEMO.id) return false;
+  const asked = new URLSearchParams(location.hash.slice(1));
+  const silent = !SETTING_KEYS.some((key) => asked.has(key));
+  return silent || settingsKey(link.settings) === storedKey;
+}
+
+/** A link of a newer page may ask for what this one does not have. */
+function tellMisread(): void {
+  const found = misread(location.hash);
+  if (found.length === 0) return;
+  notify(
+    "link",
+    "link-setting",
+    `The link asks for ${found.join(" and ")}, which this page does not know.`,
+    "The default is used instead.",
+  );
+}
+
+async function openModels(link: LinkState): Promise<void> {
+  const waiting = awaitLink(link);
+  if (waiting) return waiting;
+  const { a, b } = modelsOf(link) ?? demoModels(FIRST_DEMO);
+  await openPair(a, b);
+}
+
+/** What the document itself shows of the state. */
+function watchDocument(): void {
+  effect(() => {
+    document.documentElement.dataset.state =
+      page.value === "learn"
+        ? lessonState.value
+        : page.value === "gallery"
+          ? "done"
+          : pageState.value;
+  });
+  // For embed.css.
+  effect(() => {
+    document.documentElement.toggleAttribute("data-embed", embedded.value);
+  });
+  effect(() => {
+    document.documentElement.dataset.page = page.value;
+  });
+  effect(() => {
+    if (page.value !== "compare") {
+      document.title =
+        page.value === "learn"
+          ? `${titleOf(scene.value).title} – Shapevenn`
+          : "Gallery – Shapevenn";
+      return;
+    }
+    const fraction = run.value?.progress?.fraction;
+    const name = `${nouns.value.a} and ${nouns.value.b}`;
+    document.title = run.value
+      ? `${Math.round(100 * (fraction ?? 0))}\u202f% – Shapevenn`
+      : `Shapevenn: ${name}`;
+  });
+  addEventListener("beforeunload", (event) => {
+    if (run.value) event.preventDefault();
+  });
+}

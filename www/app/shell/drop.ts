@@ -1,0 +1,70 @@
+/** The whole window takes files, always. A miss never navigates away. */
+import { signal } from "@preact/signals";
+import type { DroppedFile } from "../../worker/protocol";
+import { openFiles } from "../panels/intake";
+import { notify, type Side } from "../state/state";
+import { count } from "../text/format";
+import { filesBelow, filesOf, MOST_FILES } from "../ui/folders";
+
+/** The half under the dragged files; null while nothing is dragged. */
+export const dropSide = signal<Side | null>(null);
+
+export function acceptDrops(): void {
+  let depth = 0;
+  addEventListener("dragenter", (event) => {
+    if (!holdsFiles(event)) return;
+    event.preventDefault();
+    depth += 1;
+    dropSide.value = sideAt(event);
+  });
+  addEventListener("dragover", (event) => {
+    if (!holdsFiles(event)) return;
+    event.preventDefault();
+    if (event.dataTransfer) event.dataTransfer.dropEffect = "copy";
+    dropSide.value = sideAt(event);
+  });
+  addEventListener("dragleave", () => {
+    depth = Math.max(0, depth - 1);
+    if (depth === 0) dropSide.value = null;
+  });
+  addEventListener("drop", (event) => {
+    event.preventDefault();
+    depth = 0;
+    dropSide.value = null;
+    if (event.dataTransfer && holdsFiles(event)) void take(event.dataTransfer, sideAt(event));
+  });
+}
+
+async function take(dropped: DataTransfer, side: Side): Promise<void> {
+  const files = await droppedFiles(dropped);
+  const refuse = (code: string, message: string) =>
+    notify(
+      "page",
+      code,
+      message,
+      "Drop models, or folders with the shapes of one population each.",
+    );
+  if (files.length === 0) refuse("no-files", "There is no file in what was dropped.");
+  else if (files.length < MOST_FILES) await openFiles(files, side);
+  else refuse("too-many-files", `More than ${count(MOST_FILES)} files were dropped.`);
+}
+
+/** Once the drop is over the browser takes its list away, so entries are asked for at once. */
+function droppedFiles(dropped: DataTransfer): Promise<DroppedFile[]> {
+  const items = [...dropped.items].filter(({ kind }) => kind === "file");
+  const entries = items.flatMap((item) => item.webkitGetAsEntry?.() ?? []);
+  const folders = entries.length === items.length && entries.some((entry) => entry.isDirectory);
+  const plain = filesOf(dropped.files);
+  return folders ? filesBelow(entries) : Promise.resolve(plain);
+}
+
+function holdsFiles(event: DragEvent): boolean {
+  return event.dataTransfer?.types.includes("Files") ?? false;
+}
+
+/** Halves lie side by side on wide windows and over one another on tall ones, as drawn. */
+function sideAt(event: DragEvent): Side {
+  const wide = innerWidth >= innerHeight;
+  const share = wide ? event.clientX / innerWidth : event.clientY / innerHeight;
+  return share < 0.5 ? "a" : "b";
+}

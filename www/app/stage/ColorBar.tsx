@@ -1,0 +1,47 @@
+import { lockedRange, unit } from "../state/state";
+import { gradientOf } from "../text/colormap";
+import { number, signed, withoutDust } from "../text/format";
+import { MAP_WORDS, mapCaption, scaleEnds } from "./map-words";
+import { mapProblem, mapRange, ownRange, shownMap } from "./maps";
+
+/** One scale for all panes, and what is coloured in words. */
+export function ColorBar() {
+  const range = mapRange.value;
+  const map = shownMap.value;
+  if (mapProblem.value) return <p class="small">{mapProblem.value}</p>;
+  if (!range) return <p class="small">{MAP_WORDS[map.name].label}: waiting for the engine.</p>;
+  const [low, high] = range;
+  const own = ownRange.value;
+  // As many digits of a locked one as links hold.
+  const slack = 1e-5 * (high - low);
+  const beyond = own !== null && (own[0] < low - slack || own[1] > high + slack);
+  const ends = scaleEnds(map.name, map.signed);
+  const text = (value: number) => (map.signed ? signed : number)(withoutDust(value, high));
+  return (
+    <figure class="color-bar" data-low={low} data-high={high}>
+      <figcaption title={MAP_WORDS[map.name].help}>
+        {mapCaption(map.name, map, unit.value)}
+        {lockedRange.value ? (beyond ? " (locked; some values lie beyond)" : " (locked)") : ""}
+      </figcaption>
+      <span class="scale">
+        {ends && <span class="scale-end">{ends[0]}</span>}
+        <span class="num">{text(low)}</span>
+        <span class="ramp" style={{ background: gradientOf(map.palette) }}>
+          {map.signed && <span class="zero">0</span>}
+        </span>
+        <span class="num">{text(high)}</span>
+        {ends && <span class="scale-end">{ends[1]}</span>}
+      </span>
+      <label class="check">
+        <input
+          type="checkbox"
+          checked={lockedRange.value !== null}
+          onChange={(event) => {
+            lockedRange.value = event.currentTarget.checked ? mapRange.value : null;
+          }}
+        />
+        Lock scale
+      </label>
+    </figure>
+  );
+}

@@ -1,0 +1,46 @@
+import { mapMode, result, slots, vertexMap } from "../state/state";
+import { MAPS } from "../state/view";
+import { NumberField } from "../ui/NumberField";
+import { MAP_WORDS } from "./map-words";
+import { chooseMap } from "./maps";
+
+/** What is coloured onto the vertices, and of which mode. */
+export function MapChooser() {
+  return (
+    <>
+      <select
+        aria-label="What is coloured"
+        class="map-name"
+        title={MAP_WORDS[vertexMap.value].help}
+        value={vertexMap.value}
+        onChange={(event) => {
+          const name = MAPS.find((known) => known === event.currentTarget.value);
+          if (name) chooseMap(name);
+        }}
+      >
+        {MAPS.map((name) => (
+          <option key={name} value={name}>
+            {MAP_WORDS[name].label}
+          </option>
+        ))}
+      </select>
+      {vertexMap.value === "mode" && (
+        <NumberField
+          label="Mode"
+          value={mapMode.value + 1}
+          least={1}
+          most={mostModes()}
+          onChange={(number) => {
+            if (number !== null) mapMode.value = number - 1;
+          }}
+        />
+      )}
+    </>
+  );
+}
+
+/** Regions that have fewer modes are drawn plain. */
+function mostModes(): number {
+  const modes = [slots.a.value?.report.modes, slots.b.value?.report.modes];
+  return Math.max(1, result.value?.report.intersection.modes ?? 1, ...modes.map((m) => m ?? 1));
+}

@@ -1,0 +1,120 @@
+import { useLayoutEffect, useRef } from "preact/hooks";
+import {
+  BRUSHES,
+  beginStroke,
+  chooseBrush,
+  choosePaintTool,
+  clearPainting,
+  finishPainting,
+  givePaintingUp,
+  invertPainting,
+  paintedCount,
+  undoStroke,
+} from "../models/painting";
+import { type PaintTool, painting } from "../state/state";
+import { count } from "../text/format";
+import { maskOf, parseRanges, rangesOf } from "../text/ranges";
+
+const TOOLS: Record<PaintTool, { label: string; key: string }> = {
+  add: { label: "Add", key: "a" },
+  erase: { label: "Erase", key: "e" },
+  turn: { label: "Turn", key: "t" },
+};
+
+/** In place of the toolbar while the points that are compared are painted on A. */
+export function PaintBar() {
+  const found = painting.value;
+  const bar = useRef<HTMLElement>(null);
+  // At once: the first key may follow the click that began this.
+  useLayoutEffect(() => {
+    // On a small screen the shape is far from the button that begins this.
+    bar.current?.scrollIntoView({ block: "nearest" });
+    addEventListener("keydown", onKey);
+    return () => removeEventListener("keydown", onKey);
+  }, []);
+  if (!found) return null;
+  return (
+    <section ref={bar} class="paint-bar" aria-label="Painting a region of A">
+      <div class="toolbar">
+        <fieldset class="segments">
+          <legend class="unseen">What dragging does</legend>
+          {(Object.keys(TOOLS) as PaintTool[]).map((tool) => (
+            <label key={tool} data-on={found.tool === tool} title={`Key ${TOOLS[tool].key}`}>
+              <input
+                type="radio"
+                name="paint-tool"
+                checked={found.tool === tool}
+                onChange={() => choosePaintTool(tool)}
+              />
+              {TOOLS[tool].label}
+            </label>
+          ))}
+        </fieldset>
+        <label class="slider">
+          <span>Brush</span>
+          <input
+            type="range"
+            min={BRUSHES.least}
+            max={BRUSHES.most}
+            step={0.01}
+            value={found.size}
+            aria-valuetext={`${Math.round(100 * found.size)} per cent of the size of A`}
+            onInput={(event) => chooseBrush(Number(event.currentTarget.value))}
+          />
+        </label>
+        <span class="grow" />
+        <button type="button" class="quiet" onClick={givePaintingUp}>
+          Cancel
+        </button>
+        <button type="button" class="primary" onClick={finishPainting}>
+          Done
+        </button>
+      </div>
+      <div class="toolbar">
+        <output class="painted">
+          <strong class="num">{count(paintedCount.value)}</strong> of {count(found.mask.length)}{" "}
+          points
+        </output>
+        <button type="button" class="quiet" onClick={invertPainting}>
+          Invert
+        </button>
+        <button type="button" class="quiet" onClick={clearPainting}>
+          Clear
+        </button>
+        <input
+          type="text"
+          class="ranges"
+          aria-label="Vertices of the region"
+          placeholder="or type vertices: 0-99, 120"
+          value={rangesOf(found.mask)}
+          onChange={(event) => take(event.currentTarget)}
+          autocomplete="off"
+          spellcheck={false}
+        />
+      </div>
+    </section>
+  );
+}
+
+function take(input: HTMLInputElement): void {
+  const found = painting.value;
+  const ranges = input.value.trim() === "" ? "" : parseRanges(input.value);
+  input.setAttribute("aria-invalid", String(ranges === "invalid"));
+  if (!found || ranges === "invalid") return;
+  beginStroke();
+  painting.value = { ...found, mask: maskOf(ranges, found.mask.length) };
+}
+
+function onKey(event: KeyboardEvent): void {
+  const typing = event.target instanceof HTMLInputElement && event.target.type === "text";
+  if (event.key === "Escape") givePaintingUp();
+  if (typing || event.altKey) return;
+  if (event.ctrlKey || event.metaKey) {
+    if (event.key.toLowerCase() !== "z" || event.shiftKey) return;
+    event.preventDefault();
+    undoStroke();
+    return;
+  }
+  const tool = (Object.keys(TOOLS) as PaintTool[]).find((name) => TOOLS[name].key === event.key);
+  if (tool) choosePaintTool(tool);
+}

@@ -1,0 +1,11 @@
+/** Figures of a vertex's covariance. Pure. */
+import type { Ellipsoid } from "../../worker/protocol";
+
+/** Lengths of its semi-axes, so many standard deviations each, longest first. */
+export function semiAxes({ centre, axes }: Ellipsoid, deviations: number): number[] {
+  const dimension = centre.length;
+  return Array.from({ length: dimension }, (_, i) => {
+    const axis = axes.slice(i * dimension, (i + 1) * dimension);
+    return deviations * Math.hypot(...axis);
+  });
+}

@@ -1,0 +1,202 @@
+/** What is coloured onto the vertices: asked of the engine for all five regions, one scale for all. */
+import { batch, computed, effect, signal } from "@preact/signals";
+import { EngineFailure, wasAborted } from "../../worker/engine-errors";
+import type { Ellipsoid, MapName, Region, VertexMap } from "../../worker/protocol";
+import { engineClient, onEngineRestart } from "../state/engine";
+import { latest } from "../state/latest";
+import {
+  held,
+  lockedRange,
+  mapMode,
+  result,
+  run,
+  shapes,
+  slots,
+  vertex,
+  vertexMap,
+  view,
+} from "../state/state";
+import { REGIONS } from "../state/view";
+import { commonRange, type Palette, symmetricRange } from "../text/colormap";
+import { MAP_WORDS } from "./map-words";
+
+interface Fetched {
+  /** Of which comparison. */
+  key: string;
+  name: MapName;
+  mode: number;
+  maps: Partial<Record<Region, VertexMap>>;
+  /** Why there are none. */
+  problem: string | null;
+}
+
+export interface ShownMap {
+  name: MapName;
+  mode: number;
+  signed: boolean;
+  palette: Palette;
+  values: Partial<Record<Region, Float32Array>>;
+}
+
+const fetched = signal<Fetched | null>(null);
+/** Set by what shows maps beside the stage. */
+export const mapIsWanted = signal(false);
+
+/** The comparison that can be asked, as it stands: another one once its run has ended. */
+const running = computed(() => run.value !== null);
+const asked = computed(
+  () => held.value && { key: held.value.key, running: running.value, result: result.value },
+);
+
+/** Only of one comparison: while the next has nothing to say yet, the last one's. */
+function answers(found: Fetched): boolean {
+  const { name, mode, key } = found;
+  if (name !== vertexMap.value || (name === "mode" && mode !== mapMode.value)) return false;
+  return held.value === null || held.value.key === key;
+}
+
+/** Standard deviations, whatever is chosen: they come with the shapes. */
+export const deviationMap = computed<ShownMap>(() => ({
+  name: "sd",
+  mode: 0,
+  signed: false,
+  palette: "viridis",
+  values: deviations(),
+}));
+
+/** The map that is chosen; without values until the engine has sent them. */
+export const shownMap = computed<ShownMap>(() => {
+  const [name, mode] = [vertexMap.value, mapMode.value];
+  if (name === "sd") return deviationMap.value;
+  const found = fetched.value;
+  const maps = found && answers(found) ? found.maps : {};
+  const signed = REGIONS.some((region) => maps[region]?.signed);
+  const values: ShownMap["values"] = {};
+  for (const region of REGIONS) {
+    const map = maps[region];
+    if (map) values[region] = map.values;
+  }
+  return { name, mode, signed, palette: signed ? "diverging" : "viridis", values };
+});
+
+/** Why the chosen map cannot be shown. */
+export const mapProblem = computed(() => {
+  const found = fetched.value;
+  return vertexMap.value !== "sd" && found && answers(found) ? found.problem : null;
+});
+
+/** What came with the shapes: before there is a comparison, of the models. */
+function deviations(): ShownMap["values"] {
+  const values: ShownMap["values"] = {};
+  for (const region of REGIONS) {
+    const found = shapes.value[region];
+    if (found) values[region] = found.vertexSd;
+  }
+  if (Object.keys(values).length > 0) return values;
+  for (const side of ["a", "b"] as const) {
+    const geometry = slots[side].value?.geometry;
+    if (geometry) values[side] = geometry.vertexSd;
+  }
+  return values;
+}
+
+/** One range for all regions, whether or not they are on show. */
+export const ownRange = computed(() => rangeOf(shownMap.value));
+
+export const mapRange = computed(() => ownRange.value && (lockedRange.value ?? ownRange.value));
+
+export function rangeOf({ signed, values }: ShownMap): [number, number] | null {
+  return signed ? symmetricRange(Object.values(values)) : commonRange(Object.values(values));
+}
+
+/** Another quantity has another scale: it does not stay locked. */
+export function chooseMap(name: MapName): void {
+  batch(() => {
+    if (MAP_WORDS[name].kind !== MAP_WORDS[vertexMap.value].kind) lockedRange.value = null;
+    vertexMap.value = name;
+  });
+}
+
+interface Question {
+  key: string;
+  name: MapName;
+  mode: number;
+}
+
+const ask = latest(async ({ key, name, mode }: Question) => {
+  const { signal: never } = new AbortController();
+  // One that is the same everywhere is asked for once.
+  const once = name === "ratio" ? engineClient().map(never, name, "a", 0) : null;
+  const maps: Fetched["maps"] = {};
+  let problem: string | null = null;
+  await Promise.all(
+    REGIONS.map(async (region) => {
+      try {
+        maps[region] = await (once ?? engineClient().map(never, name, region, mode));
+      } catch (thrown) {
+        if (wasAborted(thrown)) throw thrown;
+        problem ??= sentence(thrown);
+      }
+    }),
+  );
+  const some = Object.keys(maps).length > 0;
+  fetched.value = { key, name, mode, maps, problem: some ? null : problem };
+});
+
+function sentence(thrown: unknown): string {
+  if (!(thrown instanceof EngineFailure)) return "The map could not be made.";
+  return `${thrown.message} ${thrown.hint}`.trim();
+}
+
+/** Covariances of the vertex that is looked at. */
+const covariances = signal<{
+  key: string;
+  vertex: number;
+  found: Partial<Record<Region, Ellipsoid>>;
+} | null>(null);
+
+export const ellipsoids = computed<Partial<Record<Region, Ellipsoid>>>(() => {
+  const found = covariances.value;
+  const current = found && (held.value === null || held.value.key === found.key);
+  return current && found.vertex === vertex.value ? found.found : {};
+});
+
+const askEllipsoids = latest(async ({ key, vertex: number }: { key: string; vertex: number }) => {
+  const { signal: never } = new AbortController();
+  try {
+    const found = await engineClient().ellipsoids(never, number);
+    covariances.value = { key, vertex: number, found };
+  } catch {
+    // A vertex that is not there has none; beside its field it says so.
+    covariances.value = { key, vertex: number, found: {} };
+  }
+});
+
+/** How many points the shapes on show have. */
+export const pointCount = computed(() => {
+  const dimension = slots.a.value?.report.dimension ?? 3;
+  const shown = shapes.value.intersection ?? shapes.value.a;
+  const mean = shown?.mean ?? slots.a.value?.geometry?.mean;
+  return mean ? mean.length / dimension : 0;
+});
+
+/** Asks whenever something else is chosen, or the comparison is another one. */
+export function watchMaps(): void {
+  effect(() => {
+    const now = asked.value;
+    const [name, mode] = [vertexMap.value, mapMode.value];
+    const shown = view.value === "sd" || mapIsWanted.value;
+    if (now && shown && name !== "sd") ask({ key: now.key, name, mode });
+  });
+  effect(() => {
+    const now = asked.value;
+    const number = vertex.value;
+    if (now && number !== null && number < pointCount.value) {
+      askEllipsoids({ key: now.key, vertex: number });
+    }
+  });
+  // Its answers were of models that are opened anew.
+  onEngineRestart(() => {
+    fetched.value = null;
+  });
+}

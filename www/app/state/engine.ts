@@ -1,0 +1,71 @@
+/** Starts the engine's worker for the page. */
+import { EngineClient } from "../../worker/client";
+import { EngineFailure, sentenceOf } from "../../worker/engine-errors";
+import { parseThreads, writeStart } from "../../worker/start";
+import { engine, type Notice, notify, spoken } from "./state";
+
+const query = new URLSearchParams(location.search);
+const restarted = new Set<() => void>();
+
+let client: EngineClient | null = null;
+
+export function engineClient(): EngineClient {
+  client ??= new EngineClient(spawn, {
+    onReady: (info) => {
+      engine.value = info;
+    },
+    onRestart: (reason) => {
+      engine.value = null;
+      notify(
+        "page",
+        "engine-stopped",
+        reason,
+        "The engine starts again and opens your models anew.",
+      );
+      for (const listener of restarted) listener();
+    },
+    onGiveUp: (reason) => {
+      engine.value = null;
+      notify(
+        "page",
+        "engine-gone",
+        `The engine cannot be started: ${reason}`,
+        "The stored comparison stays readable. Reload the page, or open it in another browser.",
+      );
+    },
+  });
+  return client;
+}
+
+/** Every handle is void after a restart. */
+export function onEngineRestart(listener: () => void): void {
+  restarted.add(listener);
+}
+
+function spawn(serial: boolean): Worker {
+  const start = writeStart({
+    base: new URL(".", document.baseURI).href,
+    serial: serial || query.has("serial"),
+    threads: parseThreads(query.get("threads")),
+    mock: import.meta.env.DEV && query.has("mock"),
+  });
+  return new Worker(new URL("../../worker/worker.ts", import.meta.url), {
+    type: "module",
+    name: start,
+  });
+}
+
+/** Shows what went wrong beside what it concerns; what was there stays. */
+export function report(
+  place: Notice["place"],
+  thrown: unknown,
+  again: Notice["again"] = null,
+): void {
+  const failure =
+    thrown instanceof EngineFailure
+      ? thrown
+      : { code: "unexpected", message: sentenceOf(thrown), hint: "" };
+  if (failure.code === "engine-stopped" || failure.code === "superseded") return;
+  notify(place, failure.code, failure.message, failure.hint, again);
+  spoken.value = `${failure.message} ${failure.hint}`;
+}

@@ -1,0 +1,68 @@
+import { batch } from "@preact/signals";
+import type { Report } from "../../../worker/protocol";
+import { type Coefficient, worstCoefficient } from "../../comparison/diagnosing";
+import { R_HAT } from "../../comparison/words";
+import { diagnosedMode, diagnosedSide, SIDES } from "../../state/state";
+import { count } from "../../text/format";
+
+interface Props {
+  report: Report;
+  chosen: Coefficient;
+}
+
+/** Whose draws are looked at, and which coefficient. */
+export function CoefficientChooser({ report, chosen }: Props) {
+  const both = report.intersection.coefficients;
+  const modes = both?.[chosen.side].essBulk.length ?? report.models[chosen.side].modes;
+  const worst = worstCoefficient(report, chosen.side);
+  const apart = (both?.[chosen.side].rHat[worst.mode] ?? 1) >= R_HAT;
+  const why = apart ? "the largest R-hat" : "the lowest ESS";
+  return (
+    <div class="toolbar coefficient-chooser">
+      <fieldset class="segments">
+        <legend class="unseen">Whose draws</legend>
+        {SIDES.map((side) => (
+          <label key={side} data-on={chosen.side === side}>
+            <input
+              type="radio"
+              name="diagnosed-side"
+              value={side}
+              checked={chosen.side === side}
+              onChange={() =>
+                // Modes of one model are not those of the other.
+                batch(() => {
+                  diagnosedSide.value = side;
+                  diagnosedMode.value = null;
+                })
+              }
+            />
+            Draws from {side.toUpperCase()}
+          </label>
+        ))}
+      </fieldset>
+      <label class="coefficient">
+        <span>Coefficient</span>
+        <select
+          value={String(chosen.mode)}
+          onChange={(event) => {
+            diagnosedMode.value = Number(event.currentTarget.value);
+            diagnosedSide.value = chosen.side;
+          }}
+        >
+          {Array.from({ length: modes }, (_, mode) => (
+            <option key={mode} value={String(mode)}>
+              {`Mode ${mode + 1}${figuresOf(report, chosen.side, mode)}${mode === worst.mode ? `, ${why}` : ""}`}
+            </option>
+          ))}
+        </select>
+      </label>
+    </div>
+  );
+}
+
+function figuresOf(report: Report, side: "a" | "b", mode: number): string {
+  const own = report.intersection.coefficients?.[side];
+  const [rHat, ess] = [own?.rHat[mode], own?.essBulk[mode]];
+  if (ess === undefined) return "";
+  return `: ${rHat == null ? "" : `R-hat ${rHat.toFixed(3)}, `}ESS ${count(ess)}`;
+}

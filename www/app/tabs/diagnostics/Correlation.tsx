@@ -1,0 +1,90 @@
+import type { ChainFigures } from "../../../worker/protocol";
+import { drawsOf, noiseBand, silentLag } from "../../comparison/diagnosing";
+import { number } from "../../text/format";
+import { linear, ticks } from "../../text/plots";
+import type { Advice } from "../../ui/Chart";
+import { Chart } from "../../ui/Chart";
+import { DataTable } from "../../ui/DataTable";
+import { PlotAxes } from "../../ui/PlotAxes";
+
+interface Props {
+  figures: ChainFigures;
+  advice: Advice;
+  which: string;
+  file: string;
+}
+
+/** How alike draws are that are so many steps apart. */
+export function Correlation({ figures, advice, which, file }: Props) {
+  const found = Array.from(figures.autocorrelation);
+  const draws = drawsOf(figures);
+  const band = noiseBand(draws);
+  const silent = silentLag(found, draws);
+  return (
+    <Chart
+      name="autocorrelation"
+      title="Autocorrelation"
+      about={`How alike draws of ${which} are that lie so many steps apart in a chain, mean over the chains. Within the band, ±2/√N = ±${number(band, 2)}, it is noise.`}
+      label={`Autocorrelation of ${which}: ${number(found[1] ?? 0, 2)} at lag 1, ${
+        silent === null
+          ? `still above noise at lag ${found.length - 1}`
+          : `noise from lag ${silent} on`
+      }; the band is ±${number(band, 2)}.`}
+      height={() => 206}
+      draw={(width) => <Stems found={found} band={band} width={width} />}
+      advice={advice}
+      table={() => (
+        <DataTable
+          file={file}
+          caption={`Autocorrelation of ${which}`}
+          corner="Lag"
+          columns={[{ title: "Correlation" }]}
+          rows={found.map((value, lag) => ({ head: lag, values: [value] }))}
+        />
+      )}
+    />
+  );
+}
+
+function Stems({ found, band, width }: { found: number[]; band: number; width: number }) {
+  const box = { left: 36, right: width - 8, top: 24, bottom: 170 };
+  const low = Math.min(-1.5 * band, ...found);
+  const x = linear(0, Math.max(1, found.length - 1), box.left + 6, box.right - 4);
+  const y = linear(low, 1, box.bottom, box.top);
+  const step = Math.min(9, (x(1) - x(0)) * 0.6);
+  return (
+    <>
+      <PlotAxes
+        box={box}
+        x={x}
+        y={y}
+        across={ticks(0, found.length - 1, 5).filter(
+          (lag) => lag < found.length && Number.isInteger(lag),
+        )}
+        up={[0, 0.5, 1]}
+        acrossName="lag, in kept draws"
+        upName="correlation"
+        showAcross={String}
+      />
+      <rect
+        class="noise"
+        x={box.left}
+        y={y(band)}
+        width={box.right - box.left}
+        height={y(-band) - y(band)}
+      />
+      <g class="stems">
+        {found.map((value, lag) => (
+          <rect
+            key={lag}
+            x={x(lag) - step / 2}
+            y={Math.min(y(value), y(0))}
+            width={step}
+            height={Math.max(1, Math.abs(y(value) - y(0)))}
+            data-noise={Math.abs(value) < band}
+          />
+        ))}
+      </g>
+    </>
+  );
+}

@@ -1,0 +1,72 @@
+/** How the explored shapes are drawn. */
+
+import { HOME } from "../../state/camera";
+import { type ExploreLayout, LAYOUTS, STYLES, type SurfaceStyle } from "../../state/explorer";
+import { choose, dragTool, explorer } from "../../state/exploring";
+import { camera, SIDES, slots } from "../../state/state";
+
+const LAYOUT_NAMES: Record<ExploreLayout, string> = {
+  side: "Side by side",
+  overlaid: "Overlaid",
+  a: "A alone",
+  b: "B alone",
+};
+const STYLE_NAMES: Record<SurfaceStyle, string> = {
+  smooth: "Smooth",
+  flat: "Flat",
+  wireframe: "Wireframe",
+};
+
+export function ExploreBar() {
+  const { layout, style } = explorer.value;
+  const surfaces = SIDES.some((side) => slots[side].value?.geometry?.triangles);
+  return (
+    <div class="toolbar">
+      <select
+        aria-label="Layout"
+        value={layout}
+        onChange={(event) => choose({ layout: event.currentTarget.value as ExploreLayout })}
+      >
+        {LAYOUTS.map((name) => (
+          <option key={name} value={name}>
+            {LAYOUT_NAMES[name]}
+          </option>
+        ))}
+      </select>
+      {surfaces && (
+        <select
+          aria-label="Surface"
+          value={style}
+          onChange={(event) => choose({ style: event.currentTarget.value as SurfaceStyle })}
+        >
+          {STYLES.map((name) => (
+            <option key={name} value={name}>
+              {STYLE_NAMES[name]}
+            </option>
+          ))}
+        </select>
+      )}
+      <button
+        type="button"
+        class="toggle"
+        aria-pressed={dragTool.value}
+        title="Drag a vertex of the driven shape; the rest follows"
+        onClick={() => {
+          dragTool.value = !dragTool.value;
+        }}
+      >
+        Drag vertices
+      </button>
+      <span class="grow" />
+      <button
+        type="button"
+        class="quiet"
+        onClick={() => {
+          camera.value = HOME;
+        }}
+      >
+        Reset view
+      </button>
+    </div>
+  );
+}

@@ -1,0 +1,134 @@
+/** Whether the other model can follow: in words, in numbers, and on a meter. */
+import type { BothSides, Nearest } from "../../../worker/protocol";
+import { answer, sigmaInUse } from "../../state/exploring";
+import { outOfDate, unit } from "../../state/state";
+import { length, number, percent } from "../../text/format";
+import {
+  followers,
+  followQuestion,
+  followWords,
+  meterValue,
+  meterWords,
+  placeOf,
+  rarity,
+  SIGNS,
+  unusual,
+} from "./words";
+
+/** Of one height whatever it says: the shapes above it keep their place while sliders move. */
+export function Follow() {
+  const found = answer.value;
+  const placed = found?.explored.placed;
+  if (!found || !placed) return null;
+  const { space } = found;
+  const { norm, plausibility } = found.explored;
+  return (
+    <section class="follow" aria-label="Can the other model follow?" data-stale={outOfDate.value}>
+      <div class="follow-words" data-followers={followers(space).length}>
+        <h3>{followQuestion(space)}</h3>
+        {followers(space).map((side) => (
+          <p key={side} data-follows={side}>
+            {followWords(SIGNS[side], placed[side], sigmaInUse.value)}
+          </p>
+        ))}
+      </div>
+      <Meter ofA={placed.a.likelihood} ofB={placed.b.likelihood} />
+      <NearestTable sides={followers(space)} placed={placed} />
+      <p class="small">
+        The shape itself is <Figure name="norm" value={norm} text={number(norm)} /> SD from the mean
+        of {SIGNS[space]},{" "}
+        <Figure
+          name="plausibility"
+          value={plausibility}
+          text={unusual(plausibility, SIGNS[space])}
+        />
+        .
+      </p>
+    </section>
+  );
+}
+
+function Figure({ name, value, text }: { name: string; value: number; text: string }) {
+  return (
+    <span class="metric" data-explore={name} data-value={value}>
+      {text}
+    </span>
+  );
+}
+
+interface NearestProps {
+  sides: ("a" | "b")[];
+  placed: BothSides<Nearest>;
+}
+
+/** The shape by which each model follows. */
+function NearestTable({ sides, placed }: NearestProps) {
+  const sigma = sigmaInUse.value;
+  return (
+    <table class="numbers">
+      <thead>
+        <tr>
+          <th scope="col">Nearest shape</th>
+          <th scope="col">mean distance d</th>
+          <th scope="col">
+            likelihood L<sub>D</sub>
+          </th>
+          <th scope="col">among its model’s own</th>
+        </tr>
+      </thead>
+      <tbody>
+        {sides.map((side) => {
+          const { distance, likelihood, plausibility } = placed[side];
+          return (
+            <tr key={side}>
+              <th scope="row">of {SIGNS[side]}</th>
+              <td>
+                <Figure name="distance" value={distance} text={length(distance, unit.value)} />
+                {sigma !== null && (
+                  <span class="dim follow-sigma"> (σ {length(sigma, unit.value)})</span>
+                )}
+              </td>
+              <td>
+                <Figure name="likelihood" value={likelihood} text={percent(likelihood)} />
+              </td>
+              <td>
+                <Figure name="followed" value={plausibility} text={rarity(plausibility)} />
+              </td>
+            </tr>
+          );
+        })}
+      </tbody>
+    </table>
+  );
+}
+
+/** From A only on the left to B only on the right. */
+function Meter({ ofA, ofB }: { ofA: number; ofB: number }) {
+  const value = meterValue(ofA, ofB);
+  const words = meterWords(ofA, ofB);
+  return (
+    <div class="place">
+      <p class="meter-words" aria-live="polite">
+        {words}
+      </p>
+      {/* biome-ignore lint/a11y/useSemanticElements: it goes both ways from its middle, and has words */}
+      <div
+        class="meter"
+        role="meter"
+        aria-label="Where the shape lies"
+        aria-valuemin={-1}
+        aria-valuemax={1}
+        aria-valuenow={Number(value.toFixed(3))}
+        aria-valuetext={words}
+        data-neither={placeOf(ofA, ofB) === "neither"}
+      >
+        <i style={{ left: `${50 + 50 * value}%` }} />
+      </div>
+      <p class="meter-ends" aria-hidden="true">
+        <span>A only</span>
+        <span>both</span>
+        <span>B only</span>
+      </p>
+    </div>
+  );
+}

@@ -1,0 +1,56 @@
+/** What the colours of the explored shapes mean: one scale for all panes. */
+
+import { choose, explorer, lockedHeat } from "../../state/exploring";
+import { unit } from "../../state/state";
+import { viridisGradient } from "../../text/colormap";
+import { number } from "../../text/format";
+import { heatRange, ownHeat } from "./controller";
+import { followers, SIGNS } from "./words";
+
+export function HeatBar() {
+  const { heat, space } = explorer.value;
+  const range = heatRange.value;
+  const who = followers(space)
+    .map((side) => SIGNS[side])
+    .join(" or ");
+  return (
+    <div class="heat-bar">
+      <label class="check">
+        <input
+          type="checkbox"
+          checked={heat}
+          onChange={(event) => choose({ heat: event.currentTarget.checked })}
+        />
+        Colour what {who} misses
+      </label>
+      {range && <Scale range={range} who={who} />}
+    </div>
+  );
+}
+
+function Scale({ range, who }: { range: [number, number]; who: string }) {
+  const locked = lockedHeat.value !== null;
+  const beyond = locked && (ownHeat.value ?? 0) > range[1];
+  const note = locked ? (beyond ? " (locked; some lie beyond)" : " (locked)") : "";
+  return (
+    <>
+      <figure class="color-bar" aria-label={`Colours: what ${who} misses per vertex${note}`}>
+        <span class="num">0</span>
+        <span class="ramp" style={{ background: viridisGradient() }} />
+        <span class="num" data-explore="heat-end" data-value={range[1]}>
+          {number(range[1])} {unit.value} per vertex
+        </span>
+      </figure>
+      <label class="check">
+        <input
+          type="checkbox"
+          checked={locked}
+          onChange={(event) => {
+            lockedHeat.value = event.currentTarget.checked ? ownHeat.value : null;
+          }}
+        />
+        Lock scale{beyond && <span class="small">; some lie beyond</span>}
+      </label>
+    </>
+  );
+}

@@ -1,0 +1,218 @@
+import { useSignal } from "@preact/signals";
+import type { Alignment } from "../../../worker/protocol";
+import { matrixCsv, pairsCsv } from "../../models/list/csv";
+import {
+  cancelMatrix,
+  cellOf,
+  continueMatrix,
+  measure,
+  paused,
+  progress,
+} from "../../models/list/matrix";
+import {
+  leavesOut,
+  MEASURE_NAMES,
+  MEASURES,
+  type MeasureName,
+  rangeOf,
+} from "../../models/list/measures";
+import { ALIGNMENTS } from "../../state/settings";
+import { change, settings, shelf } from "../../state/state";
+import { viridisGradient } from "../../text/colormap";
+import { saveText } from "../../ui/download";
+import { MatrixTable } from "./MatrixTable";
+import { shelfNames } from "./ShelfTable";
+
+/** How each open model lies to each other one, as one number a pair. */
+export function Matrix() {
+  const shown = MEASURES[measure.value];
+  /** The sentence of the cell under the pointer or the focus. */
+  const told = useSignal<string | null>(null);
+  const range = rangeOf(shown, valuesShown(measure.value));
+  return (
+    <figure class="matrix" aria-labelledby="matrix-title">
+      <div class="toolbar">
+        <h3 id="matrix-title">Pair by pair</h3>
+        <select
+          aria-label="What the table shows"
+          value={measure.value}
+          onChange={(event) => {
+            measure.value = event.currentTarget.value as MeasureName;
+          }}
+        >
+          {MEASURE_NAMES.map((name) => (
+            <option key={name} value={name}>
+              {MEASURES[name].label}
+            </option>
+          ))}
+        </select>
+        <AlignmentChoice />
+        {isStale() && <span class="stale-chip">Out of date</span>}
+      </div>
+      <p class="small">{shown.help}</p>
+      <Progress />
+      <MatrixTable range={range} tell={(sentence) => (told.value = sentence)} />
+      <div class="matrix-foot">
+        <Legend range={range} />
+        <Save />
+      </div>
+      <p class="matrix-told">
+        {told.value ?? "Choose a cell to open that pair as the comparison."}
+      </p>
+      <Notes />
+    </figure>
+  );
+}
+
+/** Numbers of all pairs that are known. */
+function valuesShown(name: MeasureName): number[] {
+  const { value } = MEASURES[name];
+  return shelf.value.flatMap((row) =>
+    shelf.value.flatMap((column) => {
+      const { relation } = cellOf(row, column);
+      return relation && !relation.problem ? (value(relation) ?? []) : [];
+    }),
+  );
+}
+
+function isStale(): boolean {
+  return shelf.value.some((row) => shelf.value.some((column) => cellOf(row, column).stale));
+}
+
+function AlignmentChoice() {
+  return (
+    <select
+      aria-label="Align B to A"
+      title="What is done to each pair first; the same setting as beside the models"
+      value={settings.value.align}
+      onChange={(event) => change({ align: event.currentTarget.value as Alignment })}
+    >
+      {(Object.keys(ALIGNMENTS) as Alignment[]).map((name) => (
+        <option key={name} value={name}>
+          Aligned: {ALIGNMENTS[name].label.toLowerCase()}
+        </option>
+      ))}
+    </select>
+  );
+}
+
+function Save() {
+  const names = shelfNames();
+  const models = shelf.value;
+  const relation = (row: number, column: number) => {
+    const [a, b] = [models[row], models[column]];
+    const cell = a && b ? cellOf(a, b) : null;
+    return cell === null || cell.stale ? null : cell.relation;
+  };
+  const units = models.map(({ report }) => report.unit);
+  return (
+    <fieldset class="download-row">
+      <legend class="unseen">Take the table away</legend>
+      <button
+        type="button"
+        title="The table as it is shown, unrounded"
+        onClick={() =>
+          saveText(
+            `shapevenn-${measure.value}.csv`,
+            matrixCsv(names, relation, measure.value),
+            "text/csv",
+          )
+        }
+      >
+        Table .csv
+      </button>
+      <button
+        type="button"
+        title="A line for each pair, with every measure, unrounded"
+        onClick={() =>
+          saveText("shapevenn-pairs.csv", pairsCsv(names, units, relation), "text/csv")
+        }
+      >
+        All measures .csv
+      </button>
+    </fieldset>
+  );
+}
+
+function Progress() {
+  const { done, of } = progress.value;
+  if (done === of) return null;
+  return (
+    <div class="working">
+      <p class="run-state">
+        {paused.value ? "Stopped at" : "Working out"} {done} of {of} pairs
+      </p>
+      <progress class="bar" value={done} max={of} aria-label="Pairs that are worked out" />
+      {paused.value ? (
+        <button type="button" onClick={continueMatrix}>
+          Go on
+        </button>
+      ) : (
+        <button type="button" onClick={cancelMatrix}>
+          Cancel<span class="unseen"> working out the table</span>
+        </button>
+      )}
+    </div>
+  );
+}
+
+function Legend({ range: [low, high] }: { range: [number, number] }) {
+  const { label, text, unit } = MEASURES[measure.value];
+  const units = new Set(shelf.value.map(({ report }) => report.unit));
+  const length = units.size === 1 ? ([...units][0] ?? "") : "";
+  const end = (value: number) => text(value, length);
+  return (
+    <div class="color-bar" role="img" aria-label={`Colours: ${end(low)} to ${end(high)}`}>
+      <span class="color-bar-label">
+        {label}
+        {unit === "rad" && ", rad"}
+      </span>
+      <span class="num">{end(low)}</span>
+      <span class="ramp" style={{ background: viridisGradient() }} />
+      <span class="num">{end(high)}</span>
+    </div>
+  );
+}
+
+/** What is to be known about the numbers, and which pairs have none. */
+function Notes() {
+  const names = shelfNames();
+  const units = new Set(shelf.value.map(({ report }) => report.unit));
+  const problems = shelf.value.flatMap((row, i) =>
+    shelf.value.flatMap((column, j) => {
+      const problem = cellOf(row, column).relation?.problem;
+      return problem ? { pair: `${names[i]} as A, ${names[j]} as B`, ...problem } : [];
+    }),
+  );
+  return (
+    <>
+      {leavesOut(settings.value) && (
+        <p class="small">
+          Every pair as it stands: what was done to A and B alone (units, modes, points) is left out
+          here.
+        </p>
+      )}
+      {units.size > 1 && (
+        <p class="small">
+          The models are in different units ({[...units].join(", ")}); lengths are not converted.
+        </p>
+      )}
+      {problems.length > 0 && (
+        <details class="more">
+          <summary>
+            {problems.length === 1
+              ? "One pair cannot be compared"
+              : `${problems.length} pairs cannot be compared`}
+          </summary>
+          <ul class="problems">
+            {problems.map(({ pair, message }) => (
+              <li key={pair}>
+                <strong>{pair}:</strong> {message}
+              </li>
+            ))}
+          </ul>
+        </details>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,143 @@
+import { addModels, chooseFor, removeModel } from "../../models/list/actions";
+import { isSame, namesOf } from "../../models/list/order";
+import { nameOf } from "../../models/sources";
+import {
+  opening,
+  partName,
+  reopening,
+  SIDES,
+  type Side,
+  type Slot,
+  shelf,
+  shelving,
+  slots,
+  sourceKey,
+} from "../../state/state";
+import { count } from "../../text/format";
+import { CloseIcon } from "../../ui/icons";
+
+/** What every model of the shelf is called, in its order. */
+export function shelfNames(): string[] {
+  return namesOf(shelf.value, (slot) => nameOf(slot.source));
+}
+
+/** The models that are open: what they are, and which two of them are compared. */
+export function ShelfTable() {
+  const names = shelfNames();
+  return (
+    <div class="scrolled-wide">
+      <table class="shelf">
+        <caption>Open models</caption>
+        <thead>
+          <tr>
+            <th scope="col">Model</th>
+            <th scope="col" data-side="a">
+              A
+            </th>
+            <th scope="col" data-side="b">
+              B
+            </th>
+            <th scope="col" class="figure">
+              Points
+            </th>
+            <th scope="col" class="figure">
+              Modes
+            </th>
+            <th scope="col">Unit</th>
+            <td />
+          </tr>
+        </thead>
+        <tbody>
+          {shelf.value.map((slot, i) => (
+            <ModelRow key={names[i]} slot={slot} name={names[i] ?? ""} />
+          ))}
+        </tbody>
+      </table>
+    </div>
+  );
+}
+
+function ModelRow({ slot, name }: { slot: Slot; name: string }) {
+  const { report } = slot;
+  const compared = SIDES.some((side) => isSame(slot, slots[side].value));
+  return (
+    <tr>
+      <th scope="row">
+        <span class="shelf-name" title={`${name}: ${report.format}`}>
+          {name}
+        </span>
+        <OtherParts slot={slot} name={name} />
+      </th>
+      {SIDES.map((side) => (
+        <Chosen key={side} side={side} slot={slot} name={name} />
+      ))}
+      <td class="figure">{count(report.points)}</td>
+      <td class="figure">{count(report.modes)}</td>
+      <td>{report.unit}</td>
+      <td class="figure">
+        {!compared && (
+          <button
+            type="button"
+            class="quiet icon-only"
+            aria-label={`Close ${name}`}
+            title={`Close ${name}`}
+            onClick={(event) => {
+              // The button goes with its row: the keyboard goes on at the next one.
+              const row = event.currentTarget.closest("tr");
+              const next = row?.nextElementSibling ?? row?.previousElementSibling;
+              removeModel(slot);
+              next?.querySelector<HTMLElement>("button.icon-only, input")?.focus();
+            }}
+          >
+            <CloseIcon />
+          </button>
+        )}
+      </td>
+    </tr>
+  );
+}
+
+function Chosen({ side, slot, name }: { side: Side; slot: Slot; name: string }) {
+  const busy = opening.a.value !== null || opening.b.value !== null || reopening.value;
+  return (
+    <td data-side={side}>
+      <label class="choice">
+        <input
+          type="radio"
+          name={`shelf-${side}`}
+          aria-label={`${name} as ${side.toUpperCase()}`}
+          checked={isSame(slot, slots[side].value)}
+          disabled={busy}
+          onChange={() => void chooseFor(side, slot)}
+        />
+      </label>
+    </td>
+  );
+}
+
+/** Models of the same file that are not on the shelf. */
+function OtherParts({ slot, name }: { slot: Slot; name: string }) {
+  const key = sourceKey(slot.source);
+  const others = slot.parts.filter(
+    (part) => !shelf.value.some((one) => sourceKey(one.source) === key && one.part === part),
+  );
+  // Once for each file: at its first model.
+  const leads = shelf.value.find((one) => sourceKey(one.source) === key) === slot;
+  if (others.length === 0 || !leads) return null;
+  return (
+    <span class="other-parts">
+      {others.map((part) => (
+        <button
+          key={part}
+          type="button"
+          class="as-link"
+          disabled={shelving.value !== null}
+          aria-label={`Add ${partName(part)} of ${name}`}
+          onClick={() => void addModels([{ source: slot.source, part, scale: slot.scale }])}
+        >
+          + {partName(part)}
+        </button>
+      ))}
+    </span>
+  );
+}

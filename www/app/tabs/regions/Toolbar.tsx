@@ -1,0 +1,78 @@
+import { resample } from "../../comparison/run";
+import { savePicture } from "../../pictures/picture";
+import { taking } from "../../pictures/Taking";
+import { MapChooser } from "../../stage/MapChooser";
+import { HOME } from "../../state/camera";
+import { camera, outOfDate, region, view } from "../../state/state";
+import { VIEW_MODES, type ViewMode } from "../../state/view";
+import { DownloadIcon } from "../../ui/icons";
+
+const LABELS: Record<ViewMode, string> = {
+  mean: "Mean",
+  samples: "Samples",
+  sd: "Map",
+};
+
+export function Toolbar() {
+  return (
+    <div class="toolbar">
+      <fieldset class="segments">
+        <legend class="unseen">What is drawn</legend>
+        {VIEW_MODES.map((mode) => (
+          <label key={mode} data-on={view.value === mode}>
+            <input
+              type="radio"
+              name="view"
+              value={mode}
+              checked={view.value === mode}
+              onChange={() => {
+                view.value = mode;
+              }}
+            />
+            {LABELS[mode]}
+          </label>
+        ))}
+      </fieldset>
+      {view.value === "samples" && (
+        <button type="button" class="quiet" onClick={resample}>
+          Resample
+        </button>
+      )}
+      {view.value === "sd" && <MapChooser />}
+      <span class="grow">{outOfDate.value && <span class="stale-chip">Out of date</span>}</span>
+      {region.value !== null && (
+        <button
+          type="button"
+          class="quiet"
+          onClick={() => {
+            region.value = null;
+          }}
+        >
+          All five
+        </button>
+      )}
+      <button
+        type="button"
+        class="quiet"
+        onClick={() => {
+          camera.value = HOME;
+        }}
+      >
+        Reset view
+      </button>
+      <button type="button" class="quiet" onClick={() => void savePicture()}>
+        <DownloadIcon />
+        <span>PNG</span>
+      </button>
+      <button
+        type="button"
+        class="quiet"
+        onClick={() => {
+          taking.value = "figure";
+        }}
+      >
+        Figure…
+      </button>
+    </div>
+  );
+}

@@ -1,0 +1,98 @@
+import type { Report } from "../../../worker/protocol";
+import type { Group } from "../../comparison/numbers";
+import { sidesDisagree, twoSides } from "../../comparison/words";
+import { SIDES_USED } from "../../state/settings";
+import { change, settings } from "../../state/state";
+import { number } from "../../text/format";
+import { Metric, Phrase } from "../../ui/Phrase";
+import { SaveTable } from "../../ui/SaveTable";
+import { Numbers } from "./Numbers";
+
+const ALONE: Group = {
+  title: "Each side’s own model",
+  columns: ["from A", "from B"],
+  rows: [
+    {
+      label: "Total variance",
+      metrics: ["a", "b"].map((side) => `intersection.disagreement.totalVariance.${side}`),
+      show: (value) => number(value),
+    },
+    {
+      label: "Largest SD",
+      metrics: ["a", "b"].map((side) => `intersection.disagreement.standardDeviations.${side}.0`),
+      show: (value) => number(value),
+    },
+  ],
+};
+
+const COMPARED_MODES = [1, 3, 5, 10];
+
+/** What either side alone would give, and the choice of one of them. */
+export function TwoSides({ report }: { report: Report }) {
+  const sentence = twoSides(report);
+  const { pooling } = settings.value;
+  if (!sentence && (report.settings.pooling ?? "both") === "both") return null;
+  const distances = report.intersection.disagreement?.grassmann ?? [];
+  return (
+    <details class="more two-sides">
+      <summary>
+        The two sides
+        {sidesDisagree(report) && <span class="flag">&nbsp;· they disagree</span>}
+      </summary>
+      <p data-disagree={sidesDisagree(report)}>
+        {sentence ? (
+          <Phrase parts={sentence} />
+        ) : (
+          "One side alone makes this model. Choose both to see how far they differ."
+        )}
+      </p>
+      {sentence && <Numbers group={ALONE} report={report} />}
+      {distances.length > 0 && (
+        <SaveTable file="two-sides-grassmann" of="the Grassmann distance between the two">
+          <table class="numbers" data-columns="4">
+            <caption>Grassmann distance between the two, radians</caption>
+            <thead>
+              <tr>
+                <td />
+                {distances.map((_, i) => (
+                  <th key={COMPARED_MODES[i]} scope="col">
+                    {COMPARED_MODES[i]}
+                  </th>
+                ))}
+              </tr>
+            </thead>
+            <tbody>
+              <tr>
+                <th scope="row">First modes</th>
+                {distances.map((value, i) => (
+                  <td key={COMPARED_MODES[i]}>
+                    <Metric
+                      path={`intersection.disagreement.grassmann.${i}`}
+                      value={value}
+                      text={number(value)}
+                    />
+                  </td>
+                ))}
+              </tr>
+            </tbody>
+          </table>
+        </SaveTable>
+      )}
+      <fieldset class="segments">
+        <legend class="unseen">Sides that make the intersection model</legend>
+        {(["both", "a", "b"] as const).map((side) => (
+          <label key={side} data-on={pooling === side} title={SIDES_USED[side].help}>
+            <input
+              type="radio"
+              name="pooling"
+              value={side}
+              checked={pooling === side}
+              onChange={() => change({ pooling: side })}
+            />
+            {SIDES_USED[side].label}
+          </label>
+        ))}
+      </fieldset>
+    </details>
+  );
+}

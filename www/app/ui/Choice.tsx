@@ -1,0 +1,47 @@
+import type { Options } from "../state/settings";
+import { Field } from "./Field";
+
+interface ChoiceProps<T extends string> {
+  label: string;
+  value: T;
+  standard: T;
+  options: Options<T>;
+  onChoose: (value: T) => void;
+  /** Where the default needs a word of explanation too. */
+  alwaysHelp?: boolean;
+}
+
+/** One setting of a few words. */
+export function Choice<T extends string>(props: ChoiceProps<T>) {
+  const { label, value, standard, options, onChoose, alwaysHelp = false } = props;
+  const names = Object.keys(options) as T[];
+  const about = `${label.replace(/\W+/g, "-").toLowerCase()}-about`;
+  const { help } = options[value];
+  return (
+    <>
+      <Field
+        label={label}
+        changed={value !== standard}
+        onReset={() => onChoose(standard)}
+        help={help}
+      >
+        <select
+          value={value}
+          aria-label={label}
+          aria-describedby={about}
+          onChange={(event) => onChoose(event.currentTarget.value as T)}
+        >
+          {names.map((name) => (
+            <option key={name} value={name}>
+              {options[name].label}
+              {name === standard && value !== name ? " (default)" : ""}
+            </option>
+          ))}
+        </select>
+      </Field>
+      <p id={about} class={alwaysHelp || value !== standard ? "field-help" : "unseen"}>
+        {help}
+      </p>
+    </>
+  );
+}

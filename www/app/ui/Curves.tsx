@@ -1,0 +1,121 @@
+import { linear, type Scale, ticks } from "../text/plots";
+import { Mark } from "./Mark";
+import { PlotAxes, wholeTicks } from "./PlotAxes";
+
+export interface Curve {
+  key: string;
+  label: string;
+  mark: "circle" | "square" | "diamond";
+  /** Over 1, 2, …, or over `at`. */
+  values: readonly number[];
+  at?: readonly number[];
+  /** Half of the error bars. */
+  errors?: readonly number[];
+  /** Whether the marks are joined. */
+  line?: boolean;
+}
+
+interface Props {
+  width: number;
+  height: number;
+  curves: readonly Curve[];
+  acrossName: string;
+  upName: string;
+  /** The top of the plot, where it is known beforehand. */
+  top?: number;
+  up?: readonly number[];
+  showUp?: (value: number) => string;
+}
+
+/** Marks of so many points one by one; of more, the line alone. */
+const MOST_MARKS = 60;
+
+/** Curves over numbers of modes, from 0 upwards. They differ in shape and dash, not only in colour. */
+export function Curves({
+  width,
+  height,
+  curves,
+  acrossName,
+  upName,
+  top,
+  showUp,
+  ...props
+}: Props) {
+  const box = { left: 46, right: width - 10, top: 24, bottom: height - 36 };
+  const ends = curves.flatMap(({ values, errors }) =>
+    values.map((value, i) => value + (errors?.[i] ?? 0)),
+  );
+  const highest = top ?? Math.max(...ends, 0);
+  const up = props.up ?? ticks(0, highest, 4).filter((value) => top === undefined || value <= top);
+  const last = Math.max(2, ...curves.flatMap(({ values, at }) => at ?? [values.length]));
+  const x = linear(1, last, box.left + 8, box.right - 4);
+  const y = linear(0, Math.max(highest, up.at(-1) ?? 0), box.bottom, box.top);
+  return (
+    <>
+      <PlotAxes
+        box={box}
+        x={x}
+        y={y}
+        across={wholeTicks(last, box.right - box.left)}
+        up={up}
+        acrossName={acrossName}
+        upName={upName}
+        showAcross={String}
+        {...(showUp ? { showUp } : {})}
+      />
+      {curves.map((curve) => (
+        <CurveMarks key={curve.key} curve={curve} x={x} y={y} />
+      ))}
+    </>
+  );
+}
+
+function CurveMarks({ curve, x, y }: { curve: Curve; x: Scale; y: Scale }) {
+  const { key, mark, values, at, errors, line = true } = curve;
+  const points = values.map((value, i) => ({
+    across: x(at?.[i] ?? i + 1),
+    value,
+    error: errors?.[i] ?? 0,
+  }));
+  return (
+    <g class="series" data-series={key}>
+      {line && (
+        <polyline points={points.map(({ across, value }) => `${across},${y(value)}`).join(" ")} />
+      )}
+      {points.map(({ across, value, error }, i) => (
+        <g key={i}>
+          {error > 0 && (
+            <line
+              class="error"
+              x1={across}
+              x2={across}
+              y1={y(value - error)}
+              y2={y(value + error)}
+            />
+          )}
+          {(!line || points.length <= MOST_MARKS) && <Mark kind={mark} x={across} y={y(value)} />}
+        </g>
+      ))}
+    </g>
+  );
+}
+
+export function CurveLegend({
+  curves,
+}: {
+  curves: readonly Pick<Curve, "key" | "label" | "mark">[];
+}) {
+  return (
+    <ul class="legend" aria-hidden="true">
+      {curves.map(({ key, label, mark }) => (
+        <li key={key} class="series" data-series={key}>
+          <svg viewBox="0 0 22 10" aria-hidden="true">
+            <polyline points="0,5 22,5" />
+            <Mark kind={mark} x={11} y={5} />
+          </svg>
+          {label}
+        </li>
+      ))}
+    </ul>
+  );
+}

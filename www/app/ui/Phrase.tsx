@@ -1,0 +1,24 @@
+import type { Phrase as Parts } from "../text/phrase";
+
+/** A sentence whose numbers say where in the report they come from. */
+export function Phrase({ parts }: { parts: Parts }) {
+  return (
+    <>
+      {parts.map((part) =>
+        typeof part === "string" ? (
+          part
+        ) : (
+          <Metric key={part.metric} path={part.metric} value={part.value} text={part.text} />
+        ),
+      )}
+    </>
+  );
+}
+
+export function Metric({ path, value, text }: { path: string; value: number; text: string }) {
+  return (
+    <data class="metric" value={String(value)} data-metric={path} data-value={String(value)}>
+      {text}
+    </data>
+  );
+}
