@@ -26,8 +26,13 @@ async function open(page, url, more) {
 /** Unrounded, in the order A, A∖B, A∩B, B∖A, B; waits until every region has its number. */
 async function figuresOf(page, row, least = 5) {
   const cells = page.getByRole("row", { name: row }).locator("data");
-  await cells.nth(least - 1).waitFor();
-  return cells.evaluateAll((found) => found.map(({ value }) => Number(value)));
+  let figures = [];
+  // They may go again between two looks, where others are on their way.
+  while (figures.length < least) {
+    await cells.nth(least - 1).waitFor();
+    figures = await cells.evaluateAll((found) => found.map(({ value }) => Number(value)));
+  }
+  return figures;
 }
 
 async function choose(page, name, row) {
