@@ -10,8 +10,11 @@
 mod common;
 
 use nalgebra::DMatrix;
+use shapevenn::model::Side;
 use shapevenn::model::{Alignment, LinearModel};
-use shapevenn::pair::{Intersection, Joint, Moments, Pair, Side, fit_rms, fit_variational_step};
+use shapevenn::pair::{
+    Intersection, Joint, Moments, Pair, ResidualOperator, fit_rms, fit_variational_step,
+};
 use shapevenn::sampling::{Draws, Gaussian, Importance, summarise};
 use shapevenn::settings::{Sampler, Settings};
 
@@ -41,17 +44,17 @@ fn pair(name: &str, models: &(LinearModel, LinearModel), sigmas: &[f64], sigma: 
     }
 }
 
-struct Sides {
+struct Fitted {
     joint: Joint,
-    sides: [Side; 2],
+    sides: [ResidualOperator; 2],
     fits: [Gaussian; 2],
     sigma: f64,
 }
 
-impl Sides {
+impl Fitted {
     fn new(a: &LinearModel, b: &LinearModel, sigma: f64) -> Self {
         let pair = Pair::new(a, b, Alignment::None, None).unwrap();
-        let sides = [pair.side(0), pair.side(1)];
+        let sides = [pair.residual_operator(Side::A), pair.residual_operator(Side::B)];
         let fits = [0, 1].map(|side| {
             let mut fit = fit_rms(&sides[side], sigma).unwrap();
             for _ in 0..8 {
@@ -63,7 +66,7 @@ impl Sides {
     }
 
     fn pooled(&self, moments: impl Fn(usize) -> Moments) -> DMatrix<f64> {
-        let [first, second] = [0, 1].map(|side| self.joint.lift(side, &moments(side)));
+        let [first, second] = [0, 1].map(|side| self.joint.lift(Side::BOTH[side], &moments(side)));
         Moments::pooled(&first, &second).covariance
     }
 
@@ -82,7 +85,7 @@ impl Sides {
 }
 
 fn covariance(a: &LinearModel, b: &LinearModel, sigma: f64) {
-    let sides = Sides::new(a, b, sigma);
+    let sides = Fitted::new(a, b, sigma);
     let reference = sides.weighted(REFERENCE, 99);
     let error = |found: DMatrix<f64>| (found - &reference).norm() / reference.norm();
     println!("  error of the covariance at σ = {sigma} mm (Frobenius, as a share of it)");

@@ -14,8 +14,8 @@ use std::time::Instant;
 use nalgebra::{DMatrix, DVector};
 use shapevenn::model::LinearModel;
 use shapevenn::pair::{
-    Side, expected_distance, fit_laplace, fit_reweighted, fit_rms, fit_variational_step,
-    fit_variational_step_every,
+    ResidualOperator, expected_distance, fit_laplace, fit_reweighted, fit_rms,
+    fit_variational_step, fit_variational_step_every,
 };
 use shapevenn::roofline::{Workload, peak};
 
@@ -217,10 +217,10 @@ fn preparation() {
             let best = times.fold(f64::INFINITY, f64::min);
             println!("{points:>7} {modes:>5}   {name:32} {best:>9.1}");
         };
-        let side = Side::new(&a, &b);
+        let side = ResidualOperator::new(&a, &b);
         let sigma = 0.3;
         let fit = fit_rms(&side, sigma).unwrap();
-        millis("one residual operator", &|| drop(black_box(Side::new(&a, &b))));
+        millis("one residual operator", &|| drop(black_box(ResidualOperator::new(&a, &b))));
         millis("rms fit", &|| drop(black_box(fit_rms(&side, sigma))));
         millis("variational step", &|| drop(black_box(fit_variational_step(&side, sigma, &fit))));
         millis("the same, every 4th vertex", &|| {

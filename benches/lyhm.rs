@@ -9,6 +9,7 @@
 #[path = "../tests/common/mod.rs"]
 mod common;
 
+use shapevenn::model::Side;
 use std::time::Instant;
 
 use shapevenn::comparison::{Comparison, Stage};
@@ -58,7 +59,7 @@ fn evaluations(a: &LinearModel, b: &LinearModel) {
     const BATCH: usize = 4096;
     const NAIVE: usize = 64;
     let pair = Pair::new(a, b, Alignment::None, None).unwrap();
-    let side = pair.side(0);
+    let side = pair.residual_operator(Side::A);
     let mut random = stream(1, Stream::Display, 0, 0);
     let mut points = vec![0.0; BATCH * MODES];
     fill_normal(&mut random, &mut points);

@@ -4,6 +4,7 @@
 //! modes. A [`Remedy`] is a patch of the settings, so that a click applies it, its opposite undoes it, and
 //! a run that was prepared says how in its report.
 
+use crate::model::Sides;
 use nalgebra::DVector;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -11,8 +12,8 @@ use serde_json::{Value, json};
 use crate::measure::mean_vertex_distance;
 use crate::model::{Alignment, Cells, Kind, LinearModel, Unit, procrustes};
 use crate::pair::{PairError, PointSelection, Preparation, SelectionError, SidePreparation};
-use crate::report::BothSides;
 use crate::settings::Settings;
+use crate::text::three_digits;
 
 /// A remedy that brings the means closer than this share of their distance is worth a click.
 const WORTH_A_CLICK: f64 = 0.8;
@@ -39,13 +40,13 @@ pub struct Inspection {
     /// Why they cannot be compared as they stand.
     pub problem: Option<Problem>,
     /// Points of each file.
-    pub points: BothSides<usize>,
+    pub points: Sides<usize>,
     /// Points that would be compared.
     pub compared: Option<usize>,
     /// Whether the meshes agree.
     pub triangles: Agreement,
     /// Units as stated, and as the extent of the mean suggests.
-    pub units: BothSides<UnitFound>,
+    pub units: Sides<UnitFound>,
     /// How far apart the means are.
     pub mean_distance: MeanDistance,
     /// Size of B over size of A, in the same unit where both are known.
@@ -184,7 +185,7 @@ impl Inspector<'_> {
             stated: declared.unwrap_or(model.unit()),
             guess: if model.unit() == Unit::Unknown { guessed_unit(model) } else { None },
         };
-        let units = BothSides { a: found(a, prepare.a.unit), b: found(b, prepare.b.unit) };
+        let units = Sides { a: found(a, prepare.a.unit), b: found(b, prepare.b.unit) };
         let ratio = b.size() / a.size();
         let same_unit = match [units.a, units.b].map(|unit| unit.stated.metres()) {
             [Some(of_a), Some(of_b)] => of_b / of_a,
@@ -194,7 +195,7 @@ impl Inspector<'_> {
         let remedies = self.remedies(&units, &mean_distance, scale, compared);
         Inspection {
             problem,
-            points: BothSides { a: a.point_count(), b: b.point_count() },
+            points: Sides { a: a.point_count(), b: b.point_count() },
             compared: compared.map(|count| prepare.subsample.map_or(count, |most| most.min(count))),
             triangles,
             units,
@@ -265,7 +266,7 @@ impl Inspector<'_> {
 
     fn remedies(
         &self,
-        units: &BothSides<UnitFound>,
+        units: &Sides<UnitFound>,
         distance: &MeanDistance,
         scale: Option<f64>,
         compared: Option<usize>,
@@ -338,7 +339,7 @@ impl Inspector<'_> {
         })
     }
 
-    fn unit_remedy(&self, units: &BothSides<UnitFound>, scale: Option<f64>) -> Option<Remedy> {
+    fn unit_remedy(&self, units: &Sides<UnitFound>, scale: Option<f64>) -> Option<Remedy> {
         let prepare = &self.settings.prepare;
         if prepare.convert || [self.a, self.b].iter().any(|model| model.kind() != Kind::Shape) {
             return None;
@@ -399,7 +400,8 @@ impl Inspector<'_> {
         }
         let unit = self.settings.prepare.a.unit.unwrap_or(self.a.unit()).symbol();
         let mut remedies = Vec::new();
-        let from_to = |to: f64| format!("from {} to {} {unit}", figure(now), figure(to));
+        let from_to =
+            |to: f64| format!("from {} to {} {unit}", three_digits(now), three_digits(to));
         if rigid < WORTH_A_CLICK * now {
             remedies.push(Remedy {
                 id: "align",
@@ -556,7 +558,10 @@ fn applied_to(
             (format!("{modes} modes of {letter}"), "Only the first modes are used.")
         }
         (None, Some(share)) => (
-            format!("{} % of {letter}'s variance", figure(100.0 * share).trim_end_matches(".0")),
+            format!(
+                "{} % of {letter}'s variance",
+                three_digits(100.0 * share).trim_end_matches(".0")
+            ),
             "Only as many modes are used as hold this share.",
         ),
     };
@@ -569,23 +574,6 @@ fn applied_to(
 fn step(id: &'static str, label: impl Into<String>, sentence: &str, undo: Value) -> Remedy {
     let (label, sentence) = (label.into(), sentence.to_owned());
     Remedy { id, label, sentence, settings: undo, recommended: false }
-}
-
-/// A length with three figures.
-fn figure(value: f64) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let digits = 2.0 - libm::floor(libm::log10(value.abs()));
-    if (0.0..=6.0).contains(&digits) {
-        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 6")]
-        let digits = digits as usize;
-        format!("{value:.digits$}")
-    } else if digits < 0.0 {
-        format!("{value:.0}")
-    } else {
-        format!("{value:.1e}")
-    }
 }
 
 fn is_expression(model: &LinearModel) -> bool {

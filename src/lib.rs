@@ -39,5 +39,6 @@ pub mod sampling;
 pub mod settings;
 #[cfg(test)]
 mod testing;
+mod text;
 #[cfg(target_arch = "wasm32")]
 pub mod wasm;

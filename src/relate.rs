@@ -3,6 +3,7 @@
 //! Everything here comes from the residual operators and the joint basis; nothing is drawn and no fit is
 //! made. A comparison of the same two models with the same settings reports the same numbers.
 
+use crate::model::{Side, Sides};
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
@@ -13,7 +14,7 @@ use crate::measure::{
     mean_vertex_distance, principal_angles,
 };
 use crate::model::LinearModel;
-use crate::pair::{Joint, Pair, Side, recommended_tolerance};
+use crate::pair::{Joint, Pair, ResidualOperator, recommended_tolerance};
 use crate::report::{KullbackLeibler, Overlap};
 use crate::settings::Settings;
 
@@ -72,7 +73,7 @@ pub fn relate(a: &LinearModel, b: &LinearModel, settings: &Settings) -> Relation
 }
 
 fn of_pair(pair: &Pair, settings: &Settings) -> Relation {
-    let sides = [pair.side(0), pair.side(1)]
+    let sides = [pair.residual_operator(Side::A), pair.residual_operator(Side::B)]
         .map(|side| side.with_plausibility(settings.plausibility.share()));
     let sides = [&sides[0], &sides[1]];
     let joint = pair.joint();
@@ -80,7 +81,7 @@ fn of_pair(pair: &Pair, settings: &Settings) -> Relation {
         settings.sigma.unwrap_or_else(|| recommended_tolerance(pair, sides, settings.noise).sigma);
     let overlap = overlap(pair, sides, &joint, noise);
     let away = joint.coordinates_of(joint.origin());
-    let spaces = [0, 1].map(|side| affine_space(&away, joint.mean(side), joint.modes(side)));
+    let spaces = Side::BOTH.map(|side| affine_space(&away, joint.mean(side), joint.modes(side)));
     let [grassmann, grassmann_affine] = [Displacement::Unit, Displacement::Full]
         .map(|displacement| affine_grassmann_distance(&spaces[0], &spaces[1], displacement));
     Relation {
@@ -98,17 +99,22 @@ fn of_pair(pair: &Pair, settings: &Settings) -> Relation {
 }
 
 /// What the report says of two models' spaces and variances.
-pub(crate) fn overlap(pair: &Pair, sides: [&Side; 2], joint: &Joint, noise: f64) -> Overlap {
-    let [a, b] = pair.models();
-    let share = |side: &Side, model: &LinearModel| {
+pub(crate) fn overlap(
+    pair: &Pair,
+    sides: [&ResidualOperator; 2],
+    joint: &Joint,
+    noise: f64,
+) -> Overlap {
+    let Sides { a, b } = pair.models();
+    let share = |side: &ResidualOperator, model: &LinearModel| {
         (1.0 - side.gram().trace() / model.total_variance()).clamp(0.0, 1.0)
     };
-    let laws = [joint.prior(0), joint.prior(1)];
+    let laws = [joint.prior(Side::A), joint.prior(Side::B)];
     let divergence = |from: usize, to: usize| {
         kullback_leibler(&laws[from], &laws[to], noise).unwrap_or(f64::MAX)
     };
     Overlap {
-        principal_angles_degrees: principal_angles(&joint.modes(0), &joint.modes(1))
+        principal_angles_degrees: principal_angles(&joint.modes(Side::A), &joint.modes(Side::B))
             .into_iter()
             .map(f64::to_degrees)
             .collect(),

@@ -4,6 +4,7 @@
 //! names are camelCase in JSON. New fields may be added; none is renamed or dropped without
 //! [`SCHEMA`] going up. Lengths are in the unit of model A, angles in degrees.
 
+use crate::model::Sides;
 use serde::{Deserialize, Serialize};
 
 use crate::model::{Kind, LinearModel, Unit};
@@ -194,15 +195,15 @@ pub struct IntersectionReport {
     /// Of both sides together: the worst of everything.
     pub diagnostics: Diagnostics,
     /// Of the draws that start from A and from B.
-    pub sides: Sides,
+    pub sides: Sides<Diagnostics>,
     /// The same for each coefficient.
     #[serde(default)]
-    pub coefficients: Option<BothSides<ModeDiagnostics>>,
+    pub coefficients: Option<Sides<ModeDiagnostics>>,
     /// Of the per-vertex standard deviation of the intersection model.
     pub vertex_sd: Spread,
     /// Which sampler ran on each side, why, and what the moments come from.
     #[serde(default)]
-    pub inference: Option<BothSides<InferenceReport>>,
+    pub inference: Option<Sides<InferenceReport>>,
     /// How far the model may be off; absent where its draws do not tell.
     #[serde(default)]
     pub accuracy: Option<Accuracy>,
@@ -212,15 +213,6 @@ pub struct IntersectionReport {
     /// σ against the distances of the two models.
     #[serde(default)]
     pub tolerance: Option<ToleranceReport>,
-}
-
-/// One of something for each side: shapes of A near B, and of B near A.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct BothSides<T> {
-    /// Shapes of A near B.
-    pub a: T,
-    /// Shapes of B near A.
-    pub b: T,
 }
 
 /// What the moments of a side are made of.
@@ -276,9 +268,9 @@ pub struct Disagreement {
     /// Share of the pooled variance that lies between the two means.
     pub between_share: f64,
     /// Σ λᵢ of either side's own law.
-    pub total_variance: BothSides<f64>,
+    pub total_variance: Sides<f64>,
     /// Standard deviations of either side's own model.
-    pub standard_deviations: BothSides<Vec<f64>>,
+    pub standard_deviations: Sides<Vec<f64>>,
     /// Grassmann distance (the paper's) between the first 1, 3, 5 and 10 modes of the two.
     pub grassmann: Vec<f64>,
 }
@@ -303,15 +295,6 @@ pub struct ToleranceReport {
     pub meeting: Option<f64>,
     /// How far true members lie from their own model: as given, or from the modes that were cut off.
     pub noise: Option<f64>,
-}
-
-/// Diagnostics of the two sides of the intersection.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Sides {
-    /// Draws from Q₁ near M₂.
-    pub a: Diagnostics,
-    /// Draws from Q₂ near M₁.
-    pub b: Diagnostics,
 }
 
 /// Distances of the intersection model to A, to B and to their union, in radians.

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 use shapevenn::demos::{self, STAR_ROWS, star_pair};
 use shapevenn::model::LinearModel;
 use shapevenn::pair::{
-    Intersection, Side, fit_reweighted, fit_rms, fit_variational_step, without_distance,
+    Intersection, ResidualOperator, fit_reweighted, fit_rms, fit_variational_step, without_distance,
 };
 use shapevenn::sampling::{Chains, Gaussian, IndependenceChains, Schedule};
 use shapevenn::settings::Settings;
@@ -87,7 +87,7 @@ fn draws_of_lines_and_planes_have_the_exact_mean_and_covariance() {
 #[test]
 fn a_proposal_that_is_too_wide_and_beside_the_mark_gives_the_same_draws() {
     let (name, a, b) = lines_and_planes().swap_remove(1);
-    let (side, sigma) = (Side::new(&a, &b), 0.3);
+    let (side, sigma) = (ResidualOperator::new(&a, &b), 0.3);
     let law = exact(&a, &b, sigma);
     let scaled = |factor: f64, shift: f64| {
         let mean = law.mean() + law.transform() * DVector::from_element(2, shift);
@@ -110,7 +110,7 @@ fn a_proposal_that_is_too_wide_and_beside_the_mark_gives_the_same_draws() {
 fn log_p_minus_log_q_is_constant_where_the_posterior_is_gaussian() {
     for (name, a, b) in lines_and_planes() {
         for (from, to) in [(&a, &b), (&b, &a)] {
-            let (side, sigma) = (Side::new(from, to), 0.1);
+            let (side, sigma) = (ResidualOperator::new(from, to), 0.1);
             let law = exact(from, to, sigma);
             let rms = fit_rms(&side, sigma).unwrap();
             assert!((rms.mean() - law.mean()).amax() < 1e-10, "{name}: mean of the fit");
@@ -122,7 +122,7 @@ fn log_p_minus_log_q_is_constant_where_the_posterior_is_gaussian() {
 }
 
 /// Largest minus smallest log p − log q over 200 draws of q.
-fn spread(side: &Side, sigma: f64, fit: &Gaussian) -> f64 {
+fn spread(side: &ResidualOperator, sigma: f64, fit: &Gaussian) -> f64 {
     let difference = |draw: Vec<f64>| log_posterior(side, sigma, &draw) - fit.log_density(&draw);
     let values: Vec<f64> = draws_of(fit, 200, 5).into_iter().map(difference).collect();
     values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
@@ -134,7 +134,7 @@ fn the_reweighted_fit_of_the_stars_is_their_posterior() {
     for row in STAR_ROWS {
         let (a, b) = star_pair(row);
         for (from, to) in [(&a, &b), (&b, &a)] {
-            let (side, sigma) = (Side::new(from, to), 0.003);
+            let (side, sigma) = (ResidualOperator::new(from, to), 0.003);
             let rms = fit_rms(&side, sigma).unwrap();
             let fit = fit_reweighted(&side, sigma, &rms, 6).unwrap();
             let constant = spread(&side, sigma, &fit);
@@ -149,7 +149,7 @@ fn the_reweighted_fit_of_the_stars_is_their_posterior() {
 fn a_model_with_itself_has_half_its_covariance_and_no_difference() {
     let turned = point(&[1.0, 2.0, 3.0], &[&[0.3, 0.8, 0.8], &[-1.1, 0.2, 0.1]]);
     for (name, m) in [("faces", face_like_pair(60, 5).0), ("a tilted plane", turned)] {
-        let (side, modes) = (Side::new(&m, &m), m.mode_count());
+        let (side, modes) = (ResidualOperator::new(&m, &m), m.mode_count());
         let sigma = 1e-3 * m.total_variance().sqrt();
         let rms = fit_rms(&side, sigma).unwrap();
         let start = without_distance(&side).unwrap();
@@ -213,7 +213,7 @@ fn shared_modes_multiply_and_own_modes_shrink_to_the_tolerance() {
         Gaussian::from_precision(DVector::zeros(3), DMatrix::from_diagonal(&diagonal)).unwrap()
     });
     for ((from, to), law) in [(&a, &b), (&b, &a)].into_iter().zip(&laws) {
-        let side = Side::new(from, to);
+        let side = ResidualOperator::new(from, to);
         let fit = fit_reweighted(&side, sigma, &fit_rms(&side, sigma).unwrap(), 6).unwrap();
         let off = (fit.precision() - law.precision()).amax() / law.precision().amax();
         assert!(off < 1e-10, "closed form: {off}");

@@ -8,6 +8,7 @@ use shapevenn::comparison::{AxesKind, Comparison, MapName, Region, Space, Stage}
 use shapevenn::demos;
 use shapevenn::error::ComparisonError;
 use shapevenn::model::{Cells, Kind, LinearModel};
+use shapevenn::model::{Side, Sides};
 use shapevenn::relate::relate;
 use shapevenn::report::ModelReport;
 use shapevenn::settings::{Sampler, Settings};
@@ -92,9 +93,10 @@ fn both_models_answer_with_their_nearest_shapes() {
         let found = run.explore(space, AxesKind::Modes, &values, true).unwrap();
         let shape = wide(&found.shape);
         let placed = found.placed.unwrap();
-        for (side, answer) in [&placed.a, &placed.b].into_iter().enumerate() {
+        for side in Side::BOTH {
+            let answer = &placed[side];
             let image = projection(&models[side], &shape);
-            assert!((wide(&answer.shape) - &image).amax() < 1e-5, "{space:?}: x′ of {side}");
+            assert!((wide(&answer.shape) - &image).amax() < 1e-5, "{space:?}: x′ of {side:?}");
             let apart: Vec<f64> =
                 (0..POINTS).map(|v| (&shape - &image).rows(3 * v, 3).norm()).collect();
             for (found, expected) in answer.residuals.iter().zip(&apart) {
@@ -187,7 +189,7 @@ fn a_dragged_vertex_arrives_and_no_smaller_change_brings_it_there() {
 #[test]
 fn exclusive_axes_leave_the_residuals_that_order_them() {
     let mut run = run();
-    for (space, other) in [(Space::A, 1), (Space::B, 0)] {
+    for (space, other) in [(Space::A, Side::B), (Space::B, Side::A)] {
         let axes = run.axes(space, AxesKind::Exclusive).unwrap();
         let to = run.pair().models()[other].clone();
         let mean = run.explore(space, AxesKind::Exclusive, &[], false).unwrap();
@@ -233,7 +235,7 @@ fn partners_really_have_the_angle_between_them_and_point_the_same_way() {
     let step = |axes: &shapevenn::comparison::Axes, model: &LinearModel, k: usize| {
         model.scaled_basis() * axes.directions.column(k)
     };
-    let [a, b] = run.pair().models();
+    let Sides { a, b } = run.pair().models();
     let cosine = step(&axes[0], a, 0).normalize().dot(&step(&axes[1], b, 1).normalize());
     assert!(cosine.abs() < 1e-10, "the first of A and the second of B: {cosine}");
 }
@@ -241,13 +243,13 @@ fn partners_really_have_the_angle_between_them_and_point_the_same_way() {
 #[test]
 fn relative_ratios_are_those_of_whole_covariances_and_none_is_larger() {
     let mut run = run();
-    let [a, b] = run.pair().models().map(covariance);
+    let Sides { a, b } = run.pair().models().map(covariance);
     let noise = 0.1_f64;
     let identity = DMatrix::<f64>::identity(3 * POINTS, 3 * POINTS) * (noise * noise);
     for (space, own, other) in [(Space::A, &a, &b), (Space::B, &b, &a)] {
         let axes = run.axes(space, AxesKind::Relative).unwrap();
         assert_eq!(axes.noise, Some(noise), "τ is σ");
-        let side = usize::from(space == Space::B);
+        let side = if space == Space::A { Side::A } else { Side::B };
         let model = run.pair().models()[side];
         assert_eq!(axes.values.len(), model.mode_count(), "one for every mode");
         let quotient =
@@ -314,8 +316,8 @@ fn variance_is_that_along_the_normal_and_that_across_it() {
 }
 
 /// The shapes of all draws of a difference, one a column.
-fn drawn(run: &Comparison, side: usize) -> DMatrix<f64> {
-    let draws = &run.results().differences[side];
+fn drawn(run: &Comparison, side: Side) -> DMatrix<f64> {
+    let draws = &run.results().differences[side.index()];
     let model = run.pair().models()[side];
     let shapes: Vec<DVector<f64>> =
         draws.iter_slices().map(|coefficients| model.shape(coefficients)).collect();
@@ -325,7 +327,7 @@ fn drawn(run: &Comparison, side: usize) -> DMatrix<f64> {
 #[test]
 fn maps_and_ellipsoids_of_differences_are_those_of_the_draws() {
     let mut run = run();
-    for (region, side) in [(Region::AWithoutB, 0), (Region::BWithoutA, 1)] {
+    for (region, side) in [(Region::AWithoutB, Side::A), (Region::BWithoutA, Side::B)] {
         let shapes = drawn(&run, side);
         let mean = shapes.column_mean();
         let mut centred = shapes.clone();
@@ -343,7 +345,7 @@ fn maps_and_ellipsoids_of_differences_are_those_of_the_draws() {
         assert!(off.amax() < 1e-9, "{region:?}: its axes make the covariance");
         let off = DVector::from_column_slice(&ellipsoid.centre) - mean.rows(21, 3);
         assert!(off.amax() < 1e-9, "{region:?}: about the mean of the draws");
-        let prior = run.map(MapName::Sd, [Region::A, Region::B][side], 0).unwrap().values;
+        let prior = run.map(MapName::Sd, [Region::A, Region::B][side.index()], 0).unwrap().values;
         assert_ne!(map, prior, "{region:?}: not those of the model");
     }
 }
@@ -354,7 +356,7 @@ fn the_ellipsoid_of_a_model_is_that_of_its_covariance() {
     let ellipsoids = run.ellipsoids(4).unwrap();
     let regions: Vec<Region> = ellipsoids.iter().map(|(region, _)| *region).collect();
     assert_eq!(regions, Region::ALL, "in all five");
-    for (region, side) in [(Region::A, 0), (Region::B, 1)] {
+    for (region, side) in [(Region::A, Side::A), (Region::B, Side::B)] {
         let model = run.pair().models()[side].clone();
         let (_, found) = ellipsoids.iter().find(|(which, _)| *which == region).unwrap();
         let axes = DMatrix::from_column_slice(3, 3, &found.axes);
@@ -378,15 +380,15 @@ fn the_ellipsoid_of_a_model_is_that_of_its_covariance() {
 fn distances_displacements_and_ratios_are_what_they_are_called() {
     let mut run = run();
     let models = run.pair().models().map(LinearModel::clone);
-    let to = |shape: &DVector<f64>, side: usize, v: usize| {
+    let to = |shape: &DVector<f64>, side: Side, v: usize| {
         (shape - projection(&models[side], shape)).rows(3 * v, 3).norm()
     };
     for (region, sides) in [
-        (Region::A, vec![1]),
-        (Region::AWithoutB, vec![1]),
-        (Region::B, vec![0]),
-        (Region::BWithoutA, vec![0]),
-        (Region::Intersection, vec![0, 1]),
+        (Region::A, vec![Side::B]),
+        (Region::AWithoutB, vec![Side::B]),
+        (Region::B, vec![Side::A]),
+        (Region::BWithoutA, vec![Side::A]),
+        (Region::Intersection, vec![Side::A, Side::B]),
     ] {
         let mean = wide(&run.region(region, 0, 1).unwrap().mean);
         let map = run.map(MapName::Distance, region, 0).unwrap();
@@ -396,7 +398,7 @@ fn distances_displacements_and_ratios_are_what_they_are_called() {
         }
         let means = run.map(MapName::Means, region, 0).unwrap();
         assert!(means.signed, "{region:?}: in and out");
-        let moved = &mean - models[0].mean();
+        let moved = &mean - models[Side::A].mean();
         for v in 0..POINTS {
             let most = moved.rows(3 * v, 3).norm() + 1e-5;
             assert!(f64::from(means.values[v]).abs() <= most, "{region:?}: along the normal");
@@ -404,7 +406,8 @@ fn distances_displacements_and_ratios_are_what_they_are_called() {
         let none = means.values.iter().all(|value| *value == 0.0);
         assert_eq!(none, region == Region::A, "{region:?}: only A's mean is A's");
         let ratio = run.map(MapName::Ratio, region, 0).unwrap();
-        let [a, b] = [&models[0], &models[1]].map(LinearModel::vertex_standard_deviations);
+        let [a, b] =
+            [&models[Side::A], &models[Side::B]].map(LinearModel::vertex_standard_deviations);
         for v in 0..POINTS {
             let expected = 2.0 * libm::log2(a[v] / b[v]);
             assert!((f64::from(ratio.values[v]) - expected).abs() < 1e-5, "{region:?}: log₂");
@@ -532,9 +535,8 @@ fn divergences_are_sums_over_axes_and_compactness_adds_up() {
 fn linear_splitting_merges_again_and_is_absent_where_nothing_is_left() {
     let run = run();
     let found = report(&run);
-    for (side, difference) in
-        [&found.differences.a_without_b, &found.differences.b_without_a].into_iter().enumerate()
-    {
+    let differences = [&found.differences.a_without_b, &found.differences.b_without_a];
+    for (side, difference) in Side::BOTH.into_iter().zip(differences) {
         let split = difference.linear_split.unwrap();
         assert!((split.weight - (1.0 - difference.probability)).abs() < 1e-15, "w = 1 − P");
         // m = w m_I + (1 − w) m_D, on shapes.

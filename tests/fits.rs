@@ -7,7 +7,7 @@ use crate::common::{
 use nalgebra::{DMatrix, DVector};
 use shapevenn::model::LinearModel;
 use shapevenn::pair::{
-    Intersection, Side, effective_dimensions, expected_distance, fit_laplace, fit_rms,
+    Intersection, ResidualOperator, effective_dimensions, expected_distance, fit_laplace, fit_rms,
     fit_variational_step, fit_variational_step_every, without_distance,
 };
 use shapevenn::sampling::{Chains, Gaussian, IndependenceChains, Schedule};
@@ -15,7 +15,7 @@ use shapevenn::settings::Settings;
 
 const SIGMAS: [f64; 5] = [0.01, 0.03, 0.1, 0.3, 1.0];
 
-fn variational(side: &Side, sigma: f64) -> Gaussian {
+fn variational(side: &ResidualOperator, sigma: f64) -> Gaussian {
     let mut fit = fit_rms(side, sigma).unwrap();
     for _ in 0..8 {
         fit = fit_variational_step(side, sigma, &fit).unwrap().0;
@@ -23,9 +23,9 @@ fn variational(side: &Side, sigma: f64) -> Gaussian {
     fit
 }
 
-fn sides() -> [Side; 2] {
+fn sides() -> [ResidualOperator; 2] {
     let (a, b) = face_like_pair(500, 12);
-    [Side::new(&a, &b), Side::new(&b, &a)]
+    [ResidualOperator::new(&a, &b), ResidualOperator::new(&b, &a)]
 }
 
 #[test]
@@ -45,7 +45,7 @@ fn independence_chains_accept_most_proposals_and_converge_at_every_tolerance() {
 
 #[test]
 fn chains_from_the_rms_fit_are_much_worse_at_small_tolerances() {
-    let acceptance = |side: &Side, fit: Gaussian, sigma: f64| {
+    let acceptance = |side: &ResidualOperator, fit: Gaussian, sigma: f64| {
         let schedule = Schedule { chains: 16, burn_in: 10, thin: 1, kept: 200 };
         let target = Intersection::new(side, sigma, fit.mean());
         let wide = without_distance(side).unwrap();
@@ -65,7 +65,7 @@ fn chains_from_the_rms_fit_are_much_worse_at_small_tolerances() {
 /// Covariance in the fit's whitened coordinates by importance weights over `draws`, with the fit's own
 /// moments as control variate: I + weighted − unweighted moments of the same draws.
 fn weighted_covariance(
-    side: &Side,
+    side: &ResidualOperator,
     sigma: f64,
     fit: &Gaussian,
     draws: &[Vec<f64>],
@@ -165,7 +165,7 @@ fn fits_do_not_move_once_at_rest_and_more_tolerance_means_more_variance() {
 }
 
 /// d̄·E∇²d + E∇d E∇dᵀ over draws, by the derivatives of the norm at each of them.
-fn curvature(side: &Side, draws: &[Vec<f64>]) -> DMatrix<f64> {
+fn curvature(side: &ResidualOperator, draws: &[Vec<f64>]) -> DMatrix<f64> {
     let (size, points) = (side.mode_count(), side.point_count());
     let (mut distance, mut slope) = (0.0, DVector::<f64>::zeros(size));
     let mut bend = DMatrix::zeros(size, size);
@@ -205,7 +205,7 @@ fn drifting_pair() -> (LinearModel, LinearModel) {
 #[test]
 fn a_variational_step_has_the_expected_curvature_that_draws_have() {
     for (name, (a, b)) in [("faces", face_like_pair(30, 4)), ("a drift", drifting_pair())] {
-        let (side, sigma) = (Side::new(&a, &b), 0.1);
+        let (side, sigma) = (ResidualOperator::new(&a, &b), 0.1);
         // Not from the rms fit, whose mean has brought the slope to almost nothing.
         let fit = without_distance(&side).unwrap();
         let next = fit_variational_step(&side, sigma, &fit).unwrap().0;
@@ -220,7 +220,7 @@ fn a_variational_step_has_the_expected_curvature_that_draws_have() {
 
 /// How far `found` lies from the curvature over draws of `fit`: the largest entry, in parts of a bound
 /// of five standard errors and what 24 nodes are good to.
-fn curvature_apart(side: &Side, fit: &Gaussian, found: &DMatrix<f64>) -> f64 {
+fn curvature_apart(side: &ResidualOperator, fit: &Gaussian, found: &DMatrix<f64>) -> f64 {
     const BATCHES: usize = 50;
     let draws = draws_of(fit, 200 * BATCHES, 6);
     let batches: Vec<DMatrix<f64>> =
@@ -236,7 +236,7 @@ fn curvature_apart(side: &Side, fit: &Gaussian, found: &DMatrix<f64>) -> f64 {
 }
 
 /// −∇ log p in double precision.
-fn slope(side: &Side, sigma: f64, point: &DVector<f64>) -> DVector<f64> {
+fn slope(side: &ResidualOperator, sigma: f64, point: &DVector<f64>) -> DVector<f64> {
     let (distance, gradient) = side.distance_and_gradient(point.as_slice());
     let (_, plain) = side.plausibility(point.as_slice());
     DVector::from_vec(gradient) * (distance / (sigma * sigma)) + DVector::from_vec(plain)
@@ -244,7 +244,7 @@ fn slope(side: &Side, sigma: f64, point: &DVector<f64>) -> DVector<f64> {
 
 /// How far a fit is from mode and curvature: the whitened gradient at its mean, and the largest entry
 /// of Λ minus differences of the gradient, over the largest of Λ.
-fn off_laplace(side: &Side, sigma: f64, fit: &Gaussian) -> (f64, f64) {
+fn off_laplace(side: &ResidualOperator, sigma: f64, fit: &Gaussian) -> (f64, f64) {
     let whitened = fit.transform().tr_mul(&slope(side, sigma, fit.mean())).amax();
     let mut worst = 0.0_f64;
     for mode in 0..fit.dimension() {
@@ -287,7 +287,7 @@ fn there_is_no_laplace_fit_where_the_models_meet_exactly() {
     let mean = DVector::zeros(30);
     let a = model(3, mean.clone(), &base.columns(0, 3).into_owned(), &[3.0, 2.0, 1.0]);
     let b = model(3, mean, &base.columns(1, 3).into_owned(), &[3.0, 2.0, 1.0]);
-    let side = Side::new(&a, &b);
+    let side = ResidualOperator::new(&a, &b);
     let start = fit_rms(&side, 0.1).unwrap();
     assert!(fit_laplace(&side, 0.1, &start).is_none(), "at the mode itself");
     let wide = Gaussian::from_precision(DVector::from_element(3, 0.7), start.precision().clone());
@@ -298,7 +298,7 @@ fn there_is_no_laplace_fit_where_the_models_meet_exactly() {
 fn a_large_operator_in_single_precision_fits_the_same() {
     // 3 · 2,000 · 50 numbers: more than are kept in double precision.
     let (a, b) = face_like_pair(2000, 50);
-    let (side, sigma) = (Side::new(&a, &b), 0.1);
+    let (side, sigma) = (ResidualOperator::new(&a, &b), 0.1);
     let rounded = side.residual().iter().all(|value| {
         #[allow(
             clippy::cast_possible_truncation,
@@ -326,7 +326,7 @@ fn a_large_operator_in_single_precision_fits_the_same() {
 #[test]
 fn a_fit_over_some_vertices_ends_near_that_over_all() {
     let (a, b) = face_like_pair(2000, 12);
-    for side in [Side::new(&a, &b), Side::new(&b, &a)] {
+    for side in [ResidualOperator::new(&a, &b), ResidualOperator::new(&b, &a)] {
         let sigma = 0.1;
         let mut some = fit_rms(&side, sigma).unwrap();
         for _ in 0..6 {

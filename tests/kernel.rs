@@ -6,7 +6,9 @@ use crate::common::{draws_of, face_like_pair, log_posterior, random_orthonormal}
 use nalgebra::DVector;
 use proptest::prelude::*;
 use shapevenn::model::LinearModel;
-use shapevenn::pair::{DistanceKernel, Intersection, Side, fit_rms, fit_variational_step};
+use shapevenn::pair::{
+    DistanceKernel, Intersection, ResidualOperator, fit_rms, fit_variational_step,
+};
 use shapevenn::sampling::{Stream, Target, fill_normal, stream};
 
 /// A kernel with its inputs.
@@ -238,7 +240,7 @@ fn gradients_have_the_same_bits_whatever_runs_beside_them() {
 fn single_precision_changes_log_p_by_less_than_a_thousandth_at_posterior_draws() {
     let (a, b) = face_like_pair(600, 12);
     for (from, to) in [(&a, &b), (&b, &a)] {
-        let side = Side::new(from, to);
+        let side = ResidualOperator::new(from, to);
         for sigma in [0.01, 0.03, 0.3] {
             let mut fit = fit_rms(&side, sigma).unwrap();
             for _ in 0..3 {
@@ -287,7 +289,7 @@ fn any_pair() -> impl Strategy<Value = (LinearModel, LinearModel)> {
 
 /// r(a) and the shape that is projected.
 fn residual(from: &LinearModel, to: &LinearModel, point: &[f64]) -> DVector<f64> {
-    DVector::from_vec(Side::new(from, to).residual_at(point))
+    DVector::from_vec(ResidualOperator::new(from, to).residual_at(point))
 }
 
 proptest! {
@@ -321,7 +323,7 @@ proptest! {
         let there = LinearModel::from_scaled_basis(
             b.dimension(), b.shape(&moved), inside.scaled_basis(),
         ).unwrap().0;
-        let side = Side::new(&there, &b);
+        let side = ResidualOperator::new(&there, &b);
         let point = vec![z; there.mode_count()];
         let scale = 1.0 + there.shape(&point).norm() + a.mean().norm();
         prop_assert!(side.mean_vertex_distance(&point) < 1e-13 * scale, "inside");
@@ -335,7 +337,7 @@ proptest! {
         let away = &shape - b.mean();
         let nearest = b.mean() + b.basis() * b.basis().tr_mul(&away);
         let expected = shapevenn::measure::mean_vertex_distance(&shape, &nearest, a.dimension());
-        let side = Side::new(&a, &b);
+        let side = ResidualOperator::new(&a, &b);
         let scale = 1.0 + shape.norm();
         prop_assert!((side.mean_vertex_distance(&point) - expected).abs() < 1e-12 * scale, "d");
         // ‖a′‖² + ‖a‖², a′ by its definition.

@@ -8,6 +8,7 @@ use shapevenn::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, bhattacharyya_distance, principal_angles,
     vertex_standard_deviations,
 };
+use shapevenn::model::Side;
 use shapevenn::model::{Alignment, LinearModel, principal_components};
 use shapevenn::pair::{Moments, Pair};
 use shapevenn::sampling::{pareto_k, summarise};
@@ -150,9 +151,9 @@ fn the_overlap_of_constructed_models_is_what_they_were_built_with() {
 }
 
 /// All shapes of the intersection's draws of one side, one a column.
-fn lifted(run: &shapevenn::comparison::Comparison, side: usize) -> DMatrix<f64> {
+fn lifted(run: &shapevenn::comparison::Comparison, side: Side) -> DMatrix<f64> {
     let from = run.pair().models()[side];
-    let draws = &run.results().intersection[side];
+    let draws = &run.results().intersection[side.index()];
     let shapes: Vec<DVector<f64>> = draws.iter_slices().map(|point| from.shape(point)).collect();
     DMatrix::from_columns(&shapes)
 }
@@ -185,7 +186,8 @@ fn components_in_the_joint_basis_are_those_of_all_coordinates() {
     let (a, b) = face_like_pair(14, 4);
     // Of chains whose draws make the model, without weights.
     let run = compared(&a, &b, Settings { draws: 320, ..Settings::of(Sampler::Hmc) });
-    let [(mean_a, first), (mean_b, second)] = [0, 1].map(|side| covariance(&lifted(&run, side)));
+    let [(mean_a, first), (mean_b, second)] =
+        Side::BOTH.map(|side| covariance(&lifted(&run, side)));
     let mean = (&mean_a + &mean_b) * 0.5;
     let apart = (&mean_a - &mean_b) * 0.5;
     let whole = (first + second) * 0.5 + &apart * apart.transpose();
@@ -262,13 +264,14 @@ fn the_joint_basis_holds_both_models() {
         assert!(size <= (modes_a + modes_b + 1).min(3 * points), "{name}: {size} dimensions");
         let gram = joint.basis().tr_mul(&joint.basis());
         assert!((gram - DMatrix::identity(size, size)).amax() < 1e-13, "{name}: orthonormal");
-        for (side, from) in pair.models().into_iter().enumerate() {
+        for side in Side::BOTH {
+            let from = pair.models()[side];
             let prior = joint.prior(side);
             let mean = joint.origin() + joint.basis() * &prior.mean;
-            assert!((mean - from.mean()).amax() < 1e-12, "{name}: mean of side {side}");
+            assert!((mean - from.mean()).amax() < 1e-12, "{name}: mean of side {side:?}");
             let covariance = joint.basis() * &prior.covariance * joint.basis().transpose();
             let expected = from.scaled_basis() * from.scaled_basis().transpose();
-            assert!((covariance - expected).amax() < 1e-12, "{name}: covariance of side {side}");
+            assert!((covariance - expected).amax() < 1e-12, "{name}: covariance of side {side:?}");
         }
     }
 }

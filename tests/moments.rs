@@ -6,8 +6,9 @@ use crate::common::{
 };
 use nalgebra::{DMatrix, DVector};
 use shapevenn::demos::{STAR_ROWS, star_pair};
+use shapevenn::model::Side;
 use shapevenn::model::{Alignment, LinearModel};
-use shapevenn::pair::{Intersection, Pair, Side, fit_rms, fit_variational_step};
+use shapevenn::pair::{Intersection, Pair, ResidualOperator, fit_rms, fit_variational_step};
 use shapevenn::report::MomentSource;
 use shapevenn::sampling::{Gaussian, Importance, ImportanceEstimate};
 use shapevenn::settings::{Sampler, Settings};
@@ -22,9 +23,9 @@ fn pair() -> (LinearModel, LinearModel) {
 }
 
 /// The first side and its variational fit.
-fn fitted() -> (Side, Gaussian) {
+fn fitted() -> (ResidualOperator, Gaussian) {
     let (a, b) = pair();
-    let side = Pair::new(&a, &b, Alignment::None, None).unwrap().side(0);
+    let side = Pair::new(&a, &b, Alignment::None, None).unwrap().residual_operator(Side::A);
     let mut fit = fit_rms(&side, SIGMA).unwrap();
     for _ in 0..6 {
         fit = fit_variational_step(&side, SIGMA, &fit).unwrap().0;
@@ -32,7 +33,12 @@ fn fitted() -> (Side, Gaussian) {
     (side, fit)
 }
 
-fn estimate(side: &Side, fit: &Gaussian, draws: usize, seed: u64) -> ImportanceEstimate {
+fn estimate(
+    side: &ResidualOperator,
+    fit: &Gaussian,
+    draws: usize,
+    seed: u64,
+) -> ImportanceEstimate {
     let target = Intersection::new(side, SIGMA, fit.mean());
     let mut run = Importance::new(fit.clone(), draws, seed, 0);
     while run.remaining() > 0 {
@@ -120,7 +126,12 @@ fn gradients_beat_weighted_moments_with_a_control_variate() {
 }
 
 /// Weighted minus unweighted moments of antithetic draws, on top of the fit's own.
-fn control_variate(side: &Side, fit: &Gaussian, draws: usize, seed: u64) -> ImportanceEstimate {
+fn control_variate(
+    side: &ResidualOperator,
+    fit: &Gaussian,
+    draws: usize,
+    seed: u64,
+) -> ImportanceEstimate {
     use shapevenn::sampling::Target;
     let half = crate::common::draws_of(fit, draws / 2, 100 + seed);
     let points: Vec<Vec<f64>> = half

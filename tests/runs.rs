@@ -11,6 +11,7 @@ use shapevenn::error::ComparisonError;
 use shapevenn::files::{self, Download};
 use shapevenn::formats::{self, Array, Data, Input, Options};
 use shapevenn::model::LinearModel;
+use shapevenn::model::Side;
 use shapevenn::report::{ModelReport, Seconds};
 use shapevenn::sampling::{autocorrelation, rank_histograms, split_r_hat};
 use shapevenn::settings::{Sampler, Settings};
@@ -29,12 +30,13 @@ fn single(values: &[f64]) -> Vec<f32> {
 fn figures_of_chains_are_those_behind_the_reports_r_hat() {
     let run = finished(Settings { draws: 800, ..Settings::default() });
     let coefficients = report(&run).intersection.coefficients.unwrap();
-    for (side, stated) in [coefficients.a, coefficients.b].into_iter().enumerate() {
-        let draws = &run.results().intersection[side];
+    for side in Side::BOTH {
+        let stated = &coefficients[side];
+        let draws = &run.results().intersection[side.index()];
         for mode in 0..4 {
             let chains = along(draws, |point| point[mode]);
             let found = run.diagnose(side, mode).unwrap();
-            let what = format!("side {side}, mode {mode}");
+            let what = format!("side {side:?}, mode {mode}");
             assert_eq!((found.chains, found.length, found.every), (8, 100, 1), "{what}: all");
             assert_eq!(found.draws, single(&chains.concat()), "{what}: draws");
             assert_eq!(found.distances, single(&draws.statistics.concat()), "{what}: distances");
@@ -60,13 +62,13 @@ fn long_chains_are_thinned_and_their_correlation_is_followed_until_it_is_lost() 
         ..Settings::of(Sampler::PaperCorrected)
     };
     let run = finished(settings);
-    let found = run.diagnose(0, 0).unwrap();
+    let found = run.diagnose(Side::A, 0).unwrap();
     assert_eq!((found.every, found.length), (3, 401), "1,202 draws, each third of them");
     assert_eq!(found.draws.len(), 8 * 401, "of eight chains");
     let counted: u32 = found.ranks.iter().sum();
     assert_eq!((found.bins, counted), (20, 9616), "ranks are of all draws");
     assert_eq!(found.autocorrelation.len(), 101, "a random walk is correlated for long");
-    let independent = finished(Settings::of(Sampler::Variational)).diagnose(0, 0).unwrap();
+    let independent = finished(Settings::of(Sampler::Variational)).diagnose(Side::A, 0).unwrap();
     let lags = independent.autocorrelation.len();
     assert!((20..40).contains(&lags), "independent draws are not: {lags} lags");
     assert!(independent.autocorrelation[1].abs() < 0.08, "five standard errors");
@@ -75,20 +77,20 @@ fn long_chains_are_thinned_and_their_correlation_is_followed_until_it_is_lost() 
 #[test]
 fn pairs_are_draws_of_all_chains_beside_the_moments_and_the_fit() {
     let run = finished(Settings { draws: 800, ..Settings::default() });
-    let found = run.pairs(1, 3, 200).unwrap();
+    let found = run.pairs(Side::B, 3, 200).unwrap();
     assert_eq!((found.modes.as_slice(), found.count), (&[0, 1, 2][..], 200), "as asked for");
     let draws = &run.results().intersection[1];
     let expected: Vec<f64> =
         draws.iter_slices().step_by(4).flat_map(|point| point[..3].to_vec()).collect();
     assert_eq!(found.draws, single(&expected), "each fourth draw");
-    let moments = run.moments(1).unwrap();
+    let moments = run.moments(Side::B).unwrap();
     assert_eq!(found.moments.mean, moments.mean.as_slice()[..3], "mean");
     assert_eq!(found.moments.covariance[1], moments.covariance[(0, 1)], "covariance");
     let fit = run.fits().unwrap()[1];
     let marginal = found.fit.unwrap();
     assert_eq!(marginal.mean, fit.mean().as_slice()[..3], "mean of the fit");
     assert_eq!(marginal.covariance[8], fit.covariance()[(2, 2)], "variance of the fit");
-    assert_eq!(run.pairs(1, 100, 100_000).unwrap().count, 800, "no more than there are");
+    assert_eq!(run.pairs(Side::B, 100, 100_000).unwrap().count, 800, "no more than there are");
 }
 
 #[test]
@@ -98,28 +100,28 @@ fn stored_and_cancelled_runs_have_figures_and_runs_without_draws_say_so() {
     let stored = run.results().to_arrays();
     let restored = Comparison::restored(&a, &b, report(&run), &stored).unwrap();
     // Ranks and draws survive single precision; correlations do but for rounding.
-    let [before, after] = [&run, &restored].map(|run| run.diagnose(0, 2).unwrap());
+    let [before, after] = [&run, &restored].map(|run| run.diagnose(Side::A, 2).unwrap());
     assert_eq!((&before.draws, &before.ranks), (&after.draws, &after.ranks), "the same");
     assert!((before.autocorrelation[1] - after.autocorrelation[1]).abs() < 1e-6, "correlation");
-    let pairs = restored.pairs(0, 2, 50).unwrap();
+    let pairs = restored.pairs(Side::A, 2, 50).unwrap();
     assert_eq!((pairs.count, pairs.fit), (50, None), "no fit is stored");
 
     let described = [&a, &b].map(|model| ModelReport::new(model, "test", &[]));
     let mut run = Comparison::new(&a, &b, described, Settings::default()).unwrap();
     let none = ComparisonError::NoDraws { side: "B" };
-    assert_eq!(run.diagnose(1, 0), Err(none.clone()), "before the first draw");
+    assert_eq!(run.diagnose(Side::B, 0), Err(none.clone()), "before the first draw");
     assert_eq!(none.code(), "no-draws", "code");
     while run.results().intersection.iter().any(|side| side.len() < 400) {
         run.advance(64).unwrap();
     }
-    let partial = run.diagnose(1, 0).unwrap();
+    let partial = run.diagnose(Side::B, 0).unwrap();
     assert!(partial.length < 500, "while it goes on: {}", partial.length);
     run.cancel();
     while run.stage() != Stage::Done {
         run.advance(1).unwrap();
     }
-    assert_eq!(run.diagnose(1, 0).unwrap(), partial, "cancelled");
-    let beyond = run.diagnose(0, 4).unwrap_err();
+    assert_eq!(run.diagnose(Side::B, 0).unwrap(), partial, "cancelled");
+    let beyond = run.diagnose(Side::A, 4).unwrap_err();
     assert_eq!(beyond.to_string(), "Mode 5 was asked for, but the model has 4.", "no such mode");
 }
 

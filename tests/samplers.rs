@@ -3,7 +3,9 @@
 
 use crate::common::{along, face_like_pair, mean_and_error, model};
 use nalgebra::{DMatrix, DVector};
-use shapevenn::pair::{Intersection, Side, fit_rms, fit_variational_step, without_distance};
+use shapevenn::pair::{
+    Intersection, ResidualOperator, fit_rms, fit_variational_step, without_distance,
+};
 use shapevenn::sampling::{
     Chains, Draws, Gaussian, IndependenceChains, Schedule, Stream, Target, WhitenedChains,
     fill_normal, pareto_k, stream, summarise, uniform,
@@ -12,7 +14,12 @@ use shapevenn::sampling::{
 const SAMPLERS: [&str; 5] =
     ["independence", "hamiltonian", "hamiltonian, 1 leap", "langevin", "crank-nicolson"];
 
-fn chains(name: &str, side: &Side, fit: &Gaussian, schedule: Schedule) -> Box<dyn Chains> {
+fn chains(
+    name: &str,
+    side: &ResidualOperator,
+    fit: &Gaussian,
+    schedule: Schedule,
+) -> Box<dyn Chains> {
     let fit = fit.clone();
     match name {
         "independence" => {
@@ -26,7 +33,7 @@ fn chains(name: &str, side: &Side, fit: &Gaussian, schedule: Schedule) -> Box<dy
     }
 }
 
-fn variational(side: &Side, sigma: f64) -> Gaussian {
+fn variational(side: &ResidualOperator, sigma: f64) -> Gaussian {
     let mut fit = fit_rms(side, sigma).unwrap();
     for _ in 0..8 {
         fit = fit_variational_step(side, sigma, &fit).unwrap().0;
@@ -36,7 +43,7 @@ fn variational(side: &Side, sigma: f64) -> Gaussian {
 
 /// One coordinate of one point for each mode, some of them shared: the distance is nearly an L1 norm of
 /// the coefficients, which no Gaussian fits.
-fn coordinate_models(points: usize, modes: usize, shared: usize) -> Side {
+fn coordinate_models(points: usize, modes: usize, shared: usize) -> ResidualOperator {
     let mut random = stream(3, Stream::Display, 9, 0);
     let mut places: Vec<usize> = (0..3 * points).collect();
     let mut column = |_: usize| {
@@ -57,7 +64,7 @@ fn coordinate_models(points: usize, modes: usize, shared: usize) -> Side {
         }
         model(3, mean.clone(), &basis, &deviations)
     };
-    Side::new(&build(0), &build(modes - shared))
+    ResidualOperator::new(&build(0), &build(modes - shared))
 }
 
 /// Effective draws of the worst coefficient or its square, and the largest R-hat.
@@ -75,7 +82,7 @@ fn worst(draws: &Draws) -> (f64, f64) {
 #[test]
 fn all_samplers_agree_on_a_posterior_of_faces() {
     let (a, b) = face_like_pair(300, 10);
-    let side = Side::new(&a, &b);
+    let side = ResidualOperator::new(&a, &b);
     let sigma = 0.1;
     // A poor fit on purpose: what is right afterwards is the samplers' merit.
     let fit = fit_rms(&side, sigma).unwrap();
@@ -114,7 +121,7 @@ fn all_samplers_agree_on_a_posterior_of_faces() {
 fn effective_draws() {
     let faces = |modes: usize| {
         let (a, b) = face_like_pair(1000, modes);
-        Side::new(&a, &b)
+        ResidualOperator::new(&a, &b)
     };
     for (what, side, sigma) in [
         ("faces, 50 modes", faces(50), 0.02),

@@ -9,6 +9,7 @@
 use crate::common::{compared, grassmann, random_orthonormal};
 use nalgebra::{DMatrix, DVector};
 use shapevenn::comparison::Comparison;
+use shapevenn::model::Side;
 use shapevenn::model::{Alignment, LinearModel};
 use shapevenn::pair::{Joint, Moments, Pair, fit_rms, fit_variational_step};
 use shapevenn::settings::{Sampler, Settings};
@@ -64,13 +65,13 @@ fn split(seed: u64) -> Split {
 fn closed_form(split: &Split) -> (Joint, Moments) {
     let pair = Pair::new(&split.a, &split.b, Alignment::None, None).unwrap();
     let joint = pair.joint();
-    let [first, second] = [0, 1].map(|index| {
-        let side = pair.side(index);
-        let mut fit = fit_rms(&side, SIGMA).unwrap();
+    let [first, second] = Side::BOTH.map(|side| {
+        let operator = pair.residual_operator(side);
+        let mut fit = fit_rms(&operator, SIGMA).unwrap();
         for _ in 0..4 {
-            fit = fit_variational_step(&side, SIGMA, &fit).unwrap().0;
+            fit = fit_variational_step(&operator, SIGMA, &fit).unwrap().0;
         }
-        joint.lift(index, &Moments { mean: fit.mean().clone(), covariance: fit.covariance() })
+        joint.lift(side, &Moments { mean: fit.mean().clone(), covariance: fit.covariance() })
     });
     (joint, Moments::pooled(&first, &second))
 }
@@ -111,8 +112,8 @@ fn the_closed_form_recovers_the_shared_modes_exactly() {
 fn of_draws(split: &Split, run: &Comparison) -> LinearModel {
     let joint = Pair::new(&split.a, &split.b, Alignment::None, None).unwrap().joint();
     let results = run.results();
-    let [first, second] = [0, 1].map(|side| {
-        let draws = &results.intersection[side];
+    let [first, second] = Side::BOTH.map(|side| {
+        let draws = &results.intersection[side.index()];
         joint.lift(side, &Moments::of(draws.iter_slices(), draws.dimension))
     });
     joint.model(&Moments::pooled(&first, &second), SHARED).unwrap()

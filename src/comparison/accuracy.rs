@@ -12,6 +12,7 @@
 //!
 //! **Cost.** Two products with p × k matrices a group. **Limits.** Only the first [`MOST_MODES`] modes.
 
+use crate::model::Side;
 use nalgebra::DMatrix;
 
 use super::inference::Estimate;
@@ -28,7 +29,7 @@ const TRUSTED_TURN: f64 = 0.2;
 /// Errors of the model with moments `pooled` and `kept` modes; `None` where nothing is known of them.
 pub(super) fn accuracy(
     joint: &Joint,
-    estimates: &[(usize, Estimate)],
+    estimates: &[(Side, Estimate)],
     pooled: &Moments,
     kept: usize,
 ) -> Option<Accuracy> {

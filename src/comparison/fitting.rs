@@ -4,8 +4,9 @@
 //! weights, (Σw)²/(N Σw²). Only where that is low are the reweighted, Laplace and rms fits tried as well. A
 //! fit that is asked for by name is taken as it is.
 
+use crate::model::Side;
 use crate::pair::{
-    Fit, FitMethod, Intersection, Side, fit_laplace, fit_reweighted, fit_rms,
+    Fit, FitMethod, Intersection, ResidualOperator, fit_laplace, fit_reweighted, fit_rms,
     fit_variational_step_every,
 };
 use crate::sampling::{Gaussian, Stream, Target, fill_normal, importance_ess, stream};
@@ -30,7 +31,7 @@ pub(super) struct Fitting {
     sigma: f64,
     seed: u64,
     choice: FitChoice,
-    side: usize,
+    side: Side,
     rms: Gaussian,
     current: Gaussian,
     iterations: usize,
@@ -43,10 +44,10 @@ pub(super) struct Fitting {
 impl Fitting {
     /// Starts from the rms fit; `None` when its numbers overflow.
     pub(super) fn new(
-        operator: &Side,
+        operator: &ResidualOperator,
         sigma: f64,
         settings: &Settings,
-        side: usize,
+        side: Side,
     ) -> Option<Self> {
         let rms = fit_rms(operator, sigma)?;
         Some(Self {
@@ -64,7 +65,7 @@ impl Fitting {
     }
 
     /// One iteration; the fit once it is decided.
-    pub(super) fn advance(&mut self, operator: &Side) -> Option<Fit> {
+    pub(super) fn advance(&mut self, operator: &ResidualOperator) -> Option<Fit> {
         match self.choice {
             FitChoice::Rms => return Some(self.rms_fit()),
             FitChoice::Reweighted | FitChoice::Laplace => {
@@ -100,7 +101,7 @@ impl Fitting {
     }
 
     /// One variational iteration: over some of the vertices until it is at rest, then once over all.
-    fn iterate(&mut self, operator: &Side) {
+    fn iterate(&mut self, operator: &ResidualOperator) {
         let stride = if self.nearly { 1 } else { operator.point_count().div_ceil(MANY_VERTICES) };
         match fit_variational_step_every(operator, self.sigma, &self.current, stride) {
             Some((next, step)) => {
@@ -119,7 +120,7 @@ impl Fitting {
     }
 
     /// The fits beside the variational one, as far as they exist.
-    fn others(&self, operator: &Side) -> Vec<Fit> {
+    fn others(&self, operator: &ResidualOperator) -> Vec<Fit> {
         let reweighted = fit_reweighted(operator, self.sigma, &self.rms, REWEIGHTED_ROUNDS)
             .map(|gaussian| Fit { method: FitMethod::Reweighted, gaussian });
         let laplace = fit_laplace(operator, self.sigma, &self.current)
@@ -133,9 +134,9 @@ impl Fitting {
     }
 
     /// (Σw)²/(N Σw²) of the pilot's importance weights; every fit is tried with the same numbers.
-    fn effective_share(&mut self, operator: &Side, fit: &Gaussian) -> f64 {
+    fn effective_share(&mut self, operator: &ResidualOperator, fit: &Gaussian) -> f64 {
         let modes = fit.dimension();
-        let mut random = stream(self.seed, Stream::Pilot, self.side, 0);
+        let mut random = stream(self.seed, Stream::Pilot, self.side.index(), 0);
         let mut normals = vec![0.0; PILOT_DRAWS * modes];
         fill_normal(&mut random, &mut normals);
         let mut points = vec![0.0; normals.len()];
@@ -156,10 +157,10 @@ impl Fitting {
 
 /// The fit that a run with these settings decides for, at once; `None` when its numbers overflow.
 pub(crate) fn settled_fit(
-    operator: &Side,
+    operator: &ResidualOperator,
     sigma: f64,
     settings: &Settings,
-    side: usize,
+    side: Side,
 ) -> Option<Fit> {
     let mut fitting = Fitting::new(operator, sigma, settings, side)?;
     loop {

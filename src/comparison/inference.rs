@@ -6,7 +6,8 @@
 //! Hamiltonian Monte Carlo, which does not freeze where the fit misses a tail.
 
 use super::fitting::Fitting;
-use crate::pair::{Fit, Intersection, Moments, Side, without_distance};
+use crate::model::Side;
+use crate::pair::{Fit, Intersection, Moments, ResidualOperator, without_distance};
 use crate::report::{InferenceReport, MomentSource};
 use crate::sampling::{
     Chains, Draws, EndedChains, FitChains, Gaussian, Importance, ImportanceEstimate,
@@ -35,7 +36,7 @@ pub(super) struct Estimate {
 /// One side of the intersection, from its fit to its last draw.
 #[derive(Debug)]
 pub(super) struct Inference {
-    side: usize,
+    side: Side,
     fitting: Option<Fitting>,
     fit: Option<Fit>,
     importance: Option<Importance>,
@@ -50,8 +51,8 @@ pub(super) struct Inference {
 impl Inference {
     /// Starts with the fit; `None` when its numbers overflow.
     pub(super) fn new(
-        operator: &Side,
-        side: usize,
+        operator: &ResidualOperator,
+        side: Side,
         sigma: f64,
         settings: &Settings,
     ) -> Option<Self> {
@@ -71,7 +72,7 @@ impl Inference {
     /// A side that has ended, known by its draws and, where they were kept, its moments.
     pub(super) fn ended(draws: Draws, moments: Option<Moments>) -> Self {
         Self {
-            side: 0,
+            side: Side::A,
             fitting: None,
             fit: None,
             importance: None,
@@ -103,7 +104,7 @@ impl Inference {
     }
 
     /// One iteration of the fit; whether it is decided.
-    pub(super) fn advance_fit(&mut self, operator: &Side) -> bool {
+    pub(super) fn advance_fit(&mut self, operator: &ResidualOperator) -> bool {
         if self.fit.is_none() {
             self.fit = self.fitting.as_mut().and_then(|fitting| fitting.advance(operator));
         }
@@ -113,7 +114,7 @@ impl Inference {
     /// About `evaluations` evaluations' worth of drawing. `None` when a sampler cannot start.
     pub(super) fn advance(
         &mut self,
-        operator: &Side,
+        operator: &ResidualOperator,
         sigma: f64,
         settings: &Settings,
         evaluations: usize,
@@ -123,7 +124,7 @@ impl Inference {
         if wants_weights(settings.sampler) && self.weighted.is_none() {
             let importance = self.importance.get_or_insert_with(|| {
                 let gaussian = fit.gaussian.clone();
-                Importance::new(gaussian, settings.weighted, settings.seed, self.side)
+                Importance::new(gaussian, settings.weighted, settings.seed, self.side.index())
             });
             importance.advance(&target, evaluations.div_ceil(2));
             self.weighted = importance.estimate();
@@ -245,25 +246,31 @@ fn schedule(sampler: Sampler, settings: &Settings) -> Schedule {
 fn start(
     sampler: Sampler,
     fit: &Gaussian,
-    operator: &Side,
-    side: usize,
+    operator: &ResidualOperator,
+    side: Side,
     settings: &Settings,
 ) -> Option<Box<dyn Chains>> {
     let (fit, seed, schedule) = (fit.clone(), settings.seed, schedule(sampler, settings));
     let walk = |scaling: Scaling| {
-        Box::new(RandomWalkChains::new(operator.mode_count(), scaling, schedule, seed, side))
+        Box::new(RandomWalkChains::new(
+            operator.mode_count(),
+            scaling,
+            schedule,
+            seed,
+            side.index(),
+        ))
     };
     Some(match sampler {
-        Sampler::Variational => Box::new(FitChains::new(fit, schedule, seed, side)),
+        Sampler::Variational => Box::new(FitChains::new(fit, schedule, seed, side.index())),
         Sampler::Auto | Sampler::Independence => {
             let defence = without_distance(operator)?;
-            Box::new(IndependenceChains::new(fit, defence, schedule, seed, side))
+            Box::new(IndependenceChains::new(fit, defence, schedule, seed, side.index()))
         }
         Sampler::Hmc => {
-            Box::new(WhitenedChains::hamiltonian(fit, MOST_LEAPS, schedule, seed, side))
+            Box::new(WhitenedChains::hamiltonian(fit, MOST_LEAPS, schedule, seed, side.index()))
         }
-        Sampler::Mala => Box::new(WhitenedChains::langevin(fit, schedule, seed, side)),
-        Sampler::Pcn => Box::new(WhitenedChains::crank_nicolson(fit, schedule, seed, side)),
+        Sampler::Mala => Box::new(WhitenedChains::langevin(fit, schedule, seed, side.index())),
+        Sampler::Pcn => Box::new(WhitenedChains::crank_nicolson(fit, schedule, seed, side.index())),
         Sampler::Paper => walk(Scaling::AsPublished),
         Sampler::PaperCorrected => walk(Scaling::Corrected),
     })

@@ -17,6 +17,7 @@ mod summary;
 mod warnings;
 
 use crate::error::ComparisonError;
+use crate::model::Side;
 use crate::settings::Settings;
 pub(crate) use fitting::settled_fit;
 pub(crate) use inference::MOST_LEAPS;
@@ -34,7 +35,7 @@ use serde::Serialize;
 use crate::model::LinearModel;
 use crate::pair::{
     Criterion, Difference, DifferenceDefinition, Joint, JointModel, Level, Meeting, Moments, Pair,
-    Side, Tolerance, nearest_meeting, plausible_radius, recommended_tolerance,
+    ResidualOperator, Tolerance, nearest_meeting, plausible_radius, recommended_tolerance,
 };
 use crate::report::{Diagnostics, DifferenceReport, ModeDiagnostics, ModelReport, Report, Seconds};
 use crate::sampling::{Draws, Gaussian, Rejection};
@@ -92,7 +93,7 @@ pub struct Comparison {
     described: [ModelReport; 2],
     settings: Settings,
     stage: Stage,
-    sides: Vec<Side>,
+    sides: Vec<ResidualOperator>,
     joint: Option<Joint>,
     tolerance: Option<Tolerance>,
     meeting: Option<Meeting>,
@@ -175,7 +176,7 @@ impl Comparison {
     ) -> Result<Self, ComparisonError> {
         let described = [report.models.a.clone(), report.models.b.clone()];
         let mut run = Self::new(a, b, described, report.settings.clone())?;
-        let modes = run.pair.models().map(LinearModel::mode_count);
+        let modes = run.pair.models().map(LinearModel::mode_count).into_array();
         let Results { intersection, differences, moments } = Results::from_arrays(draws, modes)?;
         run.joint = Some(run.pair.joint());
         let ended = intersection.into_iter().zip(moments);
@@ -253,8 +254,8 @@ impl Comparison {
 
     /// The Gaussian fits of both sides, A first, once they are decided.
     pub fn fits(&self) -> Option<[&Gaussian; 2]> {
-        let fit = |side: usize| Some(&self.inferences.get(side)?.fit()?.gaussian);
-        Some([fit(0)?, fit(1)?])
+        let fit = |side: Side| Some(&self.inferences.get(side.index())?.fit()?.gaussian);
+        Some([fit(Side::A)?, fit(Side::B)?])
     }
 
     /// The intersection model, once the run is done. Its modes are formed for this: it takes as much
@@ -272,23 +273,27 @@ impl Comparison {
     /// All draws so far.
     pub fn results(&self) -> Results {
         let none =
-            |side: usize, chains: usize| Draws::new(self.pair.models()[side].mode_count(), chains);
-        let chain = |side: usize| {
-            self.inferences.get(side).map_or_else(|| none(side, 0), |one| one.draws().clone())
+            |side: Side, chains: usize| Draws::new(self.pair.models()[side].mode_count(), chains);
+        let chain = |side: Side| {
+            self.inferences
+                .get(side.index())
+                .map_or_else(|| none(side, 0), |one| one.draws().clone())
         };
-        let difference = |side: usize| {
-            self.rejections.get(side).map_or_else(|| none(side, 1), |run| run.draws().clone())
+        let difference = |side: Side| {
+            self.rejections
+                .get(side.index())
+                .map_or_else(|| none(side, 1), |run| run.draws().clone())
         };
         Results {
-            intersection: [chain(0), chain(1)],
-            differences: [difference(0), difference(1)],
-            moments: [self.moments(0), self.moments(1)],
+            intersection: [chain(Side::A), chain(Side::B)],
+            differences: [difference(Side::A), difference(Side::B)],
+            moments: [self.moments(Side::A), self.moments(Side::B)],
         }
     }
 
-    /// Moments of the coefficients of side 0 (A) or 1 (B) of the intersection, from what there is.
-    pub fn moments(&self, side: usize) -> Option<Moments> {
-        Some(self.inferences.get(side)?.estimate(self.settings.sampler)?.total)
+    /// Moments of the coefficients of one side of the intersection, from what there is.
+    pub fn moments(&self, side: Side) -> Option<Moments> {
+        Some(self.inferences.get(side.index())?.estimate(self.settings.sampler)?.total)
     }
 
     fn prepare(&mut self) {
@@ -297,7 +302,8 @@ impl Comparison {
         } else if self.joint.is_none() {
             self.joint = Some(self.pair.joint());
         } else if self.meeting.is_none() && !self.sides[0].is_contained(self.pair.scale()) {
-            let radii = self.pair.models().map(|model| plausible_radius(model.mode_count()));
+            let radii =
+                self.pair.models().map(|model| plausible_radius(model.mode_count())).into_array();
             self.meeting = nearest_meeting(&self.pair, radii);
         } else {
             let noise = self.settings.noise;
@@ -315,7 +321,8 @@ impl Comparison {
 
     fn push_side(&mut self) {
         let share = self.settings.plausibility.share();
-        self.sides.push(self.pair.side(self.sides.len()).with_plausibility(share));
+        let side = Side::BOTH[self.sides.len()];
+        self.sides.push(self.pair.residual_operator(side).with_plausibility(share));
     }
 
     /// The residual operators of both sides and the joint basis, where a run that was put back lacks them.
@@ -331,9 +338,9 @@ impl Comparison {
         self.settings.sigma.unwrap_or(f64::NAN)
     }
 
-    /// The error of side `side` whose numbers overflow.
-    fn overflow(&self, side: usize) -> ComparisonError {
-        ComparisonError::Fit { side: ["A", "B"][side], sigma: self.sigma() }
+    /// The error of a side whose numbers overflow.
+    fn overflow(&self, side: Side) -> ComparisonError {
+        ComparisonError::Fit { side: side.name(), sigma: self.sigma() }
     }
 
     fn fit(&mut self) -> Result<(), ComparisonError> {
@@ -343,8 +350,9 @@ impl Comparison {
                 self.inferences[side].advance_fit(&self.sides[side]);
             }
             None if self.inferences.len() < 2 => {
-                let side = self.inferences.len();
-                let inference = Inference::new(&self.sides[side], side, sigma, &self.settings);
+                let side = Side::BOTH[self.inferences.len()];
+                let inference =
+                    Inference::new(&self.sides[side.index()], side, sigma, &self.settings);
                 self.inferences.push(inference.ok_or_else(|| self.overflow(side))?);
             }
             None => {
@@ -362,22 +370,22 @@ impl Comparison {
             (_, Some(threshold)) => Level::Value(threshold),
             (_, None) => Level::Quantile(settings.difference_quantile),
         };
-        for side in 0..2 {
+        for side in Side::BOTH {
             let wanted = self.settings.difference_draws;
             let criterion = Criterion::new(
                 self.settings.difference,
                 level,
-                &self.sides[side],
+                &self.sides[side.index()],
                 self.pair.models()[side],
                 self.settings.seed,
-                side,
+                side.index(),
             );
             self.rejections.push(Rejection::new(
                 criterion.envelope().clone(),
                 wanted,
                 MOST_PROPOSALS_PER_DRAW * wanted as u64,
                 self.settings.seed,
-                side,
+                side.index(),
             ));
             self.criteria.push(criterion);
         }
@@ -386,13 +394,14 @@ impl Comparison {
     fn draw_intersection(&mut self, evaluations: usize) -> Result<(), ComparisonError> {
         let sigma = self.sigma();
         // The side that is behind goes first, so that both grow together.
-        let done = [0, 1].map(|side| self.inferences[side].fraction(&self.settings));
-        let side = usize::from(done[1] < done[0]);
-        let unfinished =
-            [side, 1 - side].into_iter().find(|&side| !self.inferences[side].is_done());
+        let done = Side::BOTH.map(|side| self.inferences[side.index()].fraction(&self.settings));
+        let behind = if done[1] < done[0] { Side::B } else { Side::A };
+        let unfinished = [behind, behind.other()]
+            .into_iter()
+            .find(|side| !self.inferences[side.index()].is_done());
         match unfinished {
-            Some(side) => self.inferences[side]
-                .advance(&self.sides[side], sigma, &self.settings, evaluations)
+            Some(side) => self.inferences[side.index()]
+                .advance(&self.sides[side.index()], sigma, &self.settings, evaluations)
                 .ok_or_else(|| self.overflow(side)),
             None => {
                 self.stage = Stage::Differences;
@@ -404,9 +413,10 @@ impl Comparison {
     fn draw_differences(&mut self) {
         /// Blocks of 256 proposals that run at once.
         const BLOCKS: usize = 8;
-        let unfinished =
-            (0..2).find(|&side| !self.rejections[side].is_done() && !self.is_empty(side));
-        match unfinished {
+        let unfinished = Side::BOTH
+            .into_iter()
+            .find(|&side| !self.rejections[side.index()].is_done() && !self.is_empty(side));
+        match unfinished.map(Side::index) {
             Some(side) => {
                 let target = Difference::new(&self.sides[side], &self.criteria[side]);
                 self.rejections[side].advance(&target, BLOCKS);
@@ -416,8 +426,8 @@ impl Comparison {
     }
 
     /// Whether the other model makes every shape of this side, to rounding: the difference is empty.
-    fn is_empty(&self, side: usize) -> bool {
-        self.settings.difference.is_empty(&self.sides[side], self.pair.scale())
+    fn is_empty(&self, side: Side) -> bool {
+        self.settings.difference.is_empty(&self.sides[side.index()], self.pair.scale())
     }
 
     fn progress(&mut self) -> Progress {

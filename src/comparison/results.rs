@@ -1,5 +1,6 @@
 //! The draws of a run, the principal components of the intersection, and the report made from them.
 
+use crate::model::{Side, Sides};
 use nalgebra::{DMatrix, DVector};
 
 use super::accuracy::accuracy;
@@ -16,9 +17,9 @@ use crate::model::LinearModel;
 use crate::pair::{Joint, JointModel, Moments};
 use crate::relate::{affine_space, overlap};
 use crate::report::{
-    BothSides, Compactness, DifferenceReport, Differences, Disagreement, EnvelopeName,
-    ExclusiveReport, Grassmann, InferenceReport, IntersectionReport, LinearSplitReport, MeanSd,
-    Models, Report, SCHEMA, Seconds, Sides, Spread, ToleranceReport,
+    Compactness, DifferenceReport, Differences, Disagreement, EnvelopeName, ExclusiveReport,
+    Grassmann, InferenceReport, IntersectionReport, LinearSplitReport, MeanSd, Models, Report,
+    SCHEMA, Seconds, Spread, ToleranceReport,
 };
 use crate::sampling::{Draws, Envelope};
 use crate::settings::Pooling;
@@ -136,13 +137,13 @@ impl Results {
             }
             Ok(draws)
         };
-        let moments = |side: usize| {
+        let moments = |side: Side| {
             let find = |name: &str, size: usize| {
                 let array = arrays.iter().find(|array| array.name == name)?;
                 let values: Vec<f64> = array.values.iter().copied().map(f64::from).collect();
                 (values.len() == size).then_some(values)
             };
-            let (modes, [mean, covariance]) = (modes[side], MOMENTS[side]);
+            let (modes, [mean, covariance]) = (modes[side.index()], MOMENTS[side.index()]);
             Some(Moments {
                 mean: DVector::from_vec(find(mean, modes)?),
                 covariance: DMatrix::from_vec(modes, modes, find(covariance, modes * modes)?),
@@ -151,7 +152,7 @@ impl Results {
         Ok(Self {
             intersection: [read(0)?, read(1)?],
             differences: [read(2)?, read(3)?],
-            moments: [moments(0), moments(1)],
+            moments: [moments(Side::A), moments(Side::B)],
         })
     }
 }
@@ -173,18 +174,20 @@ impl Comparison {
     }
 
     /// Moments of the coefficients of the sides that make the model.
-    fn estimates(&self) -> Option<Vec<(usize, Estimate)>> {
+    fn estimates(&self) -> Option<Vec<(Side, Estimate)>> {
         self.pooled_sides()
             .iter()
-            .map(|&side| Some((side, self.inferences.get(side)?.estimate(self.settings.sampler)?)))
+            .map(|&side| {
+                Some((side, self.inferences.get(side.index())?.estimate(self.settings.sampler)?))
+            })
             .collect()
     }
 
-    pub(super) fn pooled_sides(&self) -> &'static [usize] {
+    pub(super) fn pooled_sides(&self) -> &'static [Side] {
         match self.settings.pooling {
-            Pooling::Both => &[0, 1],
-            Pooling::A => &[0],
-            Pooling::B => &[1],
+            Pooling::Both => &Side::BOTH,
+            Pooling::A => &[Side::A],
+            Pooling::B => &[Side::B],
         }
     }
 
@@ -209,7 +212,7 @@ impl Comparison {
             self.summaries.push(summary::of_inference(&self.inferences[drawn]));
             Ok(())
         } else if outside < 2 {
-            self.outside.push(self.difference_report(outside));
+            self.outside.push(self.difference_report(Side::BOTH[outside]));
             Ok(())
         } else {
             self.finish()
@@ -224,17 +227,19 @@ impl Comparison {
         let Some(moments) = pooled(joint, &estimates) else { return Err(flat) };
         let intersection = self.model_of(&moments).ok_or(flat)?;
         let [(worst_a, modes_a), (worst_b, modes_b)] =
-            [0, 1].map(|side| self.summaries[side].clone());
+            Side::BOTH.map(|side| self.summaries[side.index()].clone());
         let [grassmann, grassmann_affine] = grassmann(joint, &intersection);
         let distances: Vec<f64> = self
             .pooled_sides()
             .iter()
-            .flat_map(|&side| self.inferences[side].draws().statistics.iter().flatten().copied())
+            .flat_map(|&side| {
+                self.inferences[side.index()].draws().statistics.iter().flatten().copied()
+            })
             .collect();
         let [a, b] = self.described.clone();
-        let split = |side: usize| DifferenceReport {
+        let split = |side: Side| DifferenceReport {
             linear_split: self.linear_split(side, joint, &intersection),
-            ..self.outside[side].clone()
+            ..self.outside[side.index()].clone()
         };
         let mut report = Report {
             schema: SCHEMA,
@@ -255,7 +260,7 @@ impl Comparison {
                     Pooling::B => worst_b,
                 },
                 sides: Sides { a: worst_a, b: worst_b },
-                coefficients: Some(BothSides { a: modes_a, b: modes_b }),
+                coefficients: Some(Sides { a: modes_a, b: modes_b }),
                 vertex_sd: Spread::of(&joint.vertex_standard_deviations(&intersection)),
                 inference: self.inference_report(),
                 accuracy: accuracy(
@@ -267,7 +272,7 @@ impl Comparison {
                 disagreement: self.disagreement(joint, &estimates, &moments),
                 tolerance: self.tolerance_report(),
             },
-            differences: Differences { a_without_b: split(0), b_without_a: split(1) },
+            differences: Differences { a_without_b: split(Side::A), b_without_a: split(Side::B) },
             overlap: overlap(&self.pair, [&self.sides[0], &self.sides[1]], joint, self.sigma()),
             compactness: Some(Compactness {
                 a: compactness(self.pair.a().standard_deviations()),
@@ -283,30 +288,31 @@ impl Comparison {
         Ok(())
     }
 
-    fn inference_report(&self) -> Option<BothSides<InferenceReport>> {
-        let of = |side: usize| {
-            let inference = self.inferences.get(side)?;
+    fn inference_report(&self) -> Option<Sides<InferenceReport>> {
+        let of = |side: Side| {
+            let inference = self.inferences.get(side.index())?;
             inference.report(inference.estimate(self.settings.sampler)?.source)
         };
-        Some(BothSides { a: of(0)?, b: of(1)? })
+        Some(Sides { a: of(Side::A)?, b: of(Side::B)? })
     }
 
     /// How far the two sides lie apart; `None` when only one is used.
     fn disagreement(
         &self,
         joint: &Joint,
-        estimates: &[(usize, Estimate)],
+        estimates: &[(Side, Estimate)],
         pooled: &Moments,
     ) -> Option<Disagreement> {
         let [(_, first), (_, second)] = estimates else { return None };
-        let [first, second] = [joint.lift(0, &first.total), joint.lift(1, &second.total)];
+        let [first, second] =
+            [joint.lift(Side::A, &first.total), joint.lift(Side::B, &second.total)];
         let apart = &first.mean - &second.mean;
         let components = [&first, &second].map(Moments::principal_components);
         let deviations =
-            |side: usize| components[side].1.iter().map(|value| value.sqrt()).collect();
-        let space = |moments: &Moments, side: usize, modes: usize| AffineSpace {
+            |side: Side| components[side.index()].1.iter().map(|value| value.sqrt()).collect();
+        let space = |moments: &Moments, side: Side, modes: usize| AffineSpace {
             point: moments.mean.clone(),
-            basis: components[side].0.columns(0, modes).into_owned(),
+            basis: components[side.index()].0.columns(0, modes).into_owned(),
         };
         let fewest = components[0].0.ncols().min(components[1].0.ncols());
         let [a, b] = [&first, &second].map(|moments| joint.shape(&moments.mean));
@@ -314,13 +320,13 @@ impl Comparison {
             mean_to_mean: mean_vertex_distance(&a, &b, self.pair.a().dimension()),
             covariance: (&first.covariance - &second.covariance).norm() / pooled.covariance.norm(),
             between_share: 0.25 * apart.norm_squared() / pooled.covariance.trace(),
-            total_variance: BothSides { a: first.covariance.trace(), b: second.covariance.trace() },
-            standard_deviations: BothSides { a: deviations(0), b: deviations(1) },
+            total_variance: Sides { a: first.covariance.trace(), b: second.covariance.trace() },
+            standard_deviations: Sides { a: deviations(Side::A), b: deviations(Side::B) },
             grassmann: [1, 3, 5, 10]
                 .into_iter()
                 .filter(|&modes| modes <= fewest)
                 .map(|modes| {
-                    let [a, b] = [space(&first, 0, modes), space(&second, 1, modes)];
+                    let [a, b] = [space(&first, Side::A, modes), space(&second, Side::B, modes)];
                     affine_grassmann_distance(&a, &b, Displacement::Unit)
                 })
                 .collect(),
@@ -342,9 +348,9 @@ impl Comparison {
         })
     }
 
-    fn difference_report(&self, side: usize) -> DifferenceReport {
-        let (probability, standard_error) = self.rejections[side].probability();
-        let draws = self.rejections[side].draws();
+    fn difference_report(&self, side: Side) -> DifferenceReport {
+        let (probability, standard_error) = self.rejections[side.index()].probability();
+        let draws = self.rejections[side.index()].draws();
         let model = self.pair.models()[side];
         let factor = Moments::of(draws.iter_slices(), draws.dimension).factor();
         let vertex_sd = if draws.len() < 2 {
@@ -352,8 +358,8 @@ impl Comparison {
         } else {
             Spread::of(&vertex_standard_deviations(model, &factor))
         };
-        let (overlap_with_prior, overlap_standard_error) = self.rejections[side].overlap();
-        let envelope = match self.criteria[side].envelope() {
+        let (overlap_with_prior, overlap_standard_error) = self.rejections[side.index()].overlap();
+        let envelope = match self.criteria[side.index()].envelope() {
             Envelope::Prior(_) => EnvelopeName::Prior,
             Envelope::Tilted(_) => EnvelopeName::Tilted,
         };
@@ -364,14 +370,14 @@ impl Comparison {
             diagnostics: summary::of_independent(draws),
             vertex_sd,
             definition: self.settings.difference,
-            threshold: Some(self.criteria[side].level()),
+            threshold: Some(self.criteria[side.index()].level()),
             envelope,
             overlap_with_prior,
             overlap_standard_error,
             exclusive: Some(ExclusiveReport {
                 residual_sd: self.exclusive(side).values.as_slice().to_vec(),
                 unexplained: unexplained_share(
-                    self.sides[side].gram(),
+                    self.sides[side.index()].gram(),
                     model.standard_deviations(),
                 ),
             }),
@@ -380,14 +386,14 @@ impl Comparison {
     }
 
     /// Directions in which model `side` varies most and the other cannot follow.
-    pub(super) fn exclusive(&self, side: usize) -> ExclusiveModes {
-        exclusive_modes(self.sides[side].gram(), self.pair.a().point_count())
+    pub(super) fn exclusive(&self, side: Side) -> ExclusiveModes {
+        exclusive_modes(self.sides[side.index()].gram(), self.pair.a().point_count())
     }
 
     /// A model without the intersection by its moments, beside the draws of the set difference.
     fn linear_split(
         &self,
-        side: usize,
+        side: Side,
         joint: &Joint,
         intersection: &JointModel,
     ) -> Option<LinearSplitReport> {
@@ -397,7 +403,7 @@ impl Comparison {
             mean: intersection.mean.clone(),
             covariance: product(&factor, &factor.transpose()),
         };
-        let weight = (1.0 - self.outside[side].probability).clamp(0.0, 1.0);
+        let weight = (1.0 - self.outside[side.index()].probability).clamp(0.0, 1.0);
         let split = linear_split(&joint.prior(side), &part, weight)?;
         let dimension = self.pair.a().dimension();
         let [of_split, of_draws] = [&split.moments.mean, &drawn.mean].map(|mean| joint.shape(mean));
@@ -412,7 +418,7 @@ impl Comparison {
 }
 
 /// Joint-basis moments of the equal mixture of the sides given.
-pub(super) fn pooled(joint: &Joint, estimates: &[(usize, Estimate)]) -> Option<Moments> {
+pub(super) fn pooled(joint: &Joint, estimates: &[(Side, Estimate)]) -> Option<Moments> {
     let lifted = estimates.iter().map(|(side, estimate)| joint.lift(*side, &estimate.total));
     lifted.reduce(|first, second| Moments::pooled(&first, &second))
 }
@@ -422,10 +428,10 @@ pub(super) fn pooled(joint: &Joint, estimates: &[(usize, Estimate)]) -> Option<M
 pub(super) fn grassmann(joint: &Joint, intersection: &JointModel) -> [Grassmann; 2] {
     let away = joint.coordinates_of(joint.origin());
     let space = |mean: &DVector<f64>, basis: DMatrix<f64>| affine_space(&away, mean, basis);
-    let union = Moments::pooled(&joint.prior(0), &joint.prior(1));
+    let union = Moments::pooled(&joint.prior(Side::A), &joint.prior(Side::B));
     let others = [
-        space(joint.mean(0), joint.modes(0)),
-        space(joint.mean(1), joint.modes(1)),
+        space(joint.mean(Side::A), joint.modes(Side::A)),
+        space(joint.mean(Side::B), joint.modes(Side::B)),
         space(&union.mean, union.principal_components().0),
     ];
     let both = space(&intersection.mean, intersection.modes.clone());

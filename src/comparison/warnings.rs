@@ -5,8 +5,10 @@ use super::inference::LARGEST_PARETO_K;
 use crate::inspect::canonical;
 use crate::measure::mean_vertex_distance;
 use crate::model::{Alignment, Cells, procrustes};
+use crate::model::{Side, Sides};
 use crate::report::{Report, Warning};
 use crate::settings::{Plausibility, Sampler};
+use crate::text::three_digits;
 
 /// Share of a model's shapes above which its difference is called nearly everything.
 const NEARLY_ALL: f64 = 0.99;
@@ -39,7 +41,7 @@ impl Comparison {
     }
 
     fn about_the_models(&self, report: &Report, warnings: &mut Vec<Warning>) {
-        let [a, b] = self.pair.models();
+        let Sides { a, b } = self.pair.models();
         if let (Cells::Triangles(first), Cells::Triangles(second)) = (a.cells(), b.cells())
             && canonical(first) != canonical(second)
         {
@@ -95,7 +97,7 @@ impl Comparison {
                 "pareto-k",
                 format!(
                     "The Gaussian fit misses a part of the intersection: Pareto k is {}, above 0.7.",
-                    rounded(diagnostics.pareto_k.unwrap_or(f64::NAN))
+                    three_digits(diagnostics.pareto_k.unwrap_or(f64::NAN))
                 ),
                 "Choose the sampler “auto” or “hmc”, which do not depend on the fit.",
             ));
@@ -104,7 +106,7 @@ impl Comparison {
             let state = match diagnostics.r_hat_max {
                 Some(r_hat) => format!(
                     "R-hat is {}, and the worst mode has {:.0} effective draws",
-                    rounded(r_hat),
+                    three_digits(r_hat),
                     diagnostics.ess_bulk_min.min(diagnostics.ess_tail_min)
                 ),
                 None => "there are too few draws to tell".to_owned(),
@@ -139,7 +141,7 @@ impl Comparison {
                 "parallel",
                 format!(
                     "The two models run parallel, {} {symbol} apart whatever the shape: they have no shape in common.",
-                    rounded(tolerance.nearest)
+                    three_digits(tolerance.nearest)
                 ),
                 "Align B to A, or check how the files were centred.",
             ));
@@ -152,8 +154,8 @@ impl Comparison {
                 "no-intersection-within-noise",
                 format!(
                     "No intersection within noise: plausible shapes of the two models come no nearer than {} {symbol}, and true members lie within {} {symbol} of their own model.",
-                    rounded(meeting),
-                    rounded(noise)
+                    three_digits(meeting),
+                    three_digits(noise)
                 ),
                 "What is shown is their closest approach, not shapes that both can make.",
             ));
@@ -162,8 +164,8 @@ impl Comparison {
                 "beyond-tolerance",
                 format!(
                     "Within σ = {} {symbol} the two models do not meet: the nearest shapes are {} {symbol} apart, and the intersection shows that closest approach.",
-                    rounded(self.sigma()),
-                    rounded(closest)
+                    three_digits(self.sigma()),
+                    three_digits(closest)
                 ),
                 "Read it as “as near as the two come”, choose a larger σ, or use more modes.",
             ));
@@ -175,9 +177,9 @@ impl Comparison {
                 "sigma-large",
                 format!(
                     "σ = {} {symbol} is so large that the distance hardly acts: the shapes lie {} {symbol} from the other model, and would lie {} {symbol} from it without any tolerance.",
-                    rounded(self.sigma()),
-                    rounded(predicted),
-                    rounded(tolerance.farthest)
+                    three_digits(self.sigma()),
+                    three_digits(predicted),
+                    three_digits(tolerance.farthest)
                 ),
                 "Choose a smaller σ; the recommended one uses a quarter of what there is.",
             ));
@@ -188,8 +190,8 @@ impl Comparison {
                 "sigma-small",
                 format!(
                     "σ = {} {symbol} is so small beside the models that single precision blurs the density (by {} in its logarithm).",
-                    rounded(self.sigma()),
-                    rounded(error)
+                    three_digits(self.sigma()),
+                    three_digits(error)
                 ),
                 "Choose a larger σ.",
             ));
@@ -250,15 +252,17 @@ impl Comparison {
 
     fn about_the_differences(&self, report: &Report, warnings: &mut Vec<Warning>) {
         let differences = &report.differences;
-        let both =
-            [(0, "A", "B", &differences.a_without_b), (1, "B", "A", &differences.b_without_a)];
-        let nearly_all = |side: usize| {
-            let difference = both[side].3;
+        let both = [
+            (Side::A, "A", "B", &differences.a_without_b),
+            (Side::B, "B", "A", &differences.b_without_a),
+        ];
+        let nearly_all = |side: Side| {
+            let difference = both[side.index()].3;
             !self.is_empty(side)
                 && difference.diagnostics.draws > 0
                 && difference.probability > NEARLY_ALL
         };
-        if self.is_empty(0) && self.is_empty(1) {
+        if self.is_empty(Side::A) && self.is_empty(Side::B) {
             let half = match self.settings.plausibility {
                 Plausibility::Product => {
                     " Their intersection has less variance than either, half where the two are the same, because the paper's posterior counts plausibility twice."
@@ -272,7 +276,7 @@ impl Comparison {
             ));
             return;
         }
-        if nearly_all(0) && nearly_all(1) {
+        if nearly_all(Side::A) && nearly_all(Side::B) {
             warnings.push(warning(
                 "nearly-all-differs",
                 "At this σ practically every shape of either model counts as outside the other: the two differences look like A and B themselves.".to_owned(),
@@ -307,16 +311,4 @@ impl Comparison {
             }
         }
     }
-}
-
-/// Three significant digits, for a sentence.
-fn rounded(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return format!("{value}");
-    }
-    #[allow(clippy::cast_possible_truncation, reason = "a decimal exponent is small")]
-    let digits = (2.0 - libm::log10(value.abs()).floor()).clamp(0.0, 12.0) as i64;
-    #[allow(clippy::cast_sign_loss, clippy::cast_possible_truncation, reason = "clamped above")]
-    let digits = digits as usize;
-    format!("{value:.digits$}")
 }

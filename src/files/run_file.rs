@@ -12,12 +12,13 @@
 //! **Limits.** A run file has no models in it, only their fingerprints ([`crate::model`]): it cannot bring
 //! them back, but it knows whether they are the same. Reports of older engines do not name them.
 
+use crate::model::Sides;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use crate::comparison::Comparison;
 use crate::files::{Error, json};
-use crate::report::{BothSides, ModelReport, SCHEMA};
+use crate::report::{ModelReport, SCHEMA};
 use crate::settings::Settings;
 
 /// Version of the layout.
@@ -31,7 +32,7 @@ pub struct RunFile {
     /// Version of the engine that wrote it.
     pub engine: String,
     /// The two models.
-    pub models: BothSides<RunModel>,
+    pub models: Sides<RunModel>,
     /// Everything else that decides the draws.
     pub settings: Settings,
 }
@@ -82,7 +83,7 @@ impl RunFile {
         Self {
             shapevenn: LAYOUT,
             engine: env!("CARGO_PKG_VERSION").to_owned(),
-            models: BothSides { a: model(a, &sources.a), b: model(b, &sources.b) },
+            models: Sides { a: model(a, &sources.a), b: model(b, &sources.b) },
             settings: comparison.settings().clone(),
         }
     }
@@ -128,7 +129,7 @@ impl RunFile {
             return Err(refused(reason, choose));
         }
         let damaged = "Run the comparison again, and save a new one.";
-        let models = BothSides::<RunModel>::deserialize(&value["models"])
+        let models = Sides::<RunModel>::deserialize(&value["models"])
             .map_err(|fault| refused(format!("does not say which models: {fault}"), damaged))?;
         let settings = Settings::parse(value["settings"].clone()).map_err(|fault| {
             refused(format!("has settings that cannot be read: {fault}"), damaged)
@@ -149,7 +150,7 @@ impl RunFile {
     /// # Errors
     /// [`Error::OtherModel`] of the first that is not.
     pub fn check(&self, a: &ModelReport, b: &ModelReport) -> Result<(), Error> {
-        let BothSides { a: expected_a, b: expected_b } = &self.models;
+        let Sides { a: expected_a, b: expected_b } = &self.models;
         for (side, expected, other, given) in
             [("A", expected_a, expected_b, a), ("B", expected_b, expected_a, b)]
         {

@@ -2,6 +2,7 @@
 
 use crate::comparison::Comparison;
 use crate::files::formats;
+use crate::model::Side;
 use crate::report::{ModeDiagnostics, Report};
 
 /// Posterior mean, standard deviation and diagnostics of each coefficient of either side.
@@ -10,7 +11,7 @@ pub(crate) fn coefficients(comparison: &Comparison, report: &Report) -> Vec<u8> 
     let known = report.intersection.coefficients.as_ref();
     let diagnostics = [known.map_or(&none, |both| &both.a), known.map_or(&none, |both| &both.b)];
     let mut columns = Vec::new();
-    for (side, found) in diagnostics.into_iter().enumerate() {
+    for (side, found) in Side::BOTH.into_iter().zip(diagnostics) {
         let moments = comparison.moments(side);
         let (mean, deviation) = moments.map_or_else(Default::default, |moments| {
             let deviations =
@@ -27,7 +28,7 @@ pub(crate) fn coefficients(comparison: &Comparison, report: &Report) -> Vec<u8> 
             ("MCSE of sd", found.mcse_sd.clone()),
             ("autocorrelation", found.autocorrelation.clone()),
         ];
-        columns.extend(own.map(|(name, values)| (format!("{} {name}", ["A", "B"][side]), values)));
+        columns.extend(own.map(|(name, values)| (format!("{} {name}", side.name()), values)));
     }
     numbered(columns)
 }

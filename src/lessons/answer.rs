@@ -1,11 +1,10 @@
 //! What a lesson answers. Bulk values are single precision, everything else is as computed.
 
+use crate::model::{Side, Sides};
 use nalgebra::DMatrix;
 use serde::Serialize;
 
-use super::ask::LessonSide;
 use crate::model::LinearModel;
-use crate::report::BothSides;
 use crate::sampling::Step;
 
 /// A model as it is drawn.
@@ -69,11 +68,11 @@ pub struct LessonModels {
     /// A∩B by the Gaussian fits alone.
     pub intersection: LessonModel,
     /// Those fits, in coefficients.
-    pub fits: BothSides<Law>,
+    pub fits: Sides<Law>,
     /// Principal angles, in degrees, smallest first.
     pub angles: Vec<f64>,
     /// E d under the fits.
-    pub distances: BothSides<f64>,
+    pub distances: Sides<f64>,
     /// The σ that the engine recommends.
     pub recommended: f64,
 }
@@ -295,7 +294,7 @@ pub struct LessonPrincipal {
     /// The same share of the draws themselves.
     pub misled_draws: f64,
     /// Whose coefficients.
-    pub side: LessonSide,
+    pub side: Side,
 }
 
 /// What is answered.

@@ -1,5 +1,6 @@
 //! What can be asked of a lesson, as the page, the command line and tests say it.
 
+use crate::model::Side;
 use serde::{Deserialize, Serialize};
 
 use super::LessonError;
@@ -17,24 +18,6 @@ pub const MOST_DRAWS: usize = 200_000;
 pub const MOST_LANES: u32 = 32;
 /// Dimension of a standard normal law at the most.
 pub const MOST_DIMENSIONS: usize = 100;
-
-/// Which model a shape is of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub enum LessonSide {
-    /// Shapes of A, seen from B.
-    #[default]
-    A,
-    /// Shapes of B, seen from A.
-    B,
-}
-
-impl LessonSide {
-    /// 0 for A, 1 for B.
-    pub fn index(self) -> usize {
-        self as usize
-    }
-}
 
 /// What two models are compared, and how.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -125,7 +108,7 @@ pub struct Beginning {
     pub target: LessonTarget,
     /// Whose coefficients they move.
     #[serde(default)]
-    pub side: LessonSide,
+    pub side: Side,
     /// How.
     pub sampler: LessonSampler,
     /// How many; rejection has one row whatever is asked.
@@ -162,14 +145,14 @@ pub enum LessonAsk {
     /// What there is to say of one shape.
     Point {
         /// Of which model it is.
-        side: LessonSide,
+        side: Side,
         /// a; missing ones are 0.
         coefficients: Vec<f64>,
     },
     /// The nearest coefficients to any shape.
     Project {
         /// In which model.
-        side: LessonSide,
+        side: Side,
         /// x (d·n).
         shape: Vec<f64>,
     },
@@ -179,7 +162,7 @@ pub enum LessonAsk {
         of: FieldName,
         /// Whose coefficients.
         #[serde(default)]
-        side: LessonSide,
+        side: Side,
         /// Which two, across and upwards, from 0.
         modes: [usize; 2],
         /// The other coefficients; missing ones are 0.
@@ -234,7 +217,7 @@ pub enum LessonAsk {
         lane: u32,
         /// Of which model, where the lane knows none.
         #[serde(default)]
-        side: Option<LessonSide>,
+        side: Option<Side>,
         /// How many at the most.
         most: usize,
     },

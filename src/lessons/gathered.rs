@@ -8,11 +8,12 @@
 //! A difference is not convex: the shapes between its draws need not be in it. The share of a Gaussian's
 //! shapes with L_D > ½, where its draws are those of the difference, says how far such a Gaussian misleads.
 
+use crate::model::Side;
 use nalgebra::DVector;
 
 use super::LessonError;
 use super::answer::{Fall, LessonIntersection, LessonModel, LessonPrincipal};
-use super::ask::{LessonSide, LessonTarget};
+use super::ask::LessonTarget;
 use super::lane::Lane;
 use super::models::Opened;
 use crate::measure::{
@@ -39,7 +40,7 @@ pub(super) fn intersection(
     lanes: [Numbered; 2],
     counts: &[usize],
 ) -> Result<LessonIntersection, LessonError> {
-    for ((number, lane), side) in lanes.into_iter().zip([LessonSide::A, LessonSide::B]) {
+    for ((number, lane), side) in lanes.into_iter().zip([Side::A, Side::B]) {
         if lane.target != LessonTarget::Intersection || lane.side != side {
             let needed = ["the intersection posterior of A", "the intersection posterior of B"];
             return Err(LessonError::OtherLane { lane: number, needed: needed[side.index()] });
@@ -79,9 +80,9 @@ pub(super) fn intersection(
 
 /// The law of the first `count` draws of each lane together, in the joint basis.
 fn pooled(opened: &Opened, lanes: [&Lane; 2], count: usize) -> Moments {
-    let [a, b] = [0, 1].map(|side| {
-        let draws = lanes[side].first(count);
-        let modes = opened.sides[side].mode_count();
+    let [a, b] = Side::BOTH.map(|side| {
+        let draws = lanes[side.index()].first(count);
+        let modes = opened.sides[side.index()].mode_count();
         opened.joint.lift(side, &Moments::of(draws.into_iter(), modes))
     });
     Moments::pooled(&a, &b)
@@ -95,9 +96,9 @@ impl Expected {
     fn new(opened: &Opened, lanes: [&Lane; 2]) -> Option<Self> {
         let kept = opened.truth.as_ref().map(LinearModel::mode_count)?;
         let (modes, variances) = opened.closed_form.principal_components();
-        let coordinates = [0, 1].map(|side| lanes[side].in_modes(opened, &modes));
+        let coordinates = Side::BOTH.map(|side| lanes[side.index()].in_modes(opened, &modes));
         let pair = |i: usize, j: usize| {
-            let shares = [0, 1].map(|side| effective_share(&coordinates[side], i, j));
+            let shares = Side::BOTH.map(|side| effective_share(&coordinates[side.index()], i, j));
             ([variances[i], variances[j]], shares)
         };
         let count = variances.len();

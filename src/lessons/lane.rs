@@ -4,18 +4,19 @@
 //! for. Rejection makes its proposals in blocks, but hands its draws out one a step: how often it is asked
 //! does not change them.
 
+use crate::model::Side;
 use nalgebra::{DMatrix, DVector};
 
 use super::LessonError;
 use super::answer::{LaneDraws, LaneFigures, LaneProgress, LaneShapes, LaneStart, Law, LessonStep};
 use super::ask::{
-    Beginning, LessonSampler, LessonSide, LessonTarget, MOST_CHAINS, MOST_DIMENSIONS, MOST_DRAWS,
-    MOST_STEPS, padded, within,
+    Beginning, LessonSampler, LessonTarget, MOST_CHAINS, MOST_DIMENSIONS, MOST_DRAWS, MOST_STEPS,
+    padded, within,
 };
 use super::models::{Opened, standard};
-use super::single;
 use super::target::LaneTarget;
 use crate::comparison::MOST_LEAPS;
+use crate::linalg::single;
 use crate::pair::{Moments, formed};
 use crate::sampling::{
     Chains, Draws, Envelope, Gaussian, IndependenceChains, RandomWalkChains, Rejection, Scaling,
@@ -44,7 +45,7 @@ enum Runner {
 #[derive(Debug)]
 pub(super) struct Lane {
     pub(super) target: LessonTarget,
-    pub(super) side: LessonSide,
+    pub(super) side: Side,
     dimension: usize,
     schedule: Schedule,
     runner: Runner,
@@ -54,7 +55,7 @@ pub(super) struct Lane {
 pub(super) fn target_of(
     opened: Option<&Opened>,
     target: LessonTarget,
-    side: LessonSide,
+    side: Side,
     dimension: usize,
 ) -> Result<LaneTarget<'_>, LessonError> {
     match (target, opened) {
@@ -232,7 +233,7 @@ impl Lane {
     pub(super) fn in_modes(&self, opened: &Opened, modes: &DMatrix<f64>) -> Vec<Vec<DVector<f64>>> {
         let centred = |draw: &[f64]| {
             let coefficients = DVector::from_column_slice(draw);
-            let placed = opened.joint.coordinates_of_coefficients(self.side.index(), &coefficients);
+            let placed = opened.joint.coordinates_of_coefficients(self.side, &coefficients);
             modes.tr_mul(&(placed - &opened.closed_form.mean))
         };
         let chains = self.draws().values.iter();
@@ -291,10 +292,10 @@ impl Lane {
     pub(super) fn shapes(
         &self,
         opened: &Opened,
-        side: LessonSide,
+        side: Side,
         most: usize,
     ) -> Result<LaneShapes, LessonError> {
-        let model = opened.pair.models()[side.index()];
+        let model = opened.pair.models()[side];
         within("The number of modes of a shape", self.dimension, 1, model.mode_count())?;
         let shape = |draw: &[f64]| formed(model, &coefficients(draw, model.mode_count()));
         let values: Vec<f64> = self.thinned(most).flat_map(shape).collect();

@@ -35,8 +35,8 @@ pub use answer::{
     LessonStep,
 };
 pub use ask::{
-    Beginning, FieldName, LessonAsk, LessonSampler, LessonSide, LessonTarget, MOST_CHAINS,
-    MOST_DIMENSIONS, MOST_DRAWS, MOST_LANES, MOST_ROWS, MOST_STEPS, Opening,
+    Beginning, FieldName, LessonAsk, LessonSampler, LessonTarget, MOST_CHAINS, MOST_DIMENSIONS,
+    MOST_DRAWS, MOST_LANES, MOST_ROWS, MOST_STEPS, Opening,
 };
 pub use error::LessonError;
 pub use scene::{Break, Scene, SceneName};
@@ -124,9 +124,4 @@ impl Lesson {
     fn lane(&self, lane: u32) -> Result<&Lane, LessonError> {
         self.lanes.get(&lane).ok_or(LessonError::NoLane { lane })
     }
-}
-
-#[allow(clippy::cast_possible_truncation, reason = "values to look at are single precision")]
-fn single(values: &[f64]) -> Vec<f32> {
-    values.iter().map(|value| *value as f32).collect()
 }

@@ -3,21 +3,21 @@
 //! The fits are those that a run would settle on, the pooled closed form is made of them as a run makes it:
 //! both sides equally, by moments, in the joint basis, with as many modes as the smaller model.
 
+use crate::model::{Side, Sides};
 use nalgebra::{DMatrix, DVector};
 
 use super::LessonError;
 use super::answer::{Law, LessonModel, LessonModels};
-use super::ask::{LessonSide, LessonTarget, Opening, number};
+use super::ask::{LessonTarget, Opening, number};
 use super::target::LaneTarget;
 use crate::comparison::settled_fit;
 use crate::demos::{self, PlanesAt, STAR_ROWS, planes_at, star_intersection};
 use crate::measure::{paper_distance, principal_angles};
 use crate::model::{Alignment, Cells, LinearModel, Similarity};
 use crate::pair::{
-    Criterion, Difference, DifferenceDefinition, Intersection, Joint, Level, Moments, Pair, Side,
-    expected_distance, recommended_tolerance, without_distance,
+    Criterion, Difference, DifferenceDefinition, Intersection, Joint, Level, Moments, Pair,
+    ResidualOperator, expected_distance, recommended_tolerance, without_distance,
 };
-use crate::report::BothSides;
 use crate::sampling::{Envelope, Gaussian};
 use crate::settings::{Plausibility, Settings};
 
@@ -45,7 +45,7 @@ impl Default for Opening {
 #[derive(Debug)]
 pub(super) struct Opened {
     pub(super) pair: Pair,
-    pub(super) sides: [Side; 2],
+    pub(super) sides: [ResidualOperator; 2],
     pub(super) sigma: f64,
     pub(super) fits: [Gaussian; 2],
     pub(super) joint: Joint,
@@ -105,23 +105,23 @@ impl Opened {
         let sigma = number("σ", sigma, "a positive number", |x| x > 0.0)?;
         let pair = Pair::new(&a, &b, Alignment::None, opening.modes)?;
         let share = opening.plausibility.share();
-        let sides = [0, 1].map(|index| pair.side(index).with_plausibility(share));
-        let fit = |index: usize| {
-            let fit = settled_fit(&sides[index], sigma, &Settings::default(), index);
-            let side = ["A", "B"][index];
-            fit.map(|fit| fit.gaussian).ok_or(LessonError::Fit { side, sigma })
+        let sides = Side::BOTH.map(|side| pair.residual_operator(side).with_plausibility(share));
+        let fit = |side: Side| {
+            let fit = settled_fit(&sides[side.index()], sigma, &Settings::default(), side);
+            fit.map(|fit| fit.gaussian).ok_or(LessonError::Fit { side: side.name(), sigma })
         };
-        let fits = [fit(0)?, fit(1)?];
+        let fits = [fit(Side::A)?, fit(Side::B)?];
         let joint = pair.joint();
-        let lifted = |side: usize| {
-            let (mean, covariance) = (fits[side].mean().clone(), fits[side].covariance());
+        let lifted = |side: Side| {
+            let fit = &fits[side.index()];
+            let (mean, covariance) = (fit.mean().clone(), fit.covariance());
             joint.lift(side, &Moments { mean, covariance })
         };
-        let closed_form = Moments::pooled(&lifted(0), &lifted(1));
-        let criteria = [0, 1].map(|index| {
-            let (side, model) = (&sides[index], pair.models()[index]);
+        let closed_form = Moments::pooled(&lifted(Side::A), &lifted(Side::B));
+        let criteria = Side::BOTH.map(|side| {
+            let (operator, model) = (&sides[side.index()], pair.models()[side]);
             let level = Level::Value(sigma);
-            Criterion::new(DifferenceDefinition::Soft, level, side, model, 0, index)
+            Criterion::new(DifferenceDefinition::Soft, level, operator, model, 0, side.index())
         });
         let whole = turned == 0.0 && opening.modes.is_none();
         let truth = row.filter(|_| whole).map(|row| star_intersection(STAR_ROWS[row]));
@@ -130,26 +130,26 @@ impl Opened {
     }
 
     /// q of a side.
-    pub(super) fn modes(&self, side: LessonSide) -> usize {
+    pub(super) fn modes(&self, side: Side) -> usize {
         self.sides[side.index()].mode_count()
     }
 
     /// Modes of an intersection model.
     pub(super) fn most_modes(&self) -> usize {
-        self.modes(LessonSide::A).min(self.modes(LessonSide::B))
+        self.modes(Side::A).min(self.modes(Side::B))
     }
 
     /// The soft difference of a side.
-    pub(super) fn difference(&self, side: LessonSide) -> Difference<'_> {
+    pub(super) fn difference(&self, side: Side) -> Difference<'_> {
         Difference::exact(&self.sides[side.index()], &self.criteria[side.index()])
     }
 
     /// The intersection posterior of a side.
-    pub(super) fn posterior(&self, side: LessonSide) -> Intersection<'_> {
+    pub(super) fn posterior(&self, side: Side) -> Intersection<'_> {
         Intersection::exact(&self.sides[side.index()], self.sigma)
     }
 
-    pub(super) fn target(&self, target: LessonTarget, side: LessonSide) -> LaneTarget<'_> {
+    pub(super) fn target(&self, target: LessonTarget, side: Side) -> LaneTarget<'_> {
         match target {
             LessonTarget::Intersection => LaneTarget::Intersection(self.posterior(side)),
             LessonTarget::Difference => LaneTarget::Difference(self.difference(side)),
@@ -165,7 +165,7 @@ impl Opened {
     pub(super) fn proposals(
         &self,
         target: LessonTarget,
-        side: LessonSide,
+        side: Side,
     ) -> Result<[Gaussian; 2], LessonError> {
         if target != LessonTarget::Intersection {
             let standard = standard(self.modes(side))?;
@@ -180,7 +180,7 @@ impl Opened {
     pub(super) fn envelope(
         &self,
         target: LessonTarget,
-        side: LessonSide,
+        side: Side,
     ) -> Result<Envelope, LessonError> {
         if target == LessonTarget::Intersection && !self.product {
             let (expected, found) = ("chains".to_owned(), "rejection".to_owned());
@@ -205,18 +205,19 @@ impl Opened {
 
     /// The answer to `open`.
     pub(super) fn answer(&self) -> Result<LessonModels, LessonError> {
-        let [a, b] = self.pair.models();
+        let Sides { a, b } = self.pair.models();
         let segments = match a.cells() {
             Cells::Segments(segments) => Some(segments.clone()),
             _ => None,
         };
         let intersection = self.joint.model(&self.closed_form, self.most_modes());
-        let law = |side: usize| {
-            let fit = &self.fits[side];
+        let law = |side: Side| {
+            let fit = &self.fits[side.index()];
             Law::of(fit.mean().as_slice(), &fit.covariance())
         };
-        let angles = principal_angles(&self.joint.modes(0), &self.joint.modes(1));
-        let distance = |side: usize| expected_distance(&self.sides[side], &self.fits[side]);
+        let angles = principal_angles(&self.joint.modes(Side::A), &self.joint.modes(Side::B));
+        let distance =
+            |side: Side| expected_distance(&self.sides[side.index()], &self.fits[side.index()]);
         let sides = self.sides.each_ref();
         Ok(LessonModels {
             dimension: a.dimension(),
@@ -227,15 +228,15 @@ impl Opened {
             b: LessonModel::of(b),
             truth: self.truth.as_ref().map(LessonModel::of),
             intersection: LessonModel::of(&intersection.ok_or(LessonError::Flat)?),
-            fits: BothSides { a: law(0), b: law(1) },
+            fits: Sides::each(law),
             angles: angles.into_iter().map(f64::to_degrees).collect(),
-            distances: BothSides { a: distance(0), b: distance(1) },
+            distances: Sides::each(distance),
             recommended: recommended_tolerance(&self.pair, sides, None).sigma,
         })
     }
 }
 
-fn letter(side: LessonSide) -> &'static str {
+fn letter(side: Side) -> &'static str {
     ["A", "B"][side.index()]
 }
 

@@ -1,11 +1,13 @@
 //! Single shapes and fields: what densities, distances and gradients are at given coefficients.
 
+use crate::model::Side;
 use nalgebra::DVector;
 
 use super::LessonError;
 use super::answer::{LessonField, LessonPoint};
-use super::ask::{FieldName, LessonSide, MOST_ROWS, number, padded, within};
+use super::ask::{FieldName, MOST_ROWS, number, padded, within};
 use super::models::Opened;
+use crate::linalg::single;
 use crate::measure::chi_square_above;
 use crate::pair::{distance_likelihood, formed, nearest_coefficients};
 use crate::sampling::Target;
@@ -14,15 +16,14 @@ impl Opened {
     /// What there is to say of the shape with these coefficients.
     pub(super) fn point(
         &self,
-        side: LessonSide,
+        side: Side,
         coefficients: &[f64],
     ) -> Result<LessonPoint, LessonError> {
-        let own = side.index();
         let a = padded("The list of coefficients", coefficients, self.modes(side))?;
-        let [model, other] = [self.pair.models()[own], self.pair.models()[1 - own]];
+        let [model, other] = [side, side.other()].map(|one| self.pair.models()[one]);
         let shape = DVector::from_vec(formed(model, &DVector::from_column_slice(&a)));
         let projected = nearest_coefficients(other, &shape);
-        let residual = self.sides[own].residual_at(&a);
+        let residual = self.sides[side.index()].residual_at(&a);
         let length = |point: &[f64]| point.iter().map(|value| value * value).sum::<f64>().sqrt();
         let (evaluations, gradient) = self.posterior(side).differentiate(&a);
         let distance = evaluations[0].statistic;
@@ -47,8 +48,8 @@ impl Opened {
     }
 
     /// The nearest coefficients to any shape.
-    pub(super) fn project(&self, side: LessonSide, shape: &[f64]) -> Result<Vec<f64>, LessonError> {
-        let model = self.pair.models()[side.index()];
+    pub(super) fn project(&self, side: Side, shape: &[f64]) -> Result<Vec<f64>, LessonError> {
+        let model = self.pair.models()[side];
         let length = model.mean().len();
         within("The length of a shape", shape.len(), length, length)?;
         let shape = DVector::from_vec(padded("A shape", shape, length)?);
@@ -56,7 +57,7 @@ impl Opened {
     }
 
     /// What a field is of, at points (B × q).
-    fn values(&self, of: FieldName, side: LessonSide, points: &[f64]) -> Vec<f64> {
+    fn values(&self, of: FieldName, side: Side, points: &[f64]) -> Vec<f64> {
         let operator = &self.sides[side.index()];
         let rows = points.chunks_exact(self.modes(side));
         match of {
@@ -94,7 +95,7 @@ pub(super) struct Grid<'a> {
 pub(super) fn field(
     opened: Option<&Opened>,
     of: FieldName,
-    side: LessonSide,
+    side: Side,
     grid: &Grid,
 ) -> Result<LessonField, LessonError> {
     let [across, upwards] = grid.modes;
@@ -130,5 +131,5 @@ pub(super) fn field(
     let finite = || values.iter().copied().filter(|value| value.is_finite());
     let (highest, lowest) =
         (finite().fold(f64::NEG_INFINITY, f64::max), finite().fold(f64::INFINITY, f64::min));
-    Ok(LessonField { values: super::single(&values), highest, lowest })
+    Ok(LessonField { values: single(&values), highest, lowest })
 }

@@ -13,12 +13,13 @@
 //! Every scene also heeds `plausibility`, `turned`, `tilt`, `shift`, `lift`, `burnin`, as far as they mean
 //! something to it. Other keys are those of the page's picture and are passed over, by name.
 
+use crate::model::Side;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::LessonError;
-use super::ask::{LessonSampler, LessonSide, Opening};
+use super::ask::{LessonSampler, Opening};
 
 /// The scenes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -67,7 +68,7 @@ pub struct Scene {
     #[serde(flatten)]
     pub opening: Opening,
     /// Whose shapes.
-    pub side: LessonSide,
+    pub side: Side,
     /// The shape that is looked at.
     pub coefficients: Vec<f64>,
     /// How draws are made.
@@ -99,7 +100,7 @@ impl Scene {
         let plain = Self {
             scene,
             opening: opening("planes", None, 0.3),
-            side: LessonSide::A,
+            side: Side::A,
             coefficients: Vec::new(),
             sampler: LessonSampler::PaperCorrected,
             chains: 1,

@@ -1,17 +1,15 @@
 //! The figures of a scene, by the same asks that the page makes.
 
+use crate::model::{Side, Sides};
 use serde::Serialize;
 
 use super::answer::{
     LaneFigures, LessonAnswer, LessonIntersection, LessonModels, LessonPoint, LessonPrincipal,
     LessonStep,
 };
-use super::ask::{
-    Beginning, LessonAsk, LessonSampler, LessonSide, LessonTarget, MOST_STEPS, Opening, within,
-};
+use super::ask::{Beginning, LessonAsk, LessonSampler, LessonTarget, MOST_STEPS, Opening, within};
 use super::scene::{Break, Scene, SceneName};
 use super::{Lesson, LessonError};
-use crate::report::BothSides;
 
 /// Points of a star that are tips.
 const TIPS: [usize; 5] = [0, 2, 4, 6, 8];
@@ -89,14 +87,14 @@ pub struct SceneFigures {
     pub tips: Vec<Tip>,
     /// The variance of A∩B as a share of that of A and of B.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub variance_share: Option<BothSides<f64>>,
+    pub variance_share: Option<Sides<f64>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub figures: Option<LaneFigures>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub last_step: Option<LessonStep>,
     /// The lanes of both sides.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub sides: Option<BothSides<LaneFigures>>,
+    pub sides: Option<Sides<LaneFigures>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub intersection: Option<LessonIntersection>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -165,14 +163,14 @@ impl Scene {
                 let usual = if walks { BURN_IN_OF_WALKS } else { BURN_IN_OF_OTHERS };
                 let burn_in = self.burn_in.unwrap_or(usual);
                 within("The number of draws", self.draws, 1, super::MOST_DRAWS)?;
-                for (lane, side) in [(0, LessonSide::A), (1, LessonSide::B)] {
+                for (lane, side) in [(0, Side::A), (1, Side::B)] {
                     let chains = self.begin(lesson, lane, side, burn_in)?;
                     let burn_in = if chains == 1 && self.is_rejection() { 0 } else { burn_in };
                     advance(lesson, lane, burn_in + self.draws.div_ceil(chains))?;
                 }
                 let ask = LessonAsk::Intersection { lanes: [0, 1], counts: counts(self.draws) };
                 found.intersection = Some(asked!(lesson, ask, LessonAnswer::Intersection));
-                found.sides = Some(BothSides { a: figures(lesson, 0)?, b: figures(lesson, 1)? });
+                found.sides = Some(Sides { a: figures(lesson, 0)?, b: figures(lesson, 1)? });
             }
             SceneName::Difference => {
                 self.open(lesson)?;
@@ -212,7 +210,7 @@ impl Scene {
     }
 
     /// What a lane of the scene begins with.
-    fn beginning(&self, side: LessonSide, burn_in: usize) -> Beginning {
+    fn beginning(&self, side: Side, burn_in: usize) -> Beginning {
         let difference = self.scene == SceneName::Difference;
         Beginning {
             target: if difference { LessonTarget::Difference } else { LessonTarget::Intersection },
@@ -231,7 +229,7 @@ impl Scene {
         &self,
         lesson: &mut Lesson,
         lane: u32,
-        side: LessonSide,
+        side: Side,
         burn_in: usize,
     ) -> Result<usize, LessonError> {
         let ask = LessonAsk::Begin { lane, how: self.beginning(side, burn_in) };
@@ -312,10 +310,10 @@ fn tips(models: &LessonModels) -> Vec<Tip> {
     TIPS.into_iter().filter_map(tip).collect()
 }
 
-fn shares(models: &LessonModels) -> BothSides<f64> {
+fn shares(models: &LessonModels) -> Sides<f64> {
     let variance = |sd: &[f64]| sd.iter().map(|value| value * value).sum::<f64>();
     let common = variance(&models.intersection.standard_deviations);
-    BothSides {
+    Sides {
         a: common / variance(&models.a.standard_deviations),
         b: common / variance(&models.b.standard_deviations),
     }

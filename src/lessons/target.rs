@@ -1,6 +1,6 @@
 //! What the chains of a lane draw from.
 
-use crate::pair::{Difference, Intersection, Side};
+use crate::pair::{Difference, Intersection, ResidualOperator};
 use crate::sampling::{Evaluation, RejectionTarget, Target};
 
 /// A target of a lane, in double precision: the models are small, and every number may be looked at.
@@ -15,7 +15,7 @@ pub(super) enum LaneTarget<'a> {
         /// q.
         dimension: usize,
         /// The side.
-        side: Option<&'a Side>,
+        side: Option<&'a ResidualOperator>,
     },
 }
 

@@ -11,3 +11,9 @@ pub use product::{cross, gram, product};
 pub(crate) use product::{product_in_place, product_of, row_squares_of};
 pub use thin_svd::{ThinSvd, thin_svd};
 pub(crate) use thin_svd::{into_thin_svd, singular_values};
+
+/// The same numbers in single precision, as the page draws them.
+#[allow(clippy::cast_possible_truncation, reason = "to single precision is what it is for")]
+pub(crate) fn single<'a>(values: impl IntoIterator<Item = &'a f64>) -> Vec<f32> {
+    values.into_iter().map(|value| *value as f32).collect()
+}

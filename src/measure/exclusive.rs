@@ -1,6 +1,6 @@
 //! Exclusive modes: in which directions one model leaves the space of the other, in closed form.
 //!
-//! With R the residual operator of a side (d·n × q, see [`crate::pair::Side`]) and v a unit direction
+//! With R the residual operator of a side (d·n × q, see [`crate::pair::ResidualOperator`]) and v a unit direction
 //! of its coefficients, a step of one prior standard deviation along v leaves a residual of root mean
 //! square ‖R v‖/√n over the points. The eigenvectors of RᵀR/n order these directions: of all, the first
 //! leaves the largest residual. The relative modes solve RᵀR v = ρ U₁ᵀU₁ v instead, ρ being the share of
@@ -62,6 +62,7 @@ pub fn unexplained_share(gram: &DMatrix<f64>, standard_deviations: &DVector<f64>
 mod tests {
     use super::*;
     use crate::measure::principal_angles;
+    use crate::model::Side;
     use crate::model::{Alignment, LinearModel};
     use crate::pair::Pair;
     use crate::sampling::{Stream, fill_normal, stream};
@@ -89,7 +90,7 @@ mod tests {
         let a = plane(&[3.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
         let b = plane(&[2.0, 0.0, 0.0, 0.0, cosine, sine]);
         let pair = Pair::new(&a, &b, Alignment::None, None).unwrap();
-        let gram = pair.side(0).gram().clone();
+        let gram = pair.residual_operator(Side::A).gram().clone();
         let deviations = a.standard_deviations();
         let absolute = exclusive_modes(&gram, 1);
         assert!((absolute.values[0] - sine).abs() < 1e-15, "one deviation of y: sin t");
@@ -104,7 +105,7 @@ mod tests {
     #[test]
     fn directions_leave_the_residuals_that_they_state() {
         let pair = Pair::new(&model(1, 8, 5), &model(2, 8, 4), Alignment::None, None).unwrap();
-        let side = pair.side(0);
+        let side = pair.residual_operator(Side::A);
         let scaled = pair.a().scaled_basis();
         let outside = |direction: &DVector<f64>| {
             let shape = &scaled * direction;
@@ -137,7 +138,10 @@ mod tests {
         for (first, second) in [(5, 5), (6, 3), (3, 6)] {
             let (a, b) = (model(3, 8, first), model(4, 8, second));
             let pair = Pair::new(&a, &b, Alignment::None, None).unwrap();
-            let modes = relative_exclusive_modes(pair.side(0).gram(), a.standard_deviations());
+            let modes = relative_exclusive_modes(
+                pair.residual_operator(Side::A).gram(),
+                a.standard_deviations(),
+            );
             let angles = principal_angles(a.basis(), b.basis());
             let squares = angles.iter().map(|angle| libm::sin(*angle) * libm::sin(*angle));
             // Modes beyond the smaller model's number are outside altogether.

@@ -16,6 +16,7 @@ mod normals;
 mod points;
 mod population;
 mod procrustes;
+mod side;
 
 pub(crate) use linear_model::lengths;
 pub use linear_model::{BasisCheck, Cells, Kind, LinearModel, ModelError, Unit};
@@ -24,3 +25,4 @@ pub use points::evenly_spread;
 pub(crate) use population::into_principal_components;
 pub use population::{generalised_procrustes, principal_components};
 pub use procrustes::{Alignment, Similarity, align_to, procrustes};
+pub use side::{Side, Sides};

@@ -29,7 +29,7 @@ use serde::{Deserialize, Serialize};
 use crate::linalg::parallel;
 use crate::linalg::thin_svd;
 use crate::model::LinearModel;
-use crate::pair::Side;
+use crate::pair::ResidualOperator;
 use crate::pair::intersection::Distances;
 use crate::sampling::{
     Envelope, Evaluation, RejectionTarget, Stream, Target, Tilted, fill_normal, stream,
@@ -56,8 +56,8 @@ pub enum DifferenceDefinition {
 
 impl DifferenceDefinition {
     /// Whether the difference is empty because the other model holds every shape of this side; `scale` as
-    /// in [`Side::is_contained`]. The plausible shapes of one need not be plausible in the other.
-    pub fn is_empty(self, side: &Side, scale: f64) -> bool {
+    /// in [`ResidualOperator::is_contained`]. The plausible shapes of one need not be plausible in the other.
+    pub fn is_empty(self, side: &ResidualOperator, scale: f64) -> bool {
         self != Self::Outside && side.is_contained(scale)
     }
 }
@@ -89,7 +89,7 @@ impl Criterion {
     pub fn new(
         definition: DifferenceDefinition,
         level: Level,
-        side: &Side,
+        side: &ResidualOperator,
         model: &LinearModel,
         seed: u64,
         index: usize,
@@ -133,7 +133,7 @@ impl Criterion {
     }
 
     /// The quadratic envelope, where it accepts more than the prior.
-    fn tilted(&self, side: &Side) -> Option<Tilted> {
+    fn tilted(&self, side: &ResidualOperator) -> Option<Tilted> {
         let points = side.point_count() as f64;
         // The bound on score², κ + 2 gᵀa + aᵀG a.
         let (constant, linear, gram) = match self.definition {
@@ -175,12 +175,12 @@ pub struct Difference<'a> {
 
 impl<'a> Difference<'a> {
     /// Of the side that the criterion was made for.
-    pub fn new(side: &'a Side, criterion: &'a Criterion) -> Self {
+    pub fn new(side: &'a ResidualOperator, criterion: &'a Criterion) -> Self {
         Self { distances: Distances::new(side, vec![0.0; side.mode_count()]), criterion }
     }
 
     /// The same in double precision, one shape after the other: for models of a few points.
-    pub fn exact(side: &'a Side, criterion: &'a Criterion) -> Self {
+    pub fn exact(side: &'a ResidualOperator, criterion: &'a Criterion) -> Self {
         Self { distances: Distances::exact(side), criterion }
     }
 
@@ -279,6 +279,7 @@ mod tests {
     use super::*;
     use crate::measure::mean_vertex_distance;
     use crate::model::Alignment;
+    use crate::model::Side;
     use crate::pair::{Intersection, Pair};
 
     fn model(seed: u64, modes: usize) -> LinearModel {
@@ -291,7 +292,7 @@ mod tests {
 
     /// x = m₁ + U₁a and its projection, by the definitions.
     fn projected(pair: &Pair, point: &[f64]) -> (DVector<f64>, DVector<f64>, DVector<f64>) {
-        let [from, to] = pair.models();
+        let [from, to] = pair.models().into_array();
         let shape = from.shape(point);
         let inside = to.basis().tr_mul(&(&shape - to.mean()));
         let coefficients = inside.component_div(to.standard_deviations());
@@ -303,7 +304,7 @@ mod tests {
     fn scores_are_those_of_the_shapes() {
         let pair = Pair::new(&model(1, 4), &model(2, 3), Alignment::None, None).unwrap();
         // How plausibility enters the intersection is no matter of the difference.
-        let side = pair.side(0).with_plausibility(0.5);
+        let side = pair.residual_operator(Side::A).with_plausibility(0.5);
         let mut random = stream(3, Stream::Display, 9, 0);
         let mut points = vec![0.0; 4 * 50];
         fill_normal(&mut random, &mut points);
@@ -336,7 +337,7 @@ mod tests {
     #[test]
     fn targets_in_double_precision_are_those_of_the_kernel_with_the_slope_of_finite_differences() {
         let pair = Pair::new(&model(1, 4), &model(2, 3), Alignment::None, None).unwrap();
-        let side = pair.side(0);
+        let side = pair.residual_operator(Side::A);
         let criterion =
             Criterion::new(DifferenceDefinition::Soft, Level::Value(2.0), &side, pair.a(), 1, 0);
         let mut points = vec![0.0; 4 * 20];
@@ -381,7 +382,7 @@ mod tests {
     #[test]
     fn every_envelope_is_the_quadratic_and_an_upper_bound() {
         let pair = Pair::new(&model(1, 4), &model(2, 3), Alignment::None, None).unwrap();
-        let side = pair.side(0);
+        let side = pair.residual_operator(Side::A);
         for definition in [
             DifferenceDefinition::Soft,
             DifferenceDefinition::Distance,

@@ -31,7 +31,7 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use crate::linalg::parallel;
-use crate::pair::Side;
+use crate::pair::ResidualOperator;
 use crate::pair::expected_norm::{NormMoments, NormQuadrature};
 use crate::pair::fit_residuals::{Residuals, Vertices, weighted_gram, weighted_sum};
 use crate::sampling::Gaussian;
@@ -70,7 +70,7 @@ pub struct Fit {
 }
 
 /// N(a; ·) ∝ L_P(a)·p(a): precision I + AᵀA. Wider than every posterior of this side, since L_D ≤ 1.
-pub fn without_distance(side: &Side) -> Option<Gaussian> {
+pub fn without_distance(side: &ResidualOperator) -> Option<Gaussian> {
     quadratic(
         side,
         &DMatrix::zeros(side.mode_count(), side.mode_count()),
@@ -79,7 +79,11 @@ pub fn without_distance(side: &Side) -> Option<Gaussian> {
 }
 
 /// The Gaussian with precision I + AᵀA + H and linear term Aᵀa₀ + h.
-fn quadratic(side: &Side, hessian: &DMatrix<f64>, shift: &DVector<f64>) -> Option<Gaussian> {
+fn quadratic(
+    side: &ResidualOperator,
+    hessian: &DMatrix<f64>,
+    shift: &DVector<f64>,
+) -> Option<Gaussian> {
     let precision = side.plausibility_precision() + hessian;
     let linear = side.plausibility_shift() + shift;
     let mean = -precision.clone().cholesky()?.solve(&linear);
@@ -87,14 +91,14 @@ fn quadratic(side: &Side, hessian: &DMatrix<f64>, shift: &DVector<f64>) -> Optio
 }
 
 /// The rms fit; `None` when σ is so small that the precision overflows.
-pub fn fit_rms(side: &Side, sigma: f64) -> Option<Gaussian> {
+pub fn fit_rms(side: &ResidualOperator, sigma: f64) -> Option<Gaussian> {
     let scale = 1.0 / (side.point_count() as f64 * sigma * sigma);
     quadratic(side, &(side.gram() * scale), &(side.gram_shift() * scale))
 }
 
 /// The reweighted fit, `rounds` rounds from `start`.
 pub fn fit_reweighted(
-    side: &Side,
+    side: &ResidualOperator,
     sigma: f64,
     start: &Gaussian,
     rounds: usize,
@@ -106,7 +110,7 @@ pub fn fit_reweighted(
 }
 
 fn reweighted<const D: usize>(
-    side: &Side,
+    side: &ResidualOperator,
     sigma: f64,
     start: &Gaussian,
     rounds: usize,
@@ -138,7 +142,7 @@ fn reweighted<const D: usize>(
 
 /// One iteration of the variational fit from `current`, with the whitened length of its step.
 pub fn fit_variational_step(
-    side: &Side,
+    side: &ResidualOperator,
     sigma: f64,
     current: &Gaussian,
 ) -> Option<(Gaussian, f64)> {
@@ -147,7 +151,7 @@ pub fn fit_variational_step(
 
 /// The same with sums over one of every `stride` vertices, for all iterations but the last.
 pub fn fit_variational_step_every(
-    side: &Side,
+    side: &ResidualOperator,
     sigma: f64,
     current: &Gaussian,
     stride: usize,
@@ -167,7 +171,7 @@ pub fn fit_variational_step_every(
 }
 
 /// A fit for the eye: from rms, two variational iterations over some of the vertices.
-pub fn fit_quickly(side: &Side, sigma: f64) -> Option<Gaussian> {
+pub fn fit_quickly(side: &ResidualOperator, sigma: f64) -> Option<Gaussian> {
     const ITERATIONS: usize = 2;
     const VERTICES: usize = 1024;
     let stride = side.point_count().div_ceil(VERTICES);
@@ -185,14 +189,18 @@ pub fn fit_quickly(side: &Side, sigma: f64) -> Option<Gaussian> {
 ///
 /// `None` where it is not defined: at the mode a residual vanishes that other coefficients move, so that
 /// the curvature there is infinite, or the mode is not reached.
-pub fn fit_laplace(side: &Side, sigma: f64, start: &Gaussian) -> Option<Gaussian> {
+pub fn fit_laplace(side: &ResidualOperator, sigma: f64, start: &Gaussian) -> Option<Gaussian> {
     match side.dimension() {
         2 => laplace::<2>(side, sigma, start.mean()),
         _ => laplace::<3>(side, sigma, start.mean()),
     }
 }
 
-fn laplace<const D: usize>(side: &Side, sigma: f64, start: &DVector<f64>) -> Option<Gaussian> {
+fn laplace<const D: usize>(
+    side: &ResidualOperator,
+    sigma: f64,
+    start: &DVector<f64>,
+) -> Option<Gaussian> {
     let energy = |point: &DVector<f64>| {
         let scaled = side.mean_vertex_distance(point.as_slice()) / sigma;
         0.5 * (scaled * scaled + side.plausibility_square(point.as_slice()))
@@ -221,7 +229,7 @@ fn laplace<const D: usize>(side: &Side, sigma: f64, start: &DVector<f64>) -> Opt
 }
 
 /// Whether d has a curvature at the mean: no vertex that moves has lost its residual there.
-fn is_smooth<const D: usize>(side: &Side, fit: &Gaussian) -> bool {
+fn is_smooth<const D: usize>(side: &ResidualOperator, fit: &Gaussian) -> bool {
     let norm = |vector: &[f64]| vector.iter().map(|value| value * value).sum::<f64>().sqrt();
     let residual = side.residual_at(fit.mean().as_slice());
     let spreads: Vec<f64> = side.residual().chunks_exact(D * side.mode_count()).map(norm).collect();
@@ -232,7 +240,7 @@ fn is_smooth<const D: usize>(side: &Side, fit: &Gaussian) -> bool {
 }
 
 /// E d under `gaussian`, by quadrature.
-pub fn expected_distance(side: &Side, gaussian: &Gaussian) -> f64 {
+pub fn expected_distance(side: &ResidualOperator, gaussian: &Gaussian) -> f64 {
     let vertices = Vertices::all(side.point_count());
     match side.dimension() {
         2 => mean_norm(&Residuals::<2>::new(side, gaussian, vertices).moments()),
@@ -242,7 +250,7 @@ pub fn expected_distance(side: &Side, gaussian: &Gaussian) -> f64 {
 
 /// q_eff = tr[Σ(Λ − I − AᵀA)], the dimensions that the tolerance governs and not the prior:
 /// E d ≈ √(d(μ)² + q_eff σ²).
-pub fn effective_dimensions(side: &Side, gaussian: &Gaussian) -> f64 {
+pub fn effective_dimensions(side: &ResidualOperator, gaussian: &Gaussian) -> f64 {
     // tr[Σ(Λ − P)] = q − tr(TᵀPT) with P = I + AᵀA.
     let transform = gaussian.transform();
     let kept = (side.plausibility_precision() * transform).dot(transform);
@@ -262,19 +270,27 @@ struct Slope {
 
 impl Slope {
     /// Expected under a Gaussian.
-    fn expected<const D: usize>(side: &Side, gaussian: &Gaussian, vertices: Vertices) -> Self {
+    fn expected<const D: usize>(
+        side: &ResidualOperator,
+        gaussian: &Gaussian,
+        vertices: Vertices,
+    ) -> Self {
         Self::of(side, vertices, &Residuals::<D>::new(side, gaussian, vertices).moments())
     }
 
     /// At a point.
-    fn at<const D: usize>(side: &Side, point: &DVector<f64>) -> Self {
+    fn at<const D: usize>(side: &ResidualOperator, point: &DVector<f64>) -> Self {
         let residual = side.residual_at(point.as_slice());
         let moments: Vec<NormMoments<D>> =
             residual.as_chunks::<D>().0.iter().map(|residual| NormMoments::of(*residual)).collect();
         Self::of(side, Vertices::all(side.point_count()), &moments)
     }
 
-    fn of<const D: usize>(side: &Side, vertices: Vertices, moments: &[NormMoments<D>]) -> Self {
+    fn of<const D: usize>(
+        side: &ResidualOperator,
+        vertices: Vertices,
+        moments: &[NormMoments<D>],
+    ) -> Self {
         let share = 1.0 / vertices.count() as f64;
         Self {
             distance: mean_norm(moments),
@@ -286,7 +302,7 @@ impl Slope {
     /// −∇ log p and its Newton-like matrix I + AᵀA + σ⁻²[d̄·W + ḡḡᵀ].
     fn of_posterior(
         self,
-        side: &Side,
+        side: &ResidualOperator,
         sigma: f64,
         point: &DVector<f64>,
     ) -> (DVector<f64>, DMatrix<f64>) {

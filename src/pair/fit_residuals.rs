@@ -12,8 +12,8 @@ use pulp::{Simd, WithSimd};
 
 use crate::linalg::parallel;
 use crate::linalg::simd::{self, Aligned, ROWS, Real, Tile, VECTORS, add_cross, dot, padded};
-use crate::pair::Side;
-use crate::pair::residual_operator::{add, symmetric, with_rows};
+use crate::pair::ResidualOperator;
+use crate::pair::residual_rows::{add, symmetric, with_rows};
 use crate::sampling::Gaussian;
 
 /// Vertices whose rows stay in cache.
@@ -69,11 +69,16 @@ pub(crate) struct Residuals<const D: usize> {
 }
 
 impl<const D: usize> Residuals<D> {
-    pub(crate) fn new(side: &Side, gaussian: &Gaussian, vertices: Vertices) -> Self {
+    pub(crate) fn new(side: &ResidualOperator, gaussian: &Gaussian, vertices: Vertices) -> Self {
         with_rows!(side, rows => Self::of(rows, side, gaussian, vertices))
     }
 
-    fn of<T: Real>(rows: &[T], side: &Side, gaussian: &Gaussian, vertices: Vertices) -> Self {
+    fn of<T: Real>(
+        rows: &[T],
+        side: &ResidualOperator,
+        gaussian: &Gaussian,
+        vertices: Vertices,
+    ) -> Self {
         let modes = side.mode_count();
         let stride = padded(modes);
         let mut transform = Aligned::<T>::new(modes * stride);
@@ -229,7 +234,7 @@ fn transformed<T: Real, S: Simd>(
 
 /// Σ_v R_vᵀW_vR_v over these vertices, W_v symmetric and given by stratum.
 pub(crate) fn weighted_gram<const D: usize>(
-    side: &Side,
+    side: &ResidualOperator,
     vertices: Vertices,
     weight: impl Fn(usize) -> [[f64; D]; D] + Sync + Send,
 ) -> DMatrix<f64> {
@@ -303,7 +308,7 @@ impl<T: Real> WithSimd for Gram<'_, T> {
 
 /// Σ_v R_vᵀw_v over these vertices, w_v given by stratum, in double precision.
 pub(crate) fn weighted_sum<const D: usize>(
-    side: &Side,
+    side: &ResidualOperator,
     vertices: Vertices,
     weight: impl Fn(usize) -> [f64; D] + Sync + Send,
 ) -> DVector<f64> {

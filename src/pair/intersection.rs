@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use crate::pair::Side;
+use crate::pair::ResidualOperator;
 use crate::sampling::{Evaluation, Target};
 
 /// L_D = exp(−½(d/σ)²), the distance likelihood (Weiherer et al. 2024, eq. 11).
@@ -14,7 +14,7 @@ pub fn distance_likelihood(distance: f64, sigma: f64) -> f64 {
 /// d(x′, x) of many shapes.
 #[derive(Debug)]
 pub(crate) struct Distances<'a> {
-    pub(crate) side: &'a Side,
+    pub(crate) side: &'a ResidualOperator,
     centre: Option<Centre>,
 }
 
@@ -28,13 +28,13 @@ struct Centre {
 impl<'a> Distances<'a> {
     /// In single precision about a centre, many at once.
     #[allow(clippy::cast_possible_truncation, reason = "single precision is the point")]
-    pub(crate) fn new(side: &'a Side, centre: Vec<f64>) -> Self {
+    pub(crate) fn new(side: &'a ResidualOperator, centre: Vec<f64>) -> Self {
         let residual = side.residual_at(&centre).into_iter().map(|value| value as f32).collect();
         Self { side, centre: Some(Centre { point: centre, residual }) }
     }
 
     /// In double precision, one by one: for models of a few points.
-    pub(crate) fn exact(side: &'a Side) -> Self {
+    pub(crate) fn exact(side: &'a ResidualOperator) -> Self {
         Self { side, centre: None }
     }
 
@@ -80,12 +80,12 @@ pub struct Intersection<'a> {
 
 impl<'a> Intersection<'a> {
     /// With tolerance σ, accurate to single precision about `centre` (the mean of a fit).
-    pub fn new(side: &'a Side, sigma: f64, centre: &DVector<f64>) -> Self {
+    pub fn new(side: &'a ResidualOperator, sigma: f64, centre: &DVector<f64>) -> Self {
         Self { distances: Distances::new(side, centre.as_slice().to_vec()), sigma }
     }
 
     /// The same in double precision throughout, one shape after the other: for models of a few points.
-    pub fn exact(side: &'a Side, sigma: f64) -> Self {
+    pub fn exact(side: &'a ResidualOperator, sigma: f64) -> Self {
         Self { distances: Distances::exact(side), sigma }
     }
 

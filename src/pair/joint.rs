@@ -14,6 +14,7 @@
 //! evidence is no use: L_P is not normalised on a common measure, so the evidence of a side
 //! depends on the volume of its own coordinates.
 
+use crate::model::Side;
 use nalgebra::{DMatrix, DVector};
 
 use crate::linalg::{cross, gram, product_of, row_squares_of};
@@ -275,18 +276,18 @@ impl Joint {
     }
 
     /// The law of shapes of side 0 (A) or 1 (B) whose coefficients have the given moments.
-    pub fn lift(&self, side: usize, coefficients: &Moments) -> Moments {
-        let scaled = &self.scaled[side];
+    pub fn lift(&self, side: Side, coefficients: &Moments) -> Moments {
+        let scaled = &self.scaled[side.index()];
         let half = product(scaled, &coefficients.covariance);
         Moments {
-            mean: &self.means[side] + scaled * &coefficients.mean,
+            mean: &self.means[side.index()] + scaled * &coefficients.mean,
             covariance: product(&half, &scaled.transpose()),
         }
     }
 
     /// The orthonormal modes of model A (0) or B (1), p × q.
-    pub fn modes(&self, side: usize) -> DMatrix<f64> {
-        let mut modes = self.scaled[side].clone();
+    pub fn modes(&self, side: Side) -> DMatrix<f64> {
+        let mut modes = self.scaled[side.index()].clone();
         for mut column in modes.column_iter_mut() {
             column /= column.norm();
         }
@@ -294,14 +295,14 @@ impl Joint {
     }
 
     /// The mean of model A (0) or B (1), p.
-    pub fn mean(&self, side: usize) -> &DVector<f64> {
-        &self.means[side]
+    pub fn mean(&self, side: Side) -> &DVector<f64> {
+        &self.means[side.index()]
     }
 
     /// The prior law of model A (0) or B (1).
-    pub fn prior(&self, side: usize) -> Moments {
-        let rows = self.scaled[side].transpose();
-        Moments { mean: self.means[side].clone(), covariance: gram(&rows) }
+    pub fn prior(&self, side: Side) -> Moments {
+        let rows = self.scaled[side.index()].transpose();
+        Moments { mean: self.means[side.index()].clone(), covariance: gram(&rows) }
     }
 
     /// The leading principal components, `most` at the most; `None` when nothing varies.
@@ -410,9 +411,9 @@ mod tests {
             let off = (basis.tr_mul(&basis) - DMatrix::identity(expected, expected)).amax();
             // The Gram matrix has squares of sines to 10⁻¹⁶, of which the smallest is 10⁻³.
             assert!(off < 1e-12, "orthonormal but for {off}");
-            let off = (joint.shape(joint.mean(1)) - b.mean()).amax();
+            let off = (joint.shape(joint.mean(Side::B)) - b.mean()).amax();
             assert!(off < 1e-12, "mean of B, off by {off}");
-            let found = principal_angles(&joint.modes(0), &joint.modes(1));
+            let found = principal_angles(&joint.modes(Side::A), &joint.modes(Side::B));
             for (found, angle) in found.into_iter().zip(angles) {
                 // What is dropped shows no angle, or part of it where δ has some of that direction.
                 let dropped = if angle < SMALLEST_NEW_DIRECTION { angle } else { 0.0 };
@@ -445,7 +446,7 @@ mod tests {
             LinearModel::from_scaled_basis(3, DVector::zeros(36), basis(seed)).unwrap().0
         };
         let joint = Joint::new(&build(1), &build(2));
-        let pooled = Moments::pooled(&joint.prior(0), &joint.prior(1));
+        let pooled = Moments::pooled(&joint.prior(Side::A), &joint.prior(Side::B));
         let model = joint.principal_components(&pooled, 4).unwrap();
         let formed = joint.formed(&model);
         assert_eq!(formed.mode_count(), 4, "as many as asked for");

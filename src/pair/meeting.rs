@@ -11,6 +11,7 @@
 //! **Limits.** On meshes of more than 512 points every k-th point is looked at: the distance is a mean
 //! over them.
 
+use crate::model::Sides;
 use nalgebra::{DMatrix, DVector};
 
 use crate::linalg::cross;
@@ -100,7 +101,7 @@ impl Problem {
             }
             part
         };
-        let [a, b] = pair.models();
+        let Sides { a, b } = pair.models();
         let modes = [a.mode_count(), b.mode_count()];
         let mut operator = scaled(a, 1.0).insert_columns(modes[0], modes[1], 0.0);
         operator.columns_mut(modes[0], modes[1]).copy_from(&scaled(b, -1.0));

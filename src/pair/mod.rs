@@ -1,6 +1,7 @@
 //! Two models in one frame: the residual operator, the targets, the Gaussian fits.
 
 mod difference;
+mod error;
 mod expected_norm;
 mod fit;
 mod fit_residuals;
@@ -12,11 +13,13 @@ mod meeting;
 mod nearest;
 mod preparation;
 mod residual_operator;
+mod residual_rows;
 mod tolerance;
 mod two_models;
 mod vertex_residuals;
 
 pub use difference::{Criterion, Difference, DifferenceDefinition, Level};
+pub use error::PairError;
 pub use fit::{
     Fit, FitMethod, effective_dimensions, expected_distance, fit_laplace, fit_quickly,
     fit_reweighted, fit_rms, fit_variational_step, fit_variational_step_every, without_distance,
@@ -30,5 +33,6 @@ pub use meeting::{Meeting, nearest_meeting, plausible_radius};
 pub(crate) use nearest::sum_of;
 pub use nearest::{formed, nearest_coefficients};
 pub use preparation::{PointSelection, Preparation, SelectionError, SidePreparation};
+pub use residual_operator::ResidualOperator;
 pub use tolerance::{Tolerance, recommended_tolerance};
-pub use two_models::{Pair, PairError, Side};
+pub use two_models::Pair;

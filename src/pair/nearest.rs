@@ -8,6 +8,7 @@
 //! **Accuracy.** Directions of B that lean less than 10⁻⁹ out of A are not in the joint basis; they
 //! change x′ by 10⁻⁹ of the shape's deviation.
 
+use crate::model::Side;
 use nalgebra::{DMatrix, DVector};
 
 use crate::linalg::{Sum, combined};
@@ -36,22 +37,22 @@ impl Joint {
     /// Coordinates (p) of the shape of model A (0) or B (1) with these coefficients.
     pub fn coordinates_of_coefficients(
         &self,
-        side: usize,
+        side: Side,
         coefficients: &DVector<f64>,
     ) -> DVector<f64> {
-        &self.means[side] + &self.scaled[side] * coefficients
+        &self.means[side.index()] + &self.scaled[side.index()] * coefficients
     }
 
     /// a′ in model A (0) or B (1) for the shape with these coordinates (p).
-    pub fn nearest_coefficients(&self, side: usize, coordinates: &DVector<f64>) -> DVector<f64> {
-        let deviations = self.models[side].standard_deviations();
-        let seen = self.scaled[side].tr_mul(&(coordinates - &self.means[side]));
+    pub fn nearest_coefficients(&self, side: Side, coordinates: &DVector<f64>) -> DVector<f64> {
+        let deviations = self.models[side.index()].standard_deviations();
+        let seen = self.scaled[side.index()].tr_mul(&(coordinates - &self.means[side.index()]));
         seen.component_div(deviations).component_div(deviations)
     }
 
     /// BᵀU of model A (0) or B (1), p × q: a unit of each coefficient as coordinates.
-    pub fn scaled_modes(&self, side: usize) -> &DMatrix<f64> {
-        &self.scaled[side]
+    pub fn scaled_modes(&self, side: Side) -> &DMatrix<f64> {
+        &self.scaled[side.index()]
     }
 
     /// The shape m₁ + B c (d·n), formed as fast as can be.
@@ -105,21 +106,22 @@ mod tests {
     fn the_nearest_shape_by_coordinates_is_that_of_the_definition() {
         let models = [model(1, 5), model(2, 4)];
         let joint = Joint::new(&models[0], &models[1]);
-        for side in 0..2 {
-            let coefficients = DVector::from_fn(models[side].mode_count(), |k, _| 1.5 - k as f64);
-            let shape = models[side].shape(coefficients.as_slice());
+        for side in Side::BOTH {
+            let coefficients =
+                DVector::from_fn(models[side.index()].mode_count(), |k, _| 1.5 - k as f64);
+            let shape = models[side.index()].shape(coefficients.as_slice());
             let coordinates = joint.coordinates_of_coefficients(side, &coefficients);
-            let formed_here = DVector::from_vec(formed(&models[side], &coefficients));
+            let formed_here = DVector::from_vec(formed(&models[side.index()], &coefficients));
             assert!((&formed_here - &shape).amax() < 1e-13, "the shape itself");
             let by_basis = DVector::from_vec(joint.formed_shape(&coordinates));
             assert!((by_basis - &shape).amax() < 1e-12, "and by the joint basis");
-            for to in 0..2 {
-                let expected = nearest_coefficients(&models[to], &shape);
+            for to in Side::BOTH {
+                let expected = nearest_coefficients(&models[to.index()], &shape);
                 let found = joint.nearest_coefficients(to, &coordinates);
-                assert!((&found - &expected).amax() < 1e-11, "a′ of {side} in {to}");
+                assert!((&found - &expected).amax() < 1e-11, "a′ of {side:?} in {to:?}");
                 // x − x′ stands at a right angle on the model.
-                let apart = &shape - DVector::from_vec(formed(&models[to], &found));
-                assert!(models[to].basis().tr_mul(&apart).amax() < 1e-11, "nearest");
+                let apart = &shape - DVector::from_vec(formed(&models[to.index()], &found));
+                assert!(models[to.index()].basis().tr_mul(&apart).amax() < 1e-11, "nearest");
                 assert_eq!(side == to, apart.amax() < 1e-11, "and the other is not itself");
             }
         }

@@ -22,7 +22,8 @@ use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use crate::model::{Alignment, Kind, LinearModel, Similarity, Unit, align_to, evenly_spread};
-use crate::pair::two_models::{PairError, thousands};
+use crate::pair::error::PairError;
+use crate::text::thousands;
 
 /// What is done to two models before they are compared.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]

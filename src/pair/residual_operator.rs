@@ -1,338 +1,252 @@
-//! How the residual operator is made, and the quadratic part of the posterior for many shapes.
+//! The residual operator: what one model misses of the shapes of another.
 //!
-//! C = E₂ᵀU₁ and R = U₁ − E₂C with RᵀR, in two passes over strips of rows: 6·d·n·q² flops in double
-//! precision, a few megabytes beside the result. Strips are added in their order.
-
-use core::ops::Range;
+//! For x = m₁ + U₁ a the projection to M₂ is x′ = m₂ + U₂ a′ with a′ = U₂⁺(x − m₂) (Weiherer et
+//! al. 2024, eq. 8). With P₂ = E₂E₂ᵀ, U = E·D^½:
+//!
+//! r(a) = x − x′ = r₀ + R a,  r₀ = (I − P₂)(m₁ − m₂),  R = (I − P₂) U₁ = U₁ − E₂(E₂ᵀU₁)
+//! a′(a) = a₀ + A a,      a₀ = D₂^−½ E₂ᵀ(m₁ − m₂),  A = D₂^−½ E₂ᵀU₁
+//!
+//! so that one evaluation of the distance (eq. 10) d = (1/n) Σ_v ‖r_v‖ is one product with R, where
+//! generating, projecting and reconstructing takes three. The paper's text calls d a mean squared
+//! error; it is the mean of the points' distances, neither squared nor a root mean square.
 
 use nalgebra::{DMatrix, DVector};
-use pulp::{Simd, WithSimd};
 
+use super::DistanceKernel;
+use super::residual_rows::{Operator, Plausibilities, Rows, with_rows};
 use crate::linalg::parallel;
-use crate::linalg::simd::{self, Aligned, ROWS, Real, Tile, VECTORS, add_cross, padded};
+use crate::linalg::simd::{Real, dot};
 use crate::model::LinearModel;
 
-/// Rows of a piece of work.
+/// Shapes of one model seen from the other: x = m₁ + U₁ a against M₂.
+///
+/// R is kept in single precision, 4·d·n·q bytes, and beside it in double precision where that costs at
+/// most two megabytes. Everything reads the same R, so that its rounding is one of the model.
+#[derive(Debug, Clone)]
+pub struct ResidualOperator {
+    dimension: usize,
+    modes: usize,
+    /// r₀ (d·n).
+    offset: Vec<f64>,
+    /// R in double precision, row-major (d·n × q), where it is small.
+    double: Option<Vec<f64>>,
+    /// AᵀA (q × q) and Aᵀa₀ (q), for ‖a′‖² = ‖a₀‖² + 2 aᵀAᵀa₀ + aᵀAᵀA a.
+    projection_gram: DMatrix<f64>,
+    projection_shift: DVector<f64>,
+    projection_constant: f64,
+    /// Share of ‖a′‖² + ‖a‖² in twice the negative log density: 1 for the paper's product.
+    plausibility_share: f64,
+    /// RᵀR, Rᵀr₀ and ‖r₀‖², for Σ_v ‖r_v‖² in O(q²).
+    gram: DMatrix<f64>,
+    gram_shift: DVector<f64>,
+    gram_constant: f64,
+    /// Largest |value| in R and r₀.
+    largest_residual: f64,
+    kernel: DistanceKernel,
+}
+
+/// Rows whose residuals are one piece of work.
 const STRIP: usize = 1536;
-/// Rows that stay in cache.
-const TILE: usize = 96;
-/// Pieces of work that are under way together.
-const WAVE: usize = 16;
-/// Entries of R up to which it is kept in double precision too.
-const SMALL: usize = 1 << 18;
 
-/// R as it is kept, row-major (d·n × q).
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum Rows<'a> {
-    Single(&'a [f32]),
-    Double(&'a [f64]),
-}
-
-/// Does something with R of a side, in the precision in which it is kept best.
-macro_rules! with_rows {
-    ($side:expr, $rows:ident => $what:expr) => {
-        match $side.rows() {
-            $crate::pair::residual_operator::Rows::Double($rows) => $what,
-            $crate::pair::residual_operator::Rows::Single($rows) => $what,
+impl ResidualOperator {
+    /// The operator for shapes of `from` seen from `to`.
+    pub fn new(from: &LinearModel, to: &LinearModel) -> Self {
+        let difference = from.mean() - to.mean();
+        let mean_coordinates = to.basis().tr_mul(&difference);
+        let offset = &difference - to.basis() * &mean_coordinates;
+        let operator = Operator::new(from, to, offset.as_slice());
+        let mut projection = operator.coordinates;
+        for (mut row, deviation) in projection.row_iter_mut().zip(to.standard_deviations().iter()) {
+            row /= *deviation;
         }
-    };
-}
-pub(crate) use with_rows;
-
-/// C = E₂ᵀU₁, R = U₁ − E₂C, and what is summed over R.
-pub(crate) struct Operator {
-    /// C (q₂ × q₁).
-    pub(crate) coordinates: DMatrix<f64>,
-    /// R, row-major, and again in double precision where it is small.
-    pub(crate) single: Vec<f32>,
-    pub(crate) double: Option<Vec<f64>>,
-    /// RᵀR and Rᵀr₀.
-    pub(crate) gram: DMatrix<f64>,
-    pub(crate) gram_shift: DVector<f64>,
-    /// Largest |value| in R.
-    pub(crate) largest: f64,
-}
-
-impl Operator {
-    pub(crate) fn new(from: &LinearModel, to: &LinearModel, offset: &[f64]) -> Self {
-        let (modes, others, rows) = (from.mode_count(), to.mode_count(), offset.len());
-        let stride = padded(modes);
-        let mut coordinates = vec![0.0; others * stride];
-        in_strips(
-            rows,
-            |strip| simd::dispatch(Projected { from, to, strip }),
-            |part| {
-                add(&mut coordinates, &part);
-            },
-        );
-        let mut single = Vec::with_capacity(rows * modes);
-        let mut double = (rows * modes <= SMALL).then(|| Vec::with_capacity(rows * modes));
-        let mut gram = vec![0.0; modes * stride];
-        let mut gram_shift = vec![0.0; modes];
-        let mut largest = 0.0_f64;
-        let work = |strip| {
-            let (coordinates, wanted) = (&coordinates[..], rows * modes <= SMALL);
-            simd::dispatch(Residual { from, to, offset, coordinates, strip, double: wanted })
-        };
-        in_strips(rows, work, |part| {
-            single.extend_from_slice(&part.single);
-            if let Some(double) = &mut double {
-                double.extend_from_slice(&part.double);
-            }
-            add(&mut gram, &part.gram);
-            add(&mut gram_shift, &part.gram_shift);
-            largest = largest.max(part.largest);
-        });
+        let projected_mean = mean_coordinates.component_div(to.standard_deviations());
         Self {
-            coordinates: DMatrix::from_fn(others, modes, |row, column| {
-                coordinates[row * stride + column]
-            }),
-            single,
-            double,
-            gram: symmetric(&gram, modes, stride),
-            gram_shift: DVector::from_vec(gram_shift),
-            largest,
+            dimension: from.dimension(),
+            modes: from.mode_count(),
+            projection_gram: projection.tr_mul(&projection),
+            projection_shift: projection.tr_mul(&projected_mean),
+            projection_constant: projected_mean.norm_squared(),
+            plausibility_share: 1.0,
+            gram: operator.gram,
+            gram_shift: operator.gram_shift,
+            gram_constant: offset.norm_squared(),
+            largest_residual: operator.largest.max(offset.amax()),
+            kernel: DistanceKernel::of_rows(from.dimension(), from.mode_count(), operator.single),
+            offset: offset.as_slice().to_vec(),
+            double: operator.double,
         }
     }
-}
 
-/// The symmetric matrix with this upper triangle (row-major).
-pub(crate) fn symmetric(upper: &[f64], size: usize, stride: usize) -> DMatrix<f64> {
-    DMatrix::from_fn(size, size, |row, column| upper[row.min(column) * stride + row.max(column)])
-}
+    /// The same with s(‖a′‖² + ‖a‖²) in the posterior: s = 1 is the paper's product L_P·p, s = ½ the geometric
+    /// mean of the two plausibilities, with which a model compared with itself keeps its variance.
+    #[must_use]
+    pub fn with_plausibility(self, share: f64) -> Self {
+        Self { plausibility_share: share, ..self }
+    }
 
-/// Adds y to x.
-pub(crate) fn add(x: &mut [f64], y: &[f64]) {
-    x.iter_mut().zip(y).for_each(|(x, y)| *x += y);
-}
+    /// s(I + AᵀA), the precision of plausibility alone (q × q).
+    pub fn plausibility_precision(&self) -> DMatrix<f64> {
+        (DMatrix::identity(self.modes, self.modes) + &self.projection_gram)
+            * self.plausibility_share
+    }
 
-/// Works on strips of rows and takes the results in their order; few of them exist at a time.
-fn in_strips<T: Send>(
-    rows: usize,
-    work: impl Fn(Range<usize>) -> T + Sync + Send,
-    mut take: impl FnMut(T),
-) {
-    let count = rows.div_ceil(STRIP);
-    for first in (0..count).step_by(WAVE) {
-        let found = parallel::map(WAVE.min(count - first), |index| {
-            let strip = first + index;
-            work(strip * STRIP..((strip + 1) * STRIP).min(rows))
+    /// s Aᵀa₀, half the gradient of plausibility at 0 (q).
+    pub fn plausibility_shift(&self) -> DVector<f64> {
+        &self.projection_shift * self.plausibility_share
+    }
+
+    /// Coordinates per point.
+    pub fn dimension(&self) -> usize {
+        self.dimension
+    }
+
+    /// Number of points n.
+    pub fn point_count(&self) -> usize {
+        self.offset.len() / self.dimension
+    }
+
+    /// Number of coefficients q.
+    pub fn mode_count(&self) -> usize {
+        self.modes
+    }
+
+    /// r₀ (d·n).
+    pub fn offset(&self) -> &[f64] {
+        &self.offset
+    }
+
+    /// R, row-major (d·n × q): a copy in double precision, of numbers that may have been rounded to
+    /// single.
+    pub fn residual(&self) -> Vec<f64> {
+        with_rows!(self, rows => rows.iter().map(|value| value.double()).collect())
+    }
+
+    /// R, row-major (d·n × q), as it is kept.
+    pub(crate) fn rows(&self) -> Rows<'_> {
+        match &self.double {
+            Some(rows) => Rows::Double(rows),
+            None => Rows::Single(self.kernel.rows()),
+        }
+    }
+
+    /// AᵀA, with I the precision of the projection likelihood times the prior.
+    pub fn projection_gram(&self) -> &DMatrix<f64> {
+        &self.projection_gram
+    }
+
+    /// Aᵀa₀.
+    pub fn projection_shift(&self) -> &DVector<f64> {
+        &self.projection_shift
+    }
+
+    /// RᵀR.
+    pub fn gram(&self) -> &DMatrix<f64> {
+        &self.gram
+    }
+
+    /// Rᵀr₀.
+    pub fn gram_shift(&self) -> &DVector<f64> {
+        &self.gram_shift
+    }
+
+    /// ‖r₀‖².
+    pub fn gram_constant(&self) -> f64 {
+        self.gram_constant
+    }
+
+    /// The batched distance.
+    pub fn kernel(&self) -> &DistanceKernel {
+        &self.kernel
+    }
+
+    /// The residual r₀ + R c at a centre c (d·n), in double precision.
+    pub fn residual_at(&self, centre: &[f64]) -> Vec<f64> {
+        let strips = parallel::map(self.offset.len().div_ceil(STRIP), |strip| {
+            let coordinates = strip * STRIP..((strip + 1) * STRIP).min(self.offset.len());
+            let offset = &self.offset[coordinates.clone()];
+            with_rows!(self, rows => {
+                let rows = &rows[coordinates.start * self.modes..coordinates.end * self.modes];
+                let rows = rows.chunks_exact(self.modes);
+                offset.iter().zip(rows).map(|(start, row)| start + dot(row, centre)).collect::<Vec<_>>()
+            })
         });
-        found.into_iter().for_each(&mut take);
+        strips.concat()
     }
-}
 
-/// Rows of a column-major matrix, row-major; columns scaled if wanted.
-#[inline(always)]
-fn gather(
-    matrix: &DMatrix<f64>,
-    scale: Option<&DVector<f64>>,
-    rows: Range<usize>,
-    stride: usize,
-    target: &mut [f64],
-) {
-    // Eight rows at a time: a line of cache of every column is read whole.
-    for first in (0..rows.len()).step_by(8) {
-        let some = rows.start + first..(rows.start + first + 8).min(rows.end);
-        for (mode, column) in matrix.as_slice().chunks_exact(matrix.nrows()).enumerate() {
-            let factor = scale.map_or(1.0, |scale| scale[mode]);
-            for (index, value) in column[some.clone()].iter().enumerate() {
-                target[(first + index) * stride + mode] = value * factor;
-            }
-        }
+    /// d(x′, x) in double precision, one shape: the reference for the kernel.
+    pub fn mean_vertex_distance(&self, coefficients: &[f64]) -> f64 {
+        let residual = self.residual_at(coefficients);
+        let sum: f64 = residual
+            .chunks_exact(self.dimension)
+            .map(|point| point.iter().map(|value| value * value).sum::<f64>().sqrt())
+            .sum();
+        sum / self.point_count() as f64
     }
-}
 
-/// E₂ᵀU₁ over a strip.
-struct Projected<'a> {
-    from: &'a LinearModel,
-    to: &'a LinearModel,
-    strip: Range<usize>,
-}
-
-impl WithSimd for Projected<'_> {
-    type Output = Vec<f64>;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> Vec<f64> {
-        let Self { from, to, strip } = self;
-        let (modes, others) = (from.mode_count(), to.mode_count());
-        let stride = padded(modes);
-        let mut sum = vec![0.0; others * stride];
-        let (mut left, mut right) = (Aligned::new(TILE * others), Aligned::new(TILE * stride));
-        for first in strip.clone().step_by(TILE) {
-            let rows = first..(first + TILE).min(strip.end);
-            let count = rows.len();
-            gather(to.basis(), None, rows.clone(), others, &mut left);
-            gather(from.basis(), Some(from.standard_deviations()), rows, stride, &mut right);
-            let a = Tile { values: &left, stride: others, columns: others };
-            let b = Tile { values: &right, stride, columns: modes };
-            add_cross::<f64, S>(simd, a, b, count, &mut sum, false);
-        }
-        sum
-    }
-}
-
-/// R over a strip, with its sums.
-struct Residual<'a> {
-    from: &'a LinearModel,
-    to: &'a LinearModel,
-    offset: &'a [f64],
-    /// C (q₂ × stride).
-    coordinates: &'a [f64],
-    strip: Range<usize>,
-    double: bool,
-}
-
-struct ResidualPart {
-    single: Vec<f32>,
-    double: Vec<f64>,
-    gram: Vec<f64>,
-    gram_shift: Vec<f64>,
-    largest: f64,
-}
-
-impl WithSimd for Residual<'_> {
-    type Output = ResidualPart;
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> ResidualPart {
-        let Self { from, to, offset, coordinates, strip, double } = self;
-        let (modes, others) = (from.mode_count(), to.mode_count());
-        let stride = padded(modes);
-        let mut part = ResidualPart {
-            single: Vec::with_capacity(strip.len() * modes),
-            double: Vec::new(),
-            gram: vec![0.0; modes * stride],
-            gram_shift: vec![0.0; modes],
-            largest: 0.0,
-        };
-        let (mut left, mut right) = (Aligned::new(TILE * others), Aligned::new(TILE * stride));
-        let mut product = Aligned::new(TILE * stride);
-        // Mode by mode, so that the loop below is one of vectors.
-        let mut largest = vec![0.0; modes];
-        for first in strip.clone().step_by(TILE) {
-            let rows = first..(first + TILE).min(strip.end);
-            let count = rows.len();
-            gather(to.basis(), None, rows.clone(), others, &mut left);
-            gather(from.basis(), Some(from.standard_deviations()), rows, stride, &mut right);
-            // Rows of an earlier tile in a last one that is shorter do no harm: they are not read.
-            multiply(simd, (&left, others), (coordinates, stride), TILE, modes, &mut product);
-            right.iter_mut().zip(product.iter()).for_each(|(value, taken)| *value -= taken);
-            for (index, row) in right.chunks_exact(stride).take(count).enumerate() {
-                let row = &row[..modes];
-                let weight = offset[first + index];
-                for ((sum, most), value) in part.gram_shift.iter_mut().zip(&mut largest).zip(row) {
-                    *sum += value * weight;
-                    *most = if value.abs() > *most { value.abs() } else { *most };
-                }
-                part.single.extend(row.iter().map(|&value| f32::of(value)));
-                if double {
-                    part.double.extend_from_slice(row);
+    /// d and ∇d = (1/n) Σ_v R_vᵀ r_v/‖r_v‖ (q) in double precision, one shape: the reference for the
+    /// kernel. Points where r_v = 0 add nothing.
+    pub fn distance_and_gradient(&self, coefficients: &[f64]) -> (f64, Vec<f64>) {
+        let residual = self.residual_at(coefficients);
+        let mut gradient = vec![0.0; self.modes];
+        let mut sum = 0.0;
+        let points = residual.chunks_exact(self.dimension);
+        with_rows!(self, rows => {
+            for (point, vertex) in points.zip(rows.chunks_exact(self.dimension * self.modes)) {
+                let norm = point.iter().map(|value| value * value).sum::<f64>().sqrt();
+                sum += norm;
+                if norm > 0.0 {
+                    for (value, row) in point.iter().zip(vertex.chunks_exact(self.modes)) {
+                        for (target, &weight) in gradient.iter_mut().zip(row) {
+                            *target += value / norm * weight.double();
+                        }
+                    }
                 }
             }
-            let tile = Tile { values: &right, stride, columns: modes };
-            add_cross::<f64, S>(simd, tile, tile, count, &mut part.gram, true);
-        }
-        part.largest = largest.into_iter().fold(0.0, f64::max);
-        part
-    }
-}
-
-/// A·B for a tile of `rows` rows of A, a multiple of six, and the first `columns` of B, row-major; B and
-/// the target have the same padded stride.
-#[inline(always)]
-fn multiply<S: Simd>(
-    simd: S,
-    a: (&[f64], usize),
-    b: (&[f64], usize),
-    rows: usize,
-    columns: usize,
-    target: &mut [f64],
-) {
-    let width = VECTORS * f64::width::<S>();
-    let zero = [[simd.splat_f64s(0.0); VECTORS]; ROWS];
-    for first in (0..rows).step_by(ROWS) {
-        for column in (0..columns).step_by(width) {
-            let part = (&a.0[first * a.1..], a.1);
-            let other = (&b.0[column..], b.1);
-            let sums = f64::rows::<S, ROWS, VECTORS>(simd, zero, part, other, a.1);
-            for row in 0..ROWS {
-                let place = (first + row) * b.1 + column;
-                f64::store::<S, VECTORS>(sums[row], &mut target[place..place + width]);
-            }
-        }
-    }
-}
-
-/// ‖a′‖² + ‖a‖² = ‖a₀‖² + aᵀ(h + Aᵀa₀) with h = (I + AᵀA) a + Aᵀa₀, half its gradient, of many shapes.
-pub(crate) struct Plausibilities<'a> {
-    /// AᵀA, Aᵀa₀, ‖a₀‖².
-    pub(crate) gram: &'a [f64],
-    pub(crate) shift: &'a [f64],
-    pub(crate) constant: f64,
-    /// Whether h is wanted.
-    pub(crate) slopes: bool,
-}
-
-impl Plausibilities<'_> {
-    /// Of `points` (B × q, row-major): B values, and B × q slopes or nothing.
-    pub(crate) fn of(&self, points: &[f64]) -> (Vec<f64>, Vec<f64>) {
-        /// Shapes of a piece of work, a multiple of the widest two vectors.
-        const GROUP: usize = 64;
-        let modes = self.shift.len();
-        let groups: Vec<&[f64]> = points.chunks(GROUP * modes).collect();
-        let found = parallel::map(groups.len(), |index| {
-            simd::dispatch(SomePlausibilities { all: self, points: groups[index] })
         });
-        let (values, slopes): (Vec<_>, Vec<_>) = found.into_iter().unzip();
-        (values.concat(), slopes.concat())
+        let scale = 1.0 / self.point_count() as f64;
+        (sum * scale, gradient.into_iter().map(|value| value * scale).collect())
     }
-}
 
-struct SomePlausibilities<'a> {
-    all: &'a Plausibilities<'a>,
-    points: &'a [f64],
-}
-
-impl WithSimd for SomePlausibilities<'_> {
-    type Output = (Vec<f64>, Vec<f64>);
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, simd: S) -> (Vec<f64>, Vec<f64>) {
-        let Plausibilities { gram, shift, constant, slopes } = *self.all;
-        let modes = shift.len();
-        let count = self.points.len() / modes;
-        let stride = padded(count);
-        let mut lanes = Aligned::<f64>::new(modes * stride);
-        for (lane, point) in self.points.chunks_exact(modes).enumerate() {
-            for (mode, &value) in point.iter().enumerate() {
-                lanes[mode * stride + lane] = value;
-            }
+    /// ‖a′‖² = ‖a₀ + A a‖², the squared Mahalanobis distance of the projection from the other mean.
+    pub fn projection_square(&self, coefficients: &[f64]) -> f64 {
+        let mut square = self.projection_constant;
+        for (column, value) in coefficients.iter().enumerate() {
+            let terms = self.projection_gram.column(column);
+            let product: f64 = terms.iter().zip(coefficients).map(|(g, a)| g * a).sum();
+            square += value * (2.0 * self.projection_shift[column] + product);
         }
-        let mut values = vec![constant; stride];
-        let mut halves = vec![0.0; if slopes { count * modes } else { 0 }];
-        let mut half = Aligned::<f64>::new(stride);
-        for mode in 0..modes {
-            // Row and column of the symmetric AᵀA are the same.
-            let row = (&gram[mode * modes..(mode + 1) * modes], modes);
-            let width = VECTORS * f64::width::<S>();
-            for first in (0..count).step_by(width) {
-                let start = [[simd.splat_f64s(shift[mode]); VECTORS]];
-                let other = (&lanes[first..], stride);
-                let [sums] = f64::rows::<S, 1, VECTORS>(simd, start, row, other, modes);
-                f64::store::<S, VECTORS>(sums, &mut half[first..first + width]);
-            }
-            for lane in 0..count {
-                let value = lanes[mode * stride + lane];
-                let slope = half[lane] + value;
-                values[lane] += value * (slope + shift[mode]);
-                if slopes {
-                    halves[lane * modes + mode] = slope;
-                }
-            }
+        square.max(0.0)
+    }
+
+    /// s(‖a′‖² + ‖a‖²) and half its gradient, s(Aᵀ(a₀ + A a) + a) (q).
+    pub fn plausibility(&self, coefficients: &[f64]) -> (f64, Vec<f64>) {
+        let (squares, slopes) = self.plausibilities(coefficients, true);
+        (squares[0], slopes)
+    }
+
+    /// s(‖a′‖² + ‖a‖²): twice the negative logarithm of L_P(a)·p(a), up to a constant, where s = 1.
+    pub fn plausibility_square(&self, coefficients: &[f64]) -> f64 {
+        self.plausibilities(coefficients, false).0[0]
+    }
+
+    /// [`Self::plausibility`] of many shapes (B × q, row-major): the squares (B), and half their gradients
+    /// (B × q) if wanted.
+    pub(crate) fn plausibilities(&self, points: &[f64], slopes: bool) -> (Vec<f64>, Vec<f64>) {
+        let (mut squares, mut gradients) = Plausibilities {
+            gram: self.projection_gram.as_slice(),
+            shift: self.projection_shift.as_slice(),
+            constant: self.projection_constant,
+            slopes,
         }
-        values.truncate(count);
-        (values, halves)
+        .of(points);
+        for value in squares.iter_mut().chain(&mut gradients) {
+            *value *= self.plausibility_share;
+        }
+        (squares, gradients)
+    }
+
+    /// Whether M₂ holds every shape of this side to rounding: the difference is empty.
+    pub fn is_contained(&self, scale: f64) -> bool {
+        self.largest_residual <= 1e-9 * scale
     }
 }

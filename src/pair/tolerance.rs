@@ -17,7 +17,7 @@
 use nalgebra::DVector;
 
 use crate::pair::fit::{expected_distance, without_distance};
-use crate::pair::{Pair, Side};
+use crate::pair::{Pair, ResidualOperator};
 
 /// The share of the range of distances that the recommended σ uses up.
 const SHARE: f64 = 0.25;
@@ -41,7 +41,11 @@ pub struct Tolerance {
 
 /// The recommended σ for both sides of a pair together. `noise` is how far true members lie from their own
 /// model, where somebody knows; otherwise it is taken from the modes that were cut off, if any.
-pub fn recommended_tolerance(pair: &Pair, sides: [&Side; 2], noise: Option<f64>) -> Tolerance {
+pub fn recommended_tolerance(
+    pair: &Pair,
+    sides: [&ResidualOperator; 2],
+    noise: Option<f64>,
+) -> Tolerance {
     let noise = noise.or_else(|| pair.noise_of_cut_modes());
     let size = pair.scale().max(f64::MIN_POSITIVE);
     let curves: Vec<Curve> = sides.iter().filter_map(|side| Curve::new(side)).collect();
@@ -83,7 +87,7 @@ struct Curve {
 }
 
 impl Curve {
-    fn new(side: &Side) -> Option<Self> {
+    fn new(side: &ResidualOperator) -> Option<Self> {
         let points = side.point_count() as f64;
         let lower = side.plausibility_precision().cholesky()?.unpack();
         let half = lower.solve_lower_triangular(&(side.gram() / points))?;

@@ -10,9 +10,9 @@ use nalgebra::DVector;
 
 use crate::linalg::parallel;
 use crate::model::LinearModel;
-use crate::pair::{Moments, Side};
+use crate::pair::{Moments, ResidualOperator};
 
-impl Side {
+impl ResidualOperator {
     /// ‖r_v(a)‖ of every point (n) of one shape, in the unit of the models.
     pub fn vertex_residuals(&self, coefficients: &[f64]) -> Vec<f64> {
         self.vertex_norms(self.residual_at(coefficients).iter().map(|r| r * r))
@@ -68,6 +68,7 @@ mod tests {
 
     use super::*;
     use crate::model::Alignment;
+    use crate::model::Side;
     use crate::pair::Pair;
     use crate::sampling::{Stream, fill_normal, stream};
 
@@ -91,7 +92,7 @@ mod tests {
     #[test]
     fn exaggeration_goes_from_the_projection_through_the_shape() {
         let pair = pair();
-        let side = pair.side(0);
+        let side = pair.residual_operator(Side::A);
         let point = [0.7, -1.3, 2.1];
         let shape = pair.a().shape(&point);
         let image = projection(&pair, &shape);
@@ -108,7 +109,7 @@ mod tests {
     #[test]
     fn expected_residuals_are_means_over_the_model_and_over_given_shapes() {
         let pair = pair();
-        let side = pair.side(0);
+        let side = pair.residual_operator(Side::A);
         // Points ±√3 eₖ have the prior's mean and covariance, and so have E‖r_v‖² exactly.
         let points: Vec<Vec<f64>> = (0..6)
             .map(|k| {

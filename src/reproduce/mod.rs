@@ -27,6 +27,7 @@ pub use table1::{
 };
 pub use table2::{SplitFacts, Table2, table2};
 
+use crate::model::Side;
 use serde::Serialize;
 
 use crate::comparison::{Comparison, Stage};
@@ -295,7 +296,7 @@ impl Trial {
             let (mean, covariance) = (fit.mean().clone(), fit.covariance());
             Moments { mean, covariance }
         });
-        let pooled = Moments::pooled(&joint.lift(0, &a), &joint.lift(1, &b));
+        let pooled = Moments::pooled(&joint.lift(Side::A, &a), &joint.lift(Side::B, &b));
         Some((joint, pooled))
     }
 }

@@ -8,6 +8,7 @@
 //!
 //! **Limits.** Spearman's ρ over pairs that share models and makers describes these pairs; it tests nothing.
 
+use crate::model::Side;
 use serde::Serialize;
 
 use super::Observer;
@@ -159,8 +160,8 @@ fn row(pair: &PairOfModels) -> Result<OverlapRow, ComparisonError> {
     let (related, fixed) = (relate(a, b, &Settings::default()), relate(a, b, &fixed));
     let sigma = related.noise;
     let joint = run.pair().joint();
-    let law_a = joint.prior(0);
-    let law_b = Moments { mean: law_a.mean.clone(), ..joint.prior(1) };
+    let law_a = joint.prior(Side::A);
+    let law_b = Moments { mean: law_a.mean.clone(), ..joint.prior(Side::B) };
     Ok(OverlapRow {
         case: pair.name.clone(),
         kind: pair.kind,

@@ -6,6 +6,7 @@
 //! the fits predict of it, E d ≈ √(d(μ)² + q_eff σ²) with q_eff = tr Σ(Λ − I − AᵀA): the number of
 //! coefficients that σ holds back.
 
+use crate::model::Side;
 use serde::Serialize;
 
 use super::printed::{Printed, TABLE_1, TABLE_1_BUDGET, TABLE_1_SIGMA};
@@ -140,7 +141,7 @@ fn heads_at(
     let trial = Trial::new(&task, Settings::default(), observer)?;
     let flat = || ComparisonError::FlatIntersection;
     let (joint, moments) = trial.closed_form().ok_or_else(flat)?;
-    let union = Moments::pooled(&joint.prior(0), &joint.prior(1));
+    let union = Moments::pooled(&joint.prior(Side::A), &joint.prior(Side::B));
     let modes = a.mode_count().min(b.mode_count());
     let (closed_form, union) =
         joint.model(&moments, modes).zip(joint.model(&union, usize::MAX)).ok_or_else(flat)?;

@@ -3,6 +3,7 @@
 //! The geometry is that of [`crate::demos`], which reproduces the paper's baselines. The paper's d_R sums
 //! over the points of a star of radius 1; at radius 10 with ten points that is the mean distance.
 
+use crate::model::Side;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
@@ -135,15 +136,15 @@ fn rows(
             let seed = seed_of(index, repeat);
             let task = Task { a: &a, b: &b, known: &known, sigma, seed };
             let ours = gathered.repeat(task, plan.walks.then_some(TABLE_1_BUDGET), observer)?;
-            for (side, errors) in errors.iter_mut().enumerate() {
+            for (side, errors) in Side::BOTH.into_iter().zip(&mut errors) {
                 errors.extend(reconstruction_errors(&ours, side, &known));
             }
         }
-        let facts = |side: usize| DifferenceFacts {
-            printed: printed.differences[side],
-            found: MeanSd::of(&errors[side]),
+        let facts = |side: Side| DifferenceFacts {
+            printed: printed.differences[side.index()],
+            found: MeanSd::of(&errors[side.index()]),
         };
-        let differences = Differences { a_without_b: facts(0), b_without_a: facts(1) };
+        let differences = Differences { a_without_b: facts(Side::A), b_without_a: facts(Side::B) };
         let paper = (sigma == TABLE_1_SIGMA).then_some(printed.intersection);
         rows.extend(gathered.row(name_of(setting), sigma, paper, StarFacts { differences }));
     }
@@ -151,10 +152,10 @@ fn rows(
 }
 
 /// d(proj x, x) of every draw of a difference.
-fn reconstruction_errors(trial: &Trial, side: usize, known: &LinearModel) -> Vec<f64> {
+fn reconstruction_errors(trial: &Trial, side: Side, known: &LinearModel) -> Vec<f64> {
     let model = trial.run.pair().models()[side];
     let results = trial.run.results();
-    let draws = results.differences[side].iter_slices();
+    let draws = results.differences[side.index()].iter_slices();
     draws.map(|draw| reconstruction_error(known, &model.shape(draw))).collect()
 }
 
@@ -177,13 +178,17 @@ fn truth(index: usize) -> StarTruth {
         uncut: uncut_distance(&AffineSpace::of(first), &AffineSpace::of(second)),
     };
     let shapes = exclusive_stars(setting);
-    let difference =
-        |side: usize| true_difference(&shapes[side], &known, printed.true_differences[side]);
+    let difference = |side: Side| {
+        true_difference(&shapes[side.index()], &known, printed.true_differences[side.index()])
+    };
     StarTruth {
         a_to_known: baselines(printed.baselines[0], &a, &known),
         b_to_known: baselines(printed.baselines[1], &b, &known),
         a_to_b: baselines(TABLE_1_A_TO_B, &a, &b),
-        differences: Differences { a_without_b: difference(0), b_without_a: difference(1) },
+        differences: Differences {
+            a_without_b: difference(Side::A),
+            b_without_a: difference(Side::B),
+        },
     }
 }
 

@@ -1,26 +1,27 @@
 //! Diagnosing runs, evaluating models, run files: this part of the engine's bindings.
 
+use crate::model::Side;
+use crate::model::Sides;
 use js_sys::{Array, Float32Array, Uint32Array};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use super::{Engine, blobs, fault, object, parsed, plain, thrown};
 use crate::files::{self, RunFile, RunModel, Sources};
-use crate::report::BothSides;
 use crate::settings::Settings;
 
 /// What the page needs of a run file.
 #[derive(Serialize)]
 struct ReadRun<'a> {
-    models: &'a BothSides<RunModel>,
+    models: &'a Sides<RunModel>,
     settings: &'a Settings,
 }
 
-/// 0 for A, 1 for B.
-fn side_of(side: &str) -> Result<usize, JsValue> {
+/// Which model the page means.
+fn side_of(side: &str) -> Result<Side, JsValue> {
     match side {
-        "a" => Ok(0),
-        "b" => Ok(1),
+        "a" => Ok(Side::A),
+        "b" => Ok(Side::B),
         _ => Err(fault("settings", format!("There is no side “{side}”."), "Reload the page.")),
     }
 }

@@ -1,12 +1,12 @@
 //! What the page asks to explore and measure: axes, shapes that follow, maps, ellipsoids, relations.
 
+use crate::model::Sides;
 use js_sys::Float32Array;
 use wasm_bindgen::prelude::*;
 
 use super::{Engine, object, parsed, plain, settings_of, thrown};
 use crate::comparison::{self, AxesKind, Comparison, Explored, MapName, Nearest, Region, Space};
 use crate::files::Error;
-use crate::report::BothSides;
 
 fn array(values: &[f32]) -> JsValue {
     Float32Array::from(values).into()
@@ -23,7 +23,7 @@ fn nearest(found: &Nearest) -> JsValue {
     ])
 }
 
-fn placed(found: &BothSides<Nearest>) -> JsValue {
+fn placed(found: &Sides<Nearest>) -> JsValue {
     object(&[("a", nearest(&found.a)), ("b", nearest(&found.b))])
 }
 

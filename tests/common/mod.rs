@@ -17,7 +17,7 @@ use nalgebra::{DMatrix, DVector};
 use shapevenn::comparison::Comparison;
 use shapevenn::measure::{AffineSpace, Displacement, affine_grassmann_distance};
 use shapevenn::model::LinearModel;
-use shapevenn::pair::Side;
+use shapevenn::pair::ResidualOperator;
 use shapevenn::report::{ModelReport, Report, Seconds};
 use shapevenn::sampling::{Draws, Gaussian, Stream, fill_normal, stream, summarise};
 use shapevenn::settings::Settings;
@@ -218,7 +218,7 @@ pub fn standard_errors_from(draws: &Draws, law: &Gaussian) -> f64 {
 }
 
 /// log p of the intersection posterior in double precision, up to a constant.
-pub fn log_posterior(side: &Side, sigma: f64, point: &[f64]) -> f64 {
+pub fn log_posterior(side: &ResidualOperator, sigma: f64, point: &[f64]) -> f64 {
     let scaled = side.mean_vertex_distance(point) / sigma;
     -0.5 * (scaled * scaled + side.plausibility_square(point))
 }

@@ -9,6 +9,7 @@ const RUST = {
   src: [
     ...[
       "testing",
+      "text",
       "linalg",
       "model",
       "sampling",

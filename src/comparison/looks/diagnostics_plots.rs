@@ -7,12 +7,13 @@
 //! **References.** Rank plots: Vehtari, Gelman, Simpson, Carpenter & Bürkner, "Rank-normalization,
 //! folding, and localization: an improved R-hat", Bayesian Analysis 16 (2021).
 
+use crate::model::Side;
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
-use crate::comparison::looks::regions::single;
 use crate::comparison::{Comparison, summary};
 use crate::error::ComparisonError;
+use crate::linalg::single;
 use crate::sampling::{Draws, autocorrelation, rank_histograms};
 
 /// Draws of a chain that are handed on at the most.
@@ -76,7 +77,7 @@ impl Comparison {
     ///
     /// # Errors
     /// [`ComparisonError::NoDraws`] and [`ComparisonError::NoMode`].
-    pub fn diagnose(&self, side: usize, mode: usize) -> Result<ChainFigures, ComparisonError> {
+    pub fn diagnose(&self, side: Side, mode: usize) -> Result<ChainFigures, ComparisonError> {
         let (draws, length) = self.drawn(side)?;
         if mode >= draws.dimension {
             return Err(ComparisonError::NoMode { mode: mode + 1, modes: draws.dimension });
@@ -103,7 +104,7 @@ impl Comparison {
     /// [`ComparisonError::NoDraws`].
     pub fn pairs(
         &self,
-        side: usize,
+        side: Side,
         modes: usize,
         most: usize,
     ) -> Result<PairFigures, ComparisonError> {
@@ -113,7 +114,7 @@ impl Comparison {
         let count = most.min(total);
         let chosen = (0..count).map(|index| states[index * total / count]);
         let moments = self.moments(side).ok_or_else(|| no_draws(side))?;
-        let fit = self.inferences[side]
+        let fit = self.inferences[side.index()]
             .fit()
             .map(|fit| marginal(fit.gaussian.mean(), &fit.gaussian.covariance(), modes));
         Ok(PairFigures {
@@ -126,15 +127,15 @@ impl Comparison {
     }
 
     /// The draws of a side and how many each chain has, if they are enough.
-    fn drawn(&self, side: usize) -> Result<(&Draws, usize), ComparisonError> {
-        let draws = self.inferences.get(side).map(crate::comparison::Inference::draws);
+    fn drawn(&self, side: Side) -> Result<(&Draws, usize), ComparisonError> {
+        let draws = self.inferences.get(side.index()).map(crate::comparison::Inference::draws);
         let found = draws.and_then(|draws| Some((draws, summary::common_length(draws)?)));
         found.ok_or_else(|| no_draws(side))
     }
 }
 
-fn no_draws(side: usize) -> ComparisonError {
-    ComparisonError::NoDraws { side: ["A", "B"][side] }
+fn no_draws(side: Side) -> ComparisonError {
+    ComparisonError::NoDraws { side: side.name() }
 }
 
 /// Autocorrelation from lag 0 up to where two lags in a row are lost in noise.

@@ -17,19 +17,19 @@
 //! take is memory's time: 50 + 50 modes of 5,764 points are 14 MB, which are read once. Axes
 //! are found once, in the joint basis.
 
+use crate::model::{Side, Sides};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use crate::comparison::Comparison;
-use crate::comparison::looks::regions::single;
 use crate::error::ComparisonError;
 use crate::linalg::combined;
+use crate::linalg::single;
 use crate::measure::{
     chi_square_above, patterns, principal_angles, principal_vectors, relative_eigenmodes,
     scaled_modes,
 };
 use crate::pair::{Joint, distance_likelihood, formed, least_change, nearest_coefficients, sum_of};
-use crate::report::BothSides;
 
 /// A space of shapes that can be walked through.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -44,11 +44,11 @@ pub enum Space {
 }
 
 impl Space {
-    /// 0 for A, 1 for B.
-    fn side(self) -> Option<usize> {
+    /// The model whose shapes it holds, if it is one's.
+    fn side(self) -> Option<Side> {
         match self {
-            Self::A => Some(0),
-            Self::B => Some(1),
+            Self::A => Some(Side::A),
+            Self::B => Some(Side::B),
             Self::Intersection => None,
         }
     }
@@ -118,7 +118,7 @@ pub struct Explored {
     /// P(χ²_q ≥ ‖a‖²).
     pub plausibility: f64,
     /// Its nearest shapes in A and in B, if asked for.
-    pub placed: Option<BothSides<Nearest>>,
+    pub placed: Option<Sides<Nearest>>,
 }
 
 fn asked(message: impl Into<String>) -> ComparisonError {
@@ -169,7 +169,7 @@ impl Comparison {
     fn axes_of_side(
         &self,
         space: Space,
-        side: usize,
+        side: Side,
         kind: AxesKind,
     ) -> Result<Axes, ComparisonError> {
         let joint = self.joint.as_ref().ok_or(ComparisonError::NothingYet)?;
@@ -187,7 +187,7 @@ impl Comparison {
             }
             AxesKind::Relative => {
                 let noise = noise.ok_or(ComparisonError::NothingYet)?;
-                let (own, other) = (joint.prior(side), joint.prior(1 - side));
+                let (own, other) = (joint.prior(side), joint.prior(side.other()));
                 let found = relative_eigenmodes(&own, &other, noise);
                 let found = found.ok_or_else(|| self.overflow(side))?;
                 let (steps, places) = patterns(&found.scores, joint.scaled_modes(side));
@@ -196,7 +196,7 @@ impl Comparison {
             AxesKind::Angles => principal_axes(joint, side),
         };
         let steps = joint.scaled_modes(side) * &directions;
-        let other = joint.modes(1 - side);
+        let other = joint.modes(side.other());
         let outside = &steps - &other * other.tr_mul(&steps);
         let norms =
             |steps: &DMatrix<f64>| self.over_points(steps.column_iter().map(|step| step.norm()));
@@ -264,19 +264,19 @@ impl Comparison {
     ///
     /// # Errors
     /// [`ComparisonError::Asked`] when it has another number of points, or values that are not finite.
-    pub fn place(&mut self, shape: &[f32]) -> Result<BothSides<Nearest>, ComparisonError> {
+    pub fn place(&mut self, shape: &[f32]) -> Result<Sides<Nearest>, ComparisonError> {
         let length = self.pair.a().mean().len();
         if shape.len() != length || shape.iter().any(|value| !value.is_finite()) {
             let found = shape.len();
             return Err(asked(format!("{length} finite numbers make a shape, not these {found}.")));
         }
         let shape = DVector::from_iterator(length, shape.iter().map(|&value| f64::from(value)));
-        let [a, b] = [0, 1].map(|side| {
+        let [a, b] = Side::BOTH.map(|side| {
             let model = self.pair.models()[side];
             let coefficients = nearest_coefficients(model, &shape);
             self.nearest(shape.as_slice(), &formed(model, &coefficients), &coefficients)
         });
-        Ok(BothSides { a, b })
+        Ok(Sides { a, b })
     }
 
     /// Mean position of a point (d) in a space, and the rows of its scaled modes (d × q).
@@ -334,27 +334,31 @@ impl Comparison {
             Some(side) => sum_of(models[side], &coefficients),
             None => joint.sum_of(&coordinates),
         };
-        let answer = |side: usize| joint.nearest_coefficients(side, &coordinates);
-        let image = |side: usize, inside: &DVector<f64>| sum_of(models[side], inside);
+        let answer = |side: Side| joint.nearest_coefficients(side, &coordinates);
+        let image = |side: Side, inside: &DVector<f64>| sum_of(models[side], inside);
         let (shape, placed) = match space.side() {
             _ if !follow => {
                 let [shape] = combined(&[sum]);
                 (shape, None)
             }
             Some(own) => {
-                let inside = answer(1 - own);
-                let [shape, other] = combined(&[sum, image(1 - own, &inside)]);
+                let inside = answer(own.other());
+                let [shape, other] = combined(&[sum, image(own.other(), &inside)]);
                 let itself = self.nearest(&shape, &shape, &coefficients);
                 let other = self.nearest(&shape, &other, &inside);
-                let [a, b] = if own == 0 { [itself, other] } else { [other, itself] };
-                (shape, Some(BothSides { a, b }))
+                let placed = match own {
+                    Side::A => Sides { a: itself, b: other },
+                    Side::B => Sides { a: other, b: itself },
+                };
+                (shape, Some(placed))
             }
             None => {
-                let [of_a, of_b] = [answer(0), answer(1)];
-                let [shape, in_a, in_b] = combined(&[sum, image(0, &of_a), image(1, &of_b)]);
+                let [of_a, of_b] = [answer(Side::A), answer(Side::B)];
+                let [shape, in_a, in_b] =
+                    combined(&[sum, image(Side::A, &of_a), image(Side::B, &of_b)]);
                 let a = self.nearest(&shape, &in_a, &of_a);
                 let b = self.nearest(&shape, &in_b, &of_b);
-                (shape, Some(BothSides { a, b }))
+                (shape, Some(Sides { a, b }))
             }
         };
         let norm = coefficients.norm();
@@ -390,9 +394,9 @@ impl Comparison {
 
 /// Principal vectors of a side as unit steps of its coefficients, and their angles in degrees. Partners point
 /// the same way.
-fn principal_axes(joint: &Joint, side: usize) -> (DMatrix<f64>, Vec<f64>) {
-    let bases = [joint.modes(0), joint.modes(1)];
-    let mut steps = principal_vectors(&bases[0], &bases[1])[side].clone();
+fn principal_axes(joint: &Joint, side: Side) -> (DMatrix<f64>, Vec<f64>) {
+    let bases = [joint.modes(Side::A), joint.modes(Side::B)];
+    let mut steps = principal_vectors(&bases[0], &bases[1])[side.index()].clone();
     // E y is one standard deviation of the model along it for a ∝ D^−½ y with ‖a‖ = 1.
     let deviations = joint.scaled_modes(side).column_iter().map(|column| column.norm());
     let deviations = DVector::from_iterator(steps.nrows(), deviations);

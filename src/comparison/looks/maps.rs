@@ -4,6 +4,8 @@
 //! that of their draws. Its covariance at every vertex ([`VertexCovariances`]) says how far the vertex
 //! varies, along the normal of the region's mean shape and across it; no shape is formed for that.
 
+use crate::model::Side;
+use crate::model::Sides;
 use std::borrow::Cow;
 
 use nalgebra::{DMatrix, DVector};
@@ -11,8 +13,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::comparison::Comparison;
 use crate::comparison::looks::exploring::Space;
-use crate::comparison::looks::regions::{Region, single};
+use crate::comparison::looks::regions::Region;
 use crate::error::ComparisonError;
+use crate::linalg::single;
 use crate::measure::{VertexCovariances, scaled_modes, semi_axes};
 use crate::model::{Kind, LinearModel, vertex_normals};
 use crate::pair::{JointModel, Moments, formed, nearest_coefficients};
@@ -122,9 +125,10 @@ impl Comparison {
                 Region::B => self.point(Space::B, vertex).ok()?,
                 Region::Intersection => self.point(Space::Intersection, vertex).ok()?,
                 Region::AWithoutB | Region::BWithoutA => {
-                    let side = usize::from(region == Region::BWithoutA);
+                    let side = if region == Region::AWithoutB { Side::A } else { Side::B };
                     let moments = self.difference_moments(side)?;
-                    let (mean, rows) = self.point([Space::A, Space::B][side], vertex).ok()?;
+                    let (mean, rows) =
+                        self.point([Space::A, Space::B][side.index()], vertex).ok()?;
                     (mean + &rows * &moments.mean, rows * moments.factor())
                 }
             };
@@ -143,13 +147,13 @@ impl Comparison {
     }
 
     /// Moments of the coefficients of a difference, once some are drawn.
-    pub(crate) fn difference_moments(&self, side: usize) -> Option<Moments> {
-        let draws = self.rejections.get(side)?.draws();
+    pub(crate) fn difference_moments(&self, side: Side) -> Option<Moments> {
+        let draws = self.rejections.get(side.index())?.draws();
         (draws.len() >= 2).then(|| Moments::of(draws.iter_slices(), draws.dimension))
     }
 
     fn mean_shape(&self, region: Region) -> Result<DVector<f64>, ComparisonError> {
-        let of_difference = |side: usize| {
+        let of_difference = |side: Side| {
             let moments = self.difference_moments(side).ok_or(ComparisonError::NothingYet)?;
             Ok(DVector::from_vec(formed(self.pair.models()[side], &moments.mean)))
         };
@@ -162,8 +166,8 @@ impl Comparison {
                 }
                 _ => Err(ComparisonError::NothingYet),
             },
-            Region::AWithoutB => of_difference(0),
-            Region::BWithoutA => of_difference(1),
+            Region::AWithoutB => of_difference(Side::A),
+            Region::BWithoutA => of_difference(Side::B),
         }
     }
 
@@ -181,7 +185,7 @@ impl Comparison {
             let modes = model.mode_count();
             VertexCovariances::of_model(model, &DMatrix::identity(modes, modes))
         };
-        let of_difference = |side: usize| {
+        let of_difference = |side: Side| {
             let moments = self.difference_moments(side).ok_or(ComparisonError::NothingYet)?;
             Ok(VertexCovariances::of_model(self.pair.models()[side], &moments.factor()))
         };
@@ -195,23 +199,25 @@ impl Comparison {
                 }
                 _ => Err(ComparisonError::NothingYet),
             },
-            Region::AWithoutB => of_difference(0),
-            Region::BWithoutA => of_difference(1),
+            Region::AWithoutB => of_difference(Side::A),
+            Region::BWithoutA => of_difference(Side::B),
         }
     }
 
     /// ‖x_v − x′_v‖ of the region's mean shape (n).
     fn distance_of_mean(&self, region: Region) -> Result<Vec<f64>, ComparisonError> {
         let shape = self.mean_shape(region)?;
-        let to = |side: usize| {
+        let to = |side: Side| {
             let model = self.pair.models()[side];
             let image = formed(model, &nearest_coefficients(model, &shape));
             self.lengths(&(&shape - DVector::from_vec(image)))
         };
         Ok(match region {
-            Region::A | Region::AWithoutB => to(1),
-            Region::B | Region::BWithoutA => to(0),
-            Region::Intersection => to(0).into_iter().zip(to(1)).map(|(a, b)| a.max(b)).collect(),
+            Region::A | Region::AWithoutB => to(Side::B),
+            Region::B | Region::BWithoutA => to(Side::A),
+            Region::Intersection => {
+                to(Side::A).into_iter().zip(to(Side::B)).map(|(a, b)| a.max(b)).collect()
+            }
         })
     }
 
@@ -219,7 +225,7 @@ impl Comparison {
         let variances = |model: &LinearModel| -> Vec<f64> {
             model.vertex_standard_deviations().into_iter().map(|s| s * s).collect()
         };
-        let [a, b] = self.pair.models().map(variances);
+        let Sides { a, b } = self.pair.models().map(variances);
         let largest = a.iter().chain(&b).copied().fold(0.0, f64::max);
         let floor = (LEAST_VARIANCE * largest).max(f64::MIN_POSITIVE);
         let ratio = |(a, b): (f64, f64)| libm::log2(a.max(floor) / b.max(floor));
@@ -234,7 +240,7 @@ impl Comparison {
             let deviation = model.standard_deviations().get(mode).ok_or_else(none)?;
             Ok(model.basis().column(mode) * *deviation)
         };
-        let exclusive = |side: usize| {
+        let exclusive = |side: Side| {
             let found = self.exclusive(side);
             if mode >= found.values.len() {
                 return Err(none());
@@ -254,8 +260,8 @@ impl Comparison {
                 }
                 _ => Err(ComparisonError::NothingYet),
             },
-            Region::AWithoutB => exclusive(0),
-            Region::BWithoutA => exclusive(1),
+            Region::AWithoutB => exclusive(Side::A),
+            Region::BWithoutA => exclusive(Side::B),
         }
     }
 

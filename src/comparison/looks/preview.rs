@@ -4,13 +4,15 @@
 //! number of dimensions on which the distance acts: σ is a tolerance for each of them, so that the
 //! distance grows with their number.
 
+use crate::model::Side;
 use serde::Serialize;
 
 use crate::comparison::Comparison;
 use crate::comparison::inference::Estimate;
-use crate::comparison::looks::regions::{RegionShapes, ShapeSource, single};
+use crate::comparison::looks::regions::{RegionShapes, ShapeSource};
 use crate::comparison::results::{grassmann, pooled};
-use crate::pair::{Moments, Side, effective_dimensions, fit_quickly};
+use crate::linalg::single;
+use crate::pair::{Moments, ResidualOperator, effective_dimensions, fit_quickly};
 use crate::report::{Grassmann, MomentSource};
 use crate::sampling::{Gaussian, Stream, fill_normal, stream};
 
@@ -88,7 +90,7 @@ impl Comparison {
         let mut random = stream(seed, Stream::Display, 2, 0);
         let mut samples = Vec::with_capacity(count * joint.origin().len());
         for index in 0..count {
-            let from = self.pair.models()[index % 2];
+            let from = self.pair.models()[Side::BOTH[index % 2]];
             let mut z = vec![0.0; from.mode_count()];
             fill_normal(&mut random, &mut z);
             let mut point = vec![0.0; z.len()];
@@ -127,16 +129,17 @@ impl Comparison {
     /// Quick fits of both sides at `sigma`.
     fn fits_at(&mut self, sigma: f64) -> Option<[Gaussian; 2]> {
         self.prepare_sides();
-        let fit = |side: &Side| fit_quickly(side, sigma);
+        let fit = |side: &ResidualOperator| fit_quickly(side, sigma);
         Some([fit(&self.sides[0])?, fit(&self.sides[1])?])
     }
 
     fn moments_of(&self, fits: &[Gaussian; 2]) -> Option<Moments> {
-        let estimates: Vec<(usize, Estimate)> = self
+        let estimates: Vec<(Side, Estimate)> = self
             .pooled_sides()
             .iter()
             .map(|&side| {
-                let (mean, covariance) = (fits[side].mean().clone(), fits[side].covariance());
+                let (mean, covariance) =
+                    (fits[side.index()].mean().clone(), fits[side.index()].covariance());
                 let total = Moments { mean, covariance };
                 (side, Estimate { source: MomentSource::ClosedForm, total, groups: Vec::new() })
             })

@@ -1,8 +1,10 @@
 //! The five regions of the Venn diagram, as shapes to look at.
 
+use crate::model::Side;
 use serde::{Deserialize, Serialize};
 
 use crate::comparison::Comparison;
+use crate::linalg::single;
 use crate::measure::vertex_standard_deviations;
 use crate::pair::Moments;
 use crate::sampling::{Draws, Stream, fill_normal, stream, uniform};
@@ -67,11 +69,6 @@ pub struct RegionShapes {
     pub source: ShapeSource,
 }
 
-#[allow(clippy::cast_possible_truncation, reason = "shapes to look at are single precision")]
-pub(crate) fn single<'a>(values: impl IntoIterator<Item = &'a f64>) -> Vec<f32> {
-    values.into_iter().map(|value| *value as f32).collect()
-}
-
 /// How the shapes of a difference are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Picture {
@@ -94,8 +91,8 @@ impl Comparison {
         picture: Picture,
     ) -> Option<RegionShapes> {
         match region {
-            Region::AWithoutB => self.difference(0, count, seed, picture),
-            Region::BWithoutA => self.difference(1, count, seed, picture),
+            Region::AWithoutB => self.difference(Side::A, count, seed, picture),
+            Region::BWithoutA => self.difference(Side::B, count, seed, picture),
             _ => self.region(region, count, seed),
         }
     }
@@ -103,7 +100,7 @@ impl Comparison {
     /// Shapes of A\B (`side` 0) or B\A (1) as `picture` asks; `None` while there is nothing of it.
     pub fn difference(
         &mut self,
-        side: usize,
+        side: Side,
         count: usize,
         seed: u64,
         picture: Picture,
@@ -111,7 +108,7 @@ impl Comparison {
         self.prepare_sides();
         let model = self.pair.models()[side];
         let shape = |coefficients: &[f64]| {
-            self.sides[side].exaggerated(model, coefficients, picture.exaggeration)
+            self.sides[side.index()].exaggerated(model, coefficients, picture.exaggeration)
         };
         if picture.exclusive_modes {
             let modes = self.exclusive(side);
@@ -121,7 +118,7 @@ impl Comparison {
             });
             return Some(RegionShapes {
                 mean: single(shape(&vec![0.0; model.mode_count()]).iter()),
-                vertex_sd: single(&self.sides[side].expected_vertex_residuals()),
+                vertex_sd: single(&self.sides[side.index()].expected_vertex_residuals()),
                 samples: samples.collect(),
                 count,
                 source: ShapeSource::Model,
@@ -131,8 +128,8 @@ impl Comparison {
         if picture.exaggeration == 0.0 {
             return Some(plain);
         }
-        let draws = self.rejections[side].draws();
-        let mut random = stream(seed, Stream::Display, 3 + side, 0);
+        let draws = self.rejections[side.index()].draws();
+        let mut random = stream(seed, Stream::Display, 3 + side.index(), 0);
         let samples: Vec<f32> = (0..count)
             .flat_map(|_| single(shape(pick(draws, uniform(&mut random))).iter()))
             .collect();
@@ -144,17 +141,17 @@ impl Comparison {
     /// nothing of it yet.
     pub fn region(&self, region: Region, count: usize, seed: u64) -> Option<RegionShapes> {
         match region {
-            Region::A => Some(self.prior_shapes(0, count, seed)),
-            Region::B => Some(self.prior_shapes(1, count, seed)),
+            Region::A => Some(self.prior_shapes(Side::A, count, seed)),
+            Region::B => Some(self.prior_shapes(Side::B, count, seed)),
             Region::Intersection => self.intersection_shapes(count, seed),
-            Region::AWithoutB => self.difference_shapes(0, count, seed),
-            Region::BWithoutA => self.difference_shapes(1, count, seed),
+            Region::AWithoutB => self.difference_shapes(Side::A, count, seed),
+            Region::BWithoutA => self.difference_shapes(Side::B, count, seed),
         }
     }
 
-    fn prior_shapes(&self, side: usize, count: usize, seed: u64) -> RegionShapes {
+    fn prior_shapes(&self, side: Side, count: usize, seed: u64) -> RegionShapes {
         let model = self.pair.models()[side];
-        let mut random = stream(seed, Stream::Display, side, 0);
+        let mut random = stream(seed, Stream::Display, side.index(), 0);
         let mut coefficients = vec![0.0; model.mode_count()];
         let mut samples = Vec::with_capacity(count * model.mean().len());
         for _ in 0..count {
@@ -180,15 +177,15 @@ impl Comparison {
         let mut random = stream(seed, Stream::Display, 2, 0);
         let mut samples = Vec::with_capacity(count * joint.origin().len());
         for index in 0..count {
-            let side = index % 2;
+            let side = Side::BOTH[index % 2];
             let from = self.pair.models()[side];
             let shape = if drawn {
-                from.shape(pick(draws[side], uniform(&mut random)))
+                from.shape(pick(draws[side.index()], uniform(&mut random)))
             } else {
                 let mut z = vec![0.0; from.mode_count()];
                 fill_normal(&mut random, &mut z);
                 let mut point = vec![0.0; z.len()];
-                self.inferences.get(side)?.fit()?.gaussian.place(&z, &mut point);
+                self.inferences.get(side.index())?.fit()?.gaussian.place(&z, &mut point);
                 from.shape(&point)
             };
             samples.extend(single(shape.iter()));
@@ -202,14 +199,14 @@ impl Comparison {
         })
     }
 
-    fn difference_shapes(&self, side: usize, count: usize, seed: u64) -> Option<RegionShapes> {
-        let draws = self.rejections.get(side)?.draws();
+    fn difference_shapes(&self, side: Side, count: usize, seed: u64) -> Option<RegionShapes> {
+        let draws = self.rejections.get(side.index())?.draws();
         if draws.len() < 2 {
             return None;
         }
         let model = self.pair.models()[side];
         let moments = Moments::of(draws.iter_slices(), draws.dimension);
-        let mut random = stream(seed, Stream::Display, 3 + side, 0);
+        let mut random = stream(seed, Stream::Display, 3 + side.index(), 0);
         let mut samples = Vec::with_capacity(count * model.mean().len());
         for _ in 0..count {
             samples.extend(single(model.shape(pick(draws, uniform(&mut random))).iter()));

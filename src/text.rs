@@ -1,0 +1,46 @@
+//! Numbers as sentences have them.
+
+/// "53,490".
+pub(crate) fn thousands(count: usize) -> String {
+    let digits = count.to_string();
+    let mut grouped = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            grouped.push(',');
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
+/// Three significant digits: "12.3", "0.0123", "1.2e-9".
+pub(crate) fn three_digits(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let digits = 2.0 - libm::floor(libm::log10(value.abs()));
+    if (0.0..=6.0).contains(&digits) {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 6")]
+        let digits = digits as usize;
+        format!("{value:.digits$}")
+    } else if digits < 0.0 {
+        format!("{value:.0}")
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_as_people_write_them() {
+        assert_eq!(
+            [7, 1234, 53_490, 1_000_000].map(thousands),
+            ["7", "1,234", "53,490", "1,000,000"]
+        );
+        let values = [0.0, 123.456, 12.345, 0.012_345, -1234.5, 1.24e-9];
+        assert_eq!(values.map(three_digits), ["0", "123", "12.3", "0.0123", "-1234", "1.2e-9"]);
+    }
+}
