@@ -1,4 +1,4 @@
-/** The room where draws are looked at: plots, the numbers behind them, and what is advised. */
+/** The tab where draws are looked at: plots, the numbers behind them, and what is advised. */
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
@@ -18,7 +18,7 @@ const STARS = "v=1&demo=stars-1&draws=800&room=diagnostics";
 const SHORT_WALK =
   "v=1&demo=stars-2&sampler=paper&chains=5&draws=200&burnin=10&thin=1&room=diagnostics";
 
-const room = (page) => page.getByRole("region", { name: "Diagnostics", exact: true });
+const tab = (page) => page.getByRole("region", { name: "Diagnostics", exact: true });
 const advice = (page, chart) => page.locator(`[data-chart="${chart}"] .advice`);
 
 async function openRoom(page, url, link) {
@@ -29,8 +29,8 @@ async function openRoom(page, url, link) {
 
 /** Resolves once the plots are about the comparison on show. */
 async function untilPlotted(page) {
-  await room(page).locator('.charts[data-stale="false"] [data-chart="trace"]').waitFor();
-  await room(page).locator('.charts[data-stale="false"] [data-chart="pairs"]').waitFor();
+  await tab(page).locator('.charts[data-stale="false"] [data-chart="trace"]').waitFor();
+  await tab(page).locator('.charts[data-stale="false"] [data-chart="pairs"]').waitFor();
 }
 
 /** All draws of one side from the table that the page offers: `{chains × length}` rows. */
@@ -95,7 +95,7 @@ test("the trace, the ranks and the distances are those of the draws that can be 
   });
 });
 
-test("the room opens at the worst coefficient, says that the draws can be believed, and why", async () => {
+test("the tab opens at the worst coefficient, says that the draws can be believed, and why", async () => {
   await withPage({}, async ({ url, page }) => {
     await page.goto(url);
     await untilState(page, "done");
@@ -110,17 +110,15 @@ test("the room opens at the worst coefficient, says that the draws can be believ
     const fewest = (side) => Math.min(...coefficients[side].essBulk);
     const side = fewest("a") <= fewest("b") ? "a" : "b";
     const mode = coefficients[side].essBulk.indexOf(fewest(side));
-    await room(page)
+    await tab(page)
       .getByRole("heading", { name: `Trace of mode ${mode + 1} of ${side.toUpperCase()}` })
       .waitFor();
-    const chosen = room(page).getByRole("combobox", { name: "Coefficient" });
+    const chosen = tab(page).getByRole("combobox", { name: "Coefficient" });
     assert.equal(await chosen.inputValue(), String(mode));
-    await room(page).getByRole("heading", { name: "These draws can be believed" }).waitFor();
-    assert.match(await room(page).locator(".verdict").innerText(), /Converged: R-hat 1\.00\d+/);
+    await tab(page).getByRole("heading", { name: "These draws can be believed" }).waitFor();
+    assert.match(await tab(page).locator(".verdict").innerText(), /Converged: R-hat 1\.00\d+/);
 
-    await room(page)
-      .locator('[data-done="true"] [data-chart="sweep"]')
-      .waitFor({ timeout: 60_000 });
+    await tab(page).locator('[data-done="true"] [data-chart="sweep"]').waitFor({ timeout: 60_000 });
     for (const chart of ["trace", "ranks", "autocorrelation", "distance", "pairs", "sweep"]) {
       const line = advice(page, chart);
       assert.match(await line.innerText(), /: nothing to do\.$/, chart);
@@ -144,11 +142,8 @@ test("a walk that is too short is not believed, and each plot says what to do", 
     await openRoom(page, url, SHORT_WALK);
     const report = await downloadReport(page);
     assert.equal(report.intersection.diagnostics.converged, false);
-    await room(page).getByRole("heading", { name: "Do not quote these numbers yet" }).waitFor();
-    assert.match(
-      await room(page).locator(".verdict").innerText(),
-      /Not converged yet: R-hat [1-9]/,
-    );
+    await tab(page).getByRole("heading", { name: "Do not quote these numbers yet" }).waitFor();
+    assert.match(await tab(page).locator(".verdict").innerText(), /Not converged yet: R-hat [1-9]/);
     const better = "draw longer or use the automatic sampler\\.$";
     for (const [chart, said] of [
       ["trace", `^Chain [1-5] (sits apart|wanders|spreads).*${better}`],
@@ -174,17 +169,16 @@ test("a walk that is too short is not believed, and each plot says what to do", 
 test("side and coefficient are in the link, and Back undoes the choice", async () => {
   await withPage({}, async ({ url, page, another }) => {
     await openRoom(page, url, `${STARS}&side=a&coefficient=1`);
-    const heading = (of) =>
-      room(page).getByRole("heading", { name: `Trace of ${of}`, exact: true });
+    const heading = (of) => tab(page).getByRole("heading", { name: `Trace of ${of}`, exact: true });
     await heading("mode 1 of A").waitFor();
-    const chosen = room(page).getByRole("combobox", { name: "Coefficient" });
+    const chosen = tab(page).getByRole("combobox", { name: "Coefficient" });
     await chosen.focus();
     await page.keyboard.press("ArrowDown");
     await heading("mode 2 of A").waitFor();
     await page.waitForURL(/side=a&coefficient=2/);
-    await room(page).getByRole("radio", { name: "Draws from B" }).check({ force: true });
+    await tab(page).getByRole("radio", { name: "Draws from B" }).check({ force: true });
     await page.waitForURL(/side=b/);
-    await room(page)
+    await tab(page)
       .getByRole("heading", { name: /^Trace of mode \d of B$/ })
       .waitFor();
     const link = page.url();
@@ -293,7 +287,7 @@ test("another run marks the plots out of date, keeps them, and then replaces the
     const table = (await showNumbers(page, "trace")).getByRole("table");
     const before = await valuesOf(table);
     await typeSetting(page, "Seed", "6");
-    await room(page).and(page.locator('[data-stale="true"]')).waitFor();
+    await tab(page).and(page.locator('[data-stale="true"]')).waitFor();
     assert.equal(await table.isVisible(), true);
     await untilShown(page, /seed 6$/);
     await untilPlotted(page);
@@ -305,7 +299,7 @@ test("another run marks the plots out of date, keeps them, and then replaces the
     const after = await valuesOf(table);
     assert.equal(after.length, before.length);
     assert.notDeepEqual(after, before);
-    assert.equal(await room(page).getAttribute("data-stale"), "false");
+    assert.equal(await tab(page).getAttribute("data-stale"), "false");
   });
 });
 
@@ -313,7 +307,7 @@ test("a run that was cancelled shows the draws that it made", async () => {
   await withPage({}, async ({ url, page }) => {
     const endless = "sampler=paper-corrected&draws=200000&thin=2000&chains=4";
     await page.goto(`${url}#v=1&demo=stars-1&${endless}&room=diagnostics&side=a`);
-    await room(page).getByText("shown here once the comparison is finished").waitFor();
+    await tab(page).getByText("shown here once the comparison is finished").waitFor();
     await untilState(page, "running");
     await page
       .getByRole("region", { name: "Run", exact: true })

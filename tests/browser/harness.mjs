@@ -293,7 +293,7 @@ async function look(page) {
     const panes = {};
     for (const pane of document.querySelectorAll("[data-pane][data-away=false]")) {
       const rect = pane.querySelector(".pane-view").getBoundingClientRect();
-      // Another room's.
+      // Another tab's.
       if (rect.width === 0) continue;
       // Without the rim, where a label may lie.
       const [left, top] = [rect.x + across + 4, rect.y + down + 0.2 * rect.height];

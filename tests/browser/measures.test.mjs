@@ -1,4 +1,4 @@
-/** The room of measures: what the pair is in numbers, and models put to the test by shapes. */
+/** The tab of measures: what the pair is in numbers, and models put to the test by shapes. */
 import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -19,7 +19,7 @@ import { headsOf, saveCsv, showNumbers, valuesOf } from "./tables.mjs";
 const HEADS = "v=1&demo=heads-sex&draws=800&seed=3&room=measures";
 const STARS = "v=1&demo=stars-1&draws=800&room=measures";
 
-const room = (page) => page.getByRole("region", { name: "Measures", exact: true });
+const tab = (page) => page.getByRole("region", { name: "Measures", exact: true });
 const chart = (page, name) => page.locator(`[data-chart="${name}"]`);
 
 async function openRoom(page, url, link) {
@@ -27,7 +27,7 @@ async function openRoom(page, url, link) {
   await untilState(page, "done");
 }
 
-test("every number of the room is the report's: angles, shares, curves and spectra", async () => {
+test("every number of the tab is the report's: angles, shares, curves and spectra", async () => {
   await withPage({}, async ({ url, page }) => {
     await openRoom(page, url, HEADS);
     const report = await downloadReport(page);
@@ -144,10 +144,10 @@ test("another setting marks the measures out of date until it is run", async () 
     await openRoom(page, url, STARS);
     const before = await valuesOf(chart(page, "divergences").getByRole("table"));
     await typeSetting(page, "Tolerance σ", "0.5");
-    await room(page).locator('.charts[data-stale="true"] [data-chart="divergences"]').waitFor();
+    await tab(page).locator('.charts[data-stale="true"] [data-chart="divergences"]').waitFor();
     assert.deepEqual(await valuesOf(chart(page, "divergences").getByRole("table")), before);
     await untilShown(page, /^σ 0\.500/);
-    await room(page).locator('.charts[data-stale="false"] [data-chart="divergences"]').waitFor();
+    await tab(page).locator('.charts[data-stale="false"] [data-chart="divergences"]').waitFor();
     const after = await valuesOf(chart(page, "divergences").getByRole("table"));
     assert.equal(after.at(-1)[0], 0.5, "the noise is σ");
     assert.ok(after[0][0] < before[0][0], "with more noise the two are nearer");

@@ -1,4 +1,4 @@
-/** Several models: the shelf of those that are open, and the table of pairs. */
+/** Several models: the list of those that are open, and the table of pairs. */
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { test } from "node:test";
@@ -18,10 +18,10 @@ const STARS = "v=1&demo=stars-1&draws=400";
 const HEADS = "heads-male,heads-female,heads-identity,heads-expression";
 
 const models = (page) => page.getByRole("region", { name: "Models", exact: true });
-const room = (page, name) =>
+const tab = (page, name) =>
   page.getByRole("navigation", { name: "Views" }).getByRole("button", { name, exact: true });
-const shelf = (page) => page.getByRole("table", { name: "Open models" });
-const shelfNames = (page) => shelf(page).locator("tbody th .shelf-name").allInnerTexts();
+const modelList = (page) => page.getByRole("table", { name: "Open models" });
+const listNames = (page) => modelList(page).locator("tbody th .model-list-name").allInnerTexts();
 const cell = (page, a, b) =>
   page.getByRole("button", { name: new RegExp(`^A ${a}, B ${b}: `), exact: false });
 const value = async (page, a, b) => Number(await cell(page, a, b).getAttribute("data-value"));
@@ -72,7 +72,7 @@ test("a cell has the number of the report, and opens that pair as the comparison
     await page.goto(`${url}#v=1&demo=heads-sex&sigma=1&room=models&shelf=${HEADS}`);
     await untilState(page, "done");
     await untilTable(page, 4);
-    assert.deepEqual(await shelfNames(page), HEADS.split(","));
+    assert.deepEqual(await listNames(page), HEADS.split(","));
     const first = await downloadReport(page);
     assert.equal(await value(page, "heads-male", "heads-female"), first.overlap.varianceOfAInB);
     const shares = {};
@@ -85,14 +85,14 @@ test("a cell has the number of the report, and opens that pair as the comparison
 
     await cell(page, "heads-identity", "heads-male").click();
     await untilCompared(page, { a: "Head identities", b: "Male heads" });
-    assert.equal(await room(page, "Regions").getAttribute("aria-current"), "page");
+    assert.equal(await tab(page, "Regions").getAttribute("aria-current"), "page");
     const opened = await downloadReport(page);
     assert.equal(opened.overlap.varianceOfAInB, shares["heads-identity heads-male"]);
     assert.equal(opened.settings.sigma, 1);
     // And back, with the table as it was.
     await page.goBack();
     await untilCompared(page, { a: "Male heads", b: "Female heads" });
-    assert.equal(await room(page, "Models").getAttribute("aria-current"), "page");
+    assert.equal(await tab(page, "Models").getAttribute("aria-current"), "page");
     assert.equal(await value(page, "heads-identity", "heads-male"), opened.overlap.varianceOfAInB);
   });
 });
@@ -136,7 +136,7 @@ test("four models that are dropped become a table of four by four, and one that 
     await dialog.getByRole("button", { name: "All: show the table" }).click();
     await untilTable(page, 4);
     await untilCompared(page, { a: "double.h5", b: "group.h5" });
-    assert.deepEqual(await shelfNames(page), [
+    assert.deepEqual(await listNames(page), [
       "double.h5",
       "group.h5",
       "cpp-0.9.h5",
@@ -152,7 +152,7 @@ test("four models that are dropped become a table of four by four, and one that 
     assert.equal(await count(), 3, "closed in the engine too");
     await page.getByRole("button", { name: "Undo", exact: true }).click();
     await untilTable(page, 4);
-    assert.deepEqual(await shelfNames(page), [
+    assert.deepEqual(await listNames(page), [
       "double.h5",
       "group.h5",
       "cpp-0.9.h5",
@@ -164,12 +164,12 @@ test("four models that are dropped become a table of four by four, and one that 
     // Two models alone: one that is replaced is closed, as ever.
     await dropFiles(page, "body", [fixture("cpp-0.9.h5")]);
     await untilCompared(page, { a: "cpp-0.9.h5", b: "group.h5" });
-    assert.deepEqual(await shelfNames(page), ["cpp-0.9.h5", "group.h5"]);
+    assert.deepEqual(await listNames(page), ["cpp-0.9.h5", "group.h5"]);
     assert.equal(await count(), 2);
   });
 });
 
-test("a model on a shelf that is in use stays open when another takes its place", async () => {
+test("a model on a list that is in use stays open when another takes its place", async () => {
   await withPage({}, async ({ url, page }) => {
     const count = await watchHandles(page);
     await page.goto(`${url}#${STARS}&room=models&shelf=stars-1-a,stars-1-b,stars-2-a`);
@@ -178,7 +178,7 @@ test("a model on a shelf that is in use stays open when another takes its place"
     // Not `check`: it is only chosen once the model is there.
     await page.getByRole("radio", { name: "stars-2-a as A" }).click();
     await untilCompared(page, { a: "stars-2-a", b: "stars-1-b" });
-    assert.deepEqual(await shelfNames(page), ["stars-1-a", "stars-1-b", "stars-2-a"]);
+    assert.deepEqual(await listNames(page), ["stars-1-a", "stars-1-b", "stars-2-a"]);
     // A and B change places where one is made the other.
     await page.getByRole("radio", { name: "stars-1-b as A" }).click();
     await untilCompared(page, { a: "stars-1-b", b: "stars-2-a" });
@@ -209,7 +209,7 @@ test("examples and the other parts of a file are added by themselves", async () 
     await untilTable(page, 3);
     await examples.selectOption("Heads/");
     await untilTable(page, 7);
-    assert.deepEqual((await shelfNames(page)).slice(0, 3), ["planes-a", "planes-b", "stars-3-b"]);
+    assert.deepEqual((await listNames(page)).slice(0, 3), ["planes-a", "planes-b", "stars-3-b"]);
     const [chooser] = await Promise.all([
       page.waitForEvent("filechooser"),
       page.getByRole("button", { name: "Add models…" }).click(),
@@ -218,7 +218,7 @@ test("examples and the other parts of a file are added by themselves", async () 
     await untilTable(page, 9);
     await page.getByRole("button", { name: "Add expression of bfm-groups.h5, shape" }).click();
     await untilTable(page, 10);
-    assert.deepEqual((await shelfNames(page)).slice(7), [
+    assert.deepEqual((await listNames(page)).slice(7), [
       "bfm-groups.h5, shape",
       "double.h5",
       "bfm-groups.h5, expression",
@@ -242,7 +242,7 @@ test("a file among several that is none is named, and the others are added", asy
     const alert = page.getByRole("alert").filter({ hasText: "cut-at-half.h5" });
     await alert.waitFor();
     await untilTable(page, 4);
-    assert.deepEqual(await shelfNames(page), ["stars-1-a", "stars-1-b", "double.h5", "group.h5"]);
+    assert.deepEqual(await listNames(page), ["stars-1-a", "stars-1-b", "double.h5", "group.h5"]);
     await page.getByRole("button", { name: "Dismiss" }).click();
     await untilState(page, "done");
   });
@@ -271,7 +271,7 @@ test("the table by keyboard: one stop of Tab, arrows from cell to cell, Enter op
     assert.match(await focused(), /^A stars-2-a, B stars-1-a: /);
     await page.keyboard.press("Enter");
     await untilCompared(page, { a: "stars-2-a", b: "stars-1-a" });
-    assert.equal(await room(page, "Regions").getAttribute("aria-current"), "page");
+    assert.equal(await tab(page, "Regions").getAttribute("aria-current"), "page");
     // The keyboard is not lost with the table.
     await page.waitForFunction(() => document.activeElement?.textContent === "Regions");
   });
@@ -354,7 +354,7 @@ test("work on the table can be ended and gone on with", async () => {
   });
 });
 
-test("after the engine was replaced the shelf is open again, and so is every cell", async () => {
+test("after the engine was replaced the model list is open again, and so is every cell", async () => {
   await withPage({}, async ({ url, page, errors }) => {
     const count = await watchHandles(page);
     await page.goto(`${url}#${STARS}&room=models`);

@@ -424,7 +424,7 @@ for (const [width, height] of [
       await page.goto(`${url}#v=1&demo=heads-sex&sigma=1&embed=1`);
       await untilState(page, "done");
       await untilDrawn(page);
-      for (const name of [".top", ".rail", ".rooms", ".toolbar"]) {
+      for (const name of [".top", ".rail", ".tabs", ".toolbar"]) {
         assert.equal(await page.locator(name).filter({ visible: true }).count(), 0, name);
       }
       assert.equal(await page.evaluate(() => document.documentElement.dataset.embed), "");

@@ -114,7 +114,7 @@ test("pressing Undo fast goes back as many steps as were taken", async () => {
   });
 });
 
-test("view, region, room, samples, differences and exaggeration are steps of their own", async () => {
+test("view, region, tab, samples, differences and exaggeration are steps of their own", async () => {
   await withPage({}, async ({ url, page }) => {
     await open(page, url, STARS);
     const stage = page.locator(".stage");
@@ -455,7 +455,9 @@ test("a run that is cancelled before it has draws leaves what was there, out of 
       globalThis.cancels = true;
     });
     await typeSetting(page, "Seed", "4");
-    await page.getByText("Nothing came of the choices as they are").waitFor({ timeout: 60_000 });
+    await page
+      .getByText("This run failed. The previous result is still shown.")
+      .waitFor({ timeout: 60_000 });
     await staleResults(page).waitFor();
     assert.deepEqual(await downloadReport(page), report);
     await untilDrawn(page);

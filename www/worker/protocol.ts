@@ -472,7 +472,7 @@ export interface ChainFigures {
   chains: number;
   /** Draws of each chain that are sent. */
   length: number;
-  /** Each so-manieth draw is sent. */
+  /** Every stride-th draw is sent. */
   every: number;
   /** Chain after chain. */
   draws: Float32Array;

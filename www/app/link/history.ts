@@ -2,7 +2,7 @@
 import { batch, computed, effect, untracked } from "@preact/signals";
 import { applyLesson, settledLesson } from "../learn/state";
 import { HASH_DIGITS } from "../models/address/codec";
-import { arrange, giveUpAdding, restoreShelf } from "../models/list/actions";
+import { arrange, giveUpAdding, restoreModelList } from "../models/list/actions";
 import { closeUnused } from "../models/list/handles";
 import { measure } from "../models/list/matrix";
 import { isUsed } from "../models/list/order";
@@ -22,12 +22,12 @@ import {
   linked,
   lockedRange,
   mapMode,
+  modelList,
   namesInLinks,
   page,
   painting,
   picture,
   region,
-  room,
   SIDES,
   type Side,
   type Slot,
@@ -35,10 +35,10 @@ import {
   settings,
   settledExaggeration,
   shapesSeed,
-  shelf,
   slotKey,
   slots,
   spoken,
+  tab,
   vertex,
   vertexMap,
   view,
@@ -54,7 +54,8 @@ export const { undoable, redoable } = steps;
 /** What of the page no link can hold. */
 export const unlinkable = computed(() => ({
   files: SIDES.filter((side) => slots[side].value?.source.kind === "files"),
-  shelf: isUsed(shelf.value) && shelf.value.some(({ source }) => source.kind !== "demo"),
+  modelList:
+    isUsed(modelList.value) && modelList.value.some(({ source }) => source.kind !== "demo"),
   points: !fitsLink(settings.value.prepare.points),
 }));
 
@@ -92,10 +93,10 @@ function models(): LinkedModels {
   };
 }
 
-/** Those of the page's own models that are on the shelf, if it is in use. */
-function shelved(): string[] {
-  if (!isUsed(shelf.value)) return [];
-  return shelf.value.flatMap(({ source }) => (source.kind === "demo" ? source.name : []));
+/** Those of the page's own models that are on the model list, if it is in use. */
+function listed(): string[] {
+  if (!isUsed(modelList.value)) return [];
+  return modelList.value.flatMap(({ source }) => (source.kind === "demo" ? source.name : []));
 }
 
 /** All that makes the picture, as far as an address can say it. */
@@ -107,7 +108,7 @@ function present(): LinkState {
     demo: demo.value?.id ?? "files",
     ...models(),
     settings: settings.value,
-    room: room.value,
+    tab: tab.value,
     view: view.value,
     map: vertexMap.value,
     mapMode: mapMode.value,
@@ -121,7 +122,7 @@ function present(): LinkState {
     picture: picture.value,
     exaggeration: settledExaggeration.value,
     shapes: shapesSeed.value,
-    shelf: shelved(),
+    modelList: listed(),
     measure: measure.value,
     camera: camera.value,
   };
@@ -153,7 +154,7 @@ const step = computed(() => {
   if (page.value === "learn") return JSON.stringify([page.value, settledLesson.value]);
   const open = SIDES.map((side) => slots[side].value && slotKey(slots[side].value));
   const look = { ...present(), camera: null, embed: null, names: null };
-  return JSON.stringify([open, shelf.value.map(slotKey), look]);
+  return JSON.stringify([open, modelList.value.map(slotKey), look]);
 });
 
 let applied = "";
@@ -200,7 +201,7 @@ function placed(): Place {
   const [a, b] = [wanted("a"), wanted("b")];
   return {
     models: a && b && { a, b },
-    shelf: shelf.peek().map(wantedOf),
+    modelList: modelList.peek().map(wantedOf),
     points: settings.peek().prepare.points,
   };
 }
@@ -238,7 +239,7 @@ async function follow(state: unknown, takes: (link: LinkState) => boolean): Prom
     return;
   }
   if (place === null && takes(link)) return;
-  const wanted = place?.shelf ?? shelfOf(link);
+  const wanted = place?.modelList ?? modelListOf(link);
   giveUpOpening();
   giveUpAdding();
   const complete = () => {
@@ -261,7 +262,7 @@ async function follow(state: unknown, takes: (link: LinkState) => boolean): Prom
   const opened = (a || b) && (await openPair(a, b, () => batch(complete)));
   if (!opened) batch(complete);
   closeUnused();
-  if (mine === journeys) await restoreShelf(wanted);
+  if (mine === journeys) await restoreModelList(wanted);
 }
 
 /** What an address says of models; those of nobody's own files. */
@@ -285,9 +286,9 @@ function sourceOf(address: string): Source {
   return demo ? demoSource(demo) : { kind: "url", url: address };
 }
 
-/** What an address says of the shelf. */
-export function shelfOf(link: LinkState): Wanted[] {
-  return link.shelf.map((name) => first(demoSource(name)));
+/** What an address says of the model list. */
+export function modelListOf(link: LinkState): Wanted[] {
+  return link.modelList.map((name) => first(demoSource(name)));
 }
 
 export function apply(link: LinkState): void {
@@ -304,7 +305,7 @@ export function take(link: LinkState): void {
     if (link.page === "learn") applyLesson(link.lesson);
     if (link.page !== "compare") return;
     settings.value = link.settings;
-    room.value = link.room;
+    tab.value = link.tab;
     view.value = link.view;
     vertexMap.value = link.map;
     mapMode.value = link.mapMode;

@@ -43,7 +43,7 @@ test("what is written is read back, for every field", () => {
     },
     parts: { a: null, b: null },
     view: "sd" as const,
-    room: "diagnostics" as const,
+    tab: "diagnostics" as const,
     side: "b" as const,
     coefficient: 11,
     map: "mode" as const,
@@ -55,7 +55,7 @@ test("what is written is read back, for every field", () => {
     picture: "exclusiveModes" as const,
     exaggeration: 2.5,
     shapes: "7",
-    shelf: ["heads-male", "stars-1-a", "planes-b"],
+    modelList: ["heads-male", "stars-1-a", "planes-b"],
     measure: "grassmann-affine" as const,
     camera: { yaw: -1.25, pitch: 0.5, zoom: 2, x: 0.25, y: -0.5 },
   };
@@ -95,10 +95,10 @@ test("two models of different examples, or of one and an address, have a link to
   assert.equal(readLink("v=1&a=demo:heads-male&b=demo:nobody").urls, null);
 });
 
-test("a shelf holds the page's own models, each once, and nothing that there is not", () => {
-  const { shelf } = readLink("v=1&shelf=heads-male,nobody,heads-male,../x,planes-a");
-  assert.deepEqual(shelf, ["heads-male", "planes-a"]);
-  assert.deepEqual(readLink("v=1&demo=planes").shelf, [], "older links have none");
+test("a model list holds the page's own models, each once, and nothing that there is not", () => {
+  const { modelList } = readLink("v=1&shelf=heads-male,nobody,heads-male,../x,planes-a");
+  assert.deepEqual(modelList, ["heads-male", "planes-a"]);
+  assert.deepEqual(readLink("v=1&demo=planes").modelList, [], "older links have none");
 });
 
 test("parts of the files at two addresses are kept", () => {

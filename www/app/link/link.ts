@@ -45,7 +45,7 @@ import {
   PAGES,
   PICTURES,
   REGIONS,
-  ROOMS,
+  TABS,
   VIEW_MODES,
   type ViewState,
 } from "../state/view";
@@ -73,7 +73,7 @@ export interface LinkState extends LinkedModels, ViewState {
   /** Range of the colours of what is missed while it is locked; 0 is the other end. */
   heatScale: number | null;
   /** Models that come with the page and are in the table, if there are more than two. */
-  shelf: string[];
+  modelList: string[];
   /** What the table shows of each pair. */
   measure: MeasureName;
 }
@@ -85,7 +85,7 @@ export function defaultLink(): LinkState {
     lesson: defaultLesson(),
     explorer: defaultExplorer(),
     heatScale: null,
-    shelf: [],
+    modelList: [],
     measure: "variance",
   };
 }
@@ -132,7 +132,7 @@ function lookPairs(state: LinkState): [string, string | number][] {
   const first = defaultLink();
   const plain = (
     [
-      ["room", state.room, first.room],
+      ["room", state.tab, first.tab],
       ["map", state.map, first.map],
       ["mode", state.mapMode + 1, first.mapMode + 1],
       ["vertex", state.vertex, first.vertex],
@@ -144,7 +144,7 @@ function lookPairs(state: LinkState): [string, string | number][] {
       ["picture", state.picture, first.picture],
       ["exaggerate", state.exaggeration, first.exaggeration],
       ["shapes", state.shapes, first.shapes],
-      ["shelf", state.shelf.join(","), first.shelf.join(",")],
+      ["shelf", state.modelList.join(","), first.modelList.join(",")],
       ["measure", state.measure, first.measure],
     ] as const
   ).flatMap(([key, value, standard]): [string, string | number][] =>
@@ -210,7 +210,7 @@ export function readLink(fragment: string): LinkState {
     demo: findDemo(given.get("demo") ?? "")?.id ?? fallback.demo,
     ...readModels(given),
     settings: readSettings(given),
-    room: oneOf(given.get("room"), ROOMS) ?? fallback.room,
+    tab: oneOf(given.get("room"), TABS) ?? fallback.tab,
     map: oneOf(given.get("map"), MAPS) ?? fallback.map,
     mapMode: valid(parseCount(given.get("mode") ?? "", ...RANGES.modes), 1) - 1,
     vertex: valid<number | null>(parseCount(given.get("vertex") ?? "", 0, MOST_VERTICES), null),
@@ -224,7 +224,7 @@ export function readLink(fragment: string): LinkState {
     picture: oneOf(given.get("picture"), PICTURES) ?? fallback.picture,
     exaggeration: readExaggeration(given.get("exaggerate")),
     shapes: valid(parseSeed(given.get("shapes") ?? "1"), fallback.shapes),
-    shelf: readShelf(given.get("shelf")),
+    modelList: readModelList(given.get("shelf")),
     measure: oneOf(given.get("measure"), MEASURE_NAMES) ?? fallback.measure,
     camera: readCamera(given.get("camera")),
   };
@@ -348,7 +348,7 @@ function oneOf<T extends string>(text: string | null, allowed: readonly T[]): T 
 }
 
 /** Each model once, and those that there are. */
-function readShelf(text: string | null): string[] {
+function readModelList(text: string | null): string[] {
   const names = new Set((text ?? "").split(","));
   return [...names].filter((name) => DEMO_MODELS.includes(name));
 }

@@ -12,6 +12,7 @@ import {
   dismiss,
   emptyRegions,
   lockedRange,
+  modelList,
   notify,
   opening,
   painting,
@@ -22,7 +23,6 @@ import {
   type Slot,
   type Source,
   settings,
-  shelf,
   slots,
   sourceKey,
   spoken,
@@ -186,7 +186,7 @@ function show(opened: Record<Side, Slot | null>, alongside: () => void): void {
       opening[side].value = null;
     }
     const now = { a: slots.a.value, b: slots.b.value };
-    shelf.value = afterChoice(shelf.value, before, now);
+    modelList.value = afterChoice(modelList.value, before, now);
     // Every population lies in the frame of its own first shape: side by side those mean nothing.
     const populations = SIDES.every((side) => slots[side].value?.origin.kind === "shapes");
     if (populations && settings.value.align === "none") change({ align: "rigid" });
@@ -248,9 +248,9 @@ export async function load(side: Side, wanted: Wanted): Promise<Slot | null> {
   }
 }
 
-/** With its geometry; one that is on the shelf is not opened again. Whoever asked puts it down. */
+/** With its geometry; one that is on the model list is not opened again. Whoever asked puts it down. */
 async function openToShow(signal: AbortSignal, wanted: Wanted, onRead: OnRead): Promise<Slot> {
-  const kept = reopening.peek() ? undefined : shelf.peek().find((slot) => isOpen(slot, wanted));
+  const kept = reopening.peek() ? undefined : modelList.peek().find((slot) => isOpen(slot, wanted));
   const slot = kept ?? (await openWanted(signal, wanted, onRead));
   carry(slot.model);
   try {

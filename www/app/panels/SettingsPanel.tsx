@@ -113,7 +113,7 @@ function More() {
         parse={parsePositive}
         onChange={(noise) => change({ noise })}
         wrong={`a positive length in ${unit.value}`}
-        help="How far a true member of either population lies from its own model; the recommended σ heeds it."
+        help="How far a true member of either population lies from its own model; the recommended σ takes it into account."
       />
       <CountField
         label="Weighted"

@@ -4,20 +4,20 @@ export interface Unlinkable {
   /** Sides that are files of the visitor's own. */
   files: ("a" | "b")[];
   /** Whether other such models are open besides. */
-  shelf: boolean;
+  modelList: boolean;
   /** Whether the points that are compared are a list too long for a link. */
   points: boolean;
 }
 
 /** In a line, once it is copied. */
-export function copiedWords({ files, shelf, points }: Unlinkable): string {
+export function copiedWords({ files, modelList, points }: Unlinkable): string {
   if (files.length > 0) return "Link copied; it holds no files";
-  return shelf || points ? "Link copied; not all is in it" : "Link copied";
+  return modelList || points ? "Link copied; not all is in it" : "Link copied";
 }
 
-export function holdsSentences({ files, shelf, points }: Unlinkable): string[] {
+export function holdsSentences({ files, modelList, points }: Unlinkable): string[] {
   const said = [holds(files)];
-  if (shelf) said.push("Models of your own beside A and B are not in it.");
+  if (modelList) said.push("Models of your own beside A and B are not in it.");
   if (points) said.push("Which points are compared is a list too long for a link: use a run file.");
   return said;
 }

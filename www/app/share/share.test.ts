@@ -58,14 +58,14 @@ test("steps before the comparison are flags; what there is no flag for is told",
 });
 
 test("what a link holds is said for files, for more models and for lists of points", () => {
-  const none = { files: [], shelf: false, points: false };
+  const none = { files: [], modelList: false, points: false };
   assert.match(holdsSentences(none).join(" "), /^The link holds the models, every setting/);
   assert.equal(
     holdsSentences({ ...none, files: ["a", "b"] })[0],
     "The link has all settings and the fingerprints of your two files, not the files. Whoever opens it drops the same files, and the page checks that they are the same.",
   );
   assert.match(holdsSentences({ ...none, files: ["b"] })[0] ?? "", /fingerprint of your file, B/);
-  assert.equal(holdsSentences({ files: [], shelf: true, points: true }).length, 3);
+  assert.equal(holdsSentences({ files: [], modelList: true, points: true }).length, 3);
 });
 
 test("snippets are escaped, and without scripts a link stays", () => {

@@ -34,7 +34,7 @@ export interface Line {
   missing: string[];
 }
 
-const NOTHING: Unlinkable = { files: [], shelf: false, points: false };
+const NOTHING: Unlinkable = { files: [], modelList: false, points: false };
 
 export function subject(): Subject {
   if (page.value === "learn") return scenePart();

@@ -9,7 +9,7 @@ import { RunPanel } from "../panels/RunPanel";
 import { SettingsPanel } from "../panels/SettingsPanel";
 import { Taking } from "../pictures/Taking";
 import { ShareDialog } from "../share/ShareDialog";
-import { demo, embedded, page, result, room, spoken } from "../state/state";
+import { demo, embedded, page, result, spoken, tab } from "../state/state";
 import { wide } from "../state/wide";
 import { Diagnostics } from "../tabs/diagnostics/Diagnostics";
 import { Explorer } from "../tabs/explore/Explorer";
@@ -24,7 +24,7 @@ import { About } from "./About";
 import { DropOverlay } from "./DropOverlay";
 import { Embedded } from "./Embedded";
 import { Header } from "./Header";
-import { Rooms } from "./Rooms";
+import { Tabs } from "./Tabs";
 
 export function App() {
   return embedded.value ? (
@@ -69,9 +69,9 @@ const gallery = () => import("../gallery/Gallery").then(({ Gallery }) => Gallery
 function Comparison() {
   // Before anything is compared, what a link waits for is all that there is.
   const linkIsAll = Boolean(awaited.value?.link) && result.value === null;
-  const explores = room.value === "explore";
+  const explores = tab.value === "explore";
   return (
-    <main class="comparison" data-room={room.value}>
+    <main class="comparison" data-tab={tab.value}>
       <div class="centre">
         <Notices place="page" />
         <Notices place="link" />
@@ -79,13 +79,13 @@ function Comparison() {
         <Consent />
         {linkIsAll && <RunFileCard />}
         <Headline />
-        <Rooms />
+        <Tabs />
         <Stage />
         {explores && <ExploreStage />}
         {explores && !wide.value && <Explorer />}
-        {room.value === "measures" && <Measures />}
-        {room.value === "diagnostics" && <Diagnostics />}
-        {room.value === "models" && <ModelTable />}
+        {tab.value === "measures" && <Measures />}
+        {tab.value === "diagnostics" && <Diagnostics />}
+        {tab.value === "models" && <ModelTable />}
       </div>
       <div class="rail models">
         <ModelCard side="a" />

@@ -4,7 +4,7 @@ import { awaited } from "../link/runfile/run";
 import { Consent } from "../panels/Consent";
 import { MAP_WORDS } from "../stage/map-words";
 import { regionLabel } from "../stage/names";
-import { alone, inspection, nouns, room, run, vertexMap, view } from "../state/state";
+import { alone, inspection, nouns, run, tab, vertexMap, view } from "../state/state";
 import { Diagnostics } from "../tabs/diagnostics/Diagnostics";
 import { ExploreStage } from "../tabs/explore/ExploreStage";
 import { Measures } from "../tabs/measures/Measures";
@@ -14,10 +14,10 @@ import { Stage } from "../tabs/regions/Stage";
 import { percent } from "../text/format";
 import { Notices } from "../ui/Notices";
 
-/** The page as a frame in another page: one room, one line of caption, and the way out of the frame. */
+/** The page as a frame in another page: one tab, one line of caption, and the way out of the frame. */
 export function Embedded() {
   return (
-    <main class="embedded" data-room={room.value}>
+    <main class="embedded" data-tab={tab.value}>
       <div class="centre">
         {(["page", "link", "content", "a", "b", "pair", "run"] as const).map((place) => (
           <Notices key={place} place={place} />
@@ -26,10 +26,10 @@ export function Embedded() {
         <Consent />
         {awaited.value && <RunFileCard />}
         <Stage />
-        {room.value === "explore" && <ExploreStage />}
-        {room.value === "measures" && <Measures />}
-        {room.value === "diagnostics" && <Diagnostics />}
-        {room.value === "models" && <ModelTable />}
+        {tab.value === "explore" && <ExploreStage />}
+        {tab.value === "measures" && <Measures />}
+        {tab.value === "diagnostics" && <Diagnostics />}
+        {tab.value === "models" && <ModelTable />}
       </div>
       <footer class="caption">
         <p class="caption-what">{shown()}</p>
@@ -60,7 +60,7 @@ function shown(): string {
   const { a, b } = nouns.value;
   const whose = `A: ${a}. B: ${b}.`;
   if (run.value) return `${whose} Comparing, ${percent(run.value.progress?.fraction ?? 0)} …`;
-  if (room.value !== "regions") return whose;
+  if (tab.value !== "regions") return whose;
   const what = {
     mean: "Mean shapes",
     samples: "Random shapes",

@@ -3,11 +3,11 @@ import { batch, effect } from "@preact/signals";
 import { storedResult, watchChoices, watchPictures } from "../comparison/run";
 import { titleOf } from "../learn/scenes";
 import { lessonState, scene } from "../learn/state";
-import { apply, keepLink, modelsOf, shelfOf } from "../link/history";
+import { apply, keepLink, modelListOf, modelsOf } from "../link/history";
 import { type LinkState, misread, readLink, SETTING_KEYS } from "../link/link";
 import { awaitLink, watchRunFile } from "../link/runfile/run";
 import { watchContent } from "../models/address/checked";
-import { restoreShelf } from "../models/list/actions";
+import { restoreModelList } from "../models/list/actions";
 import { watchMatrix } from "../models/list/matrix";
 import { watchEngine } from "../models/list/reopen";
 import { demoModels, openPair } from "../models/opening";
@@ -44,7 +44,7 @@ export function boot(): void {
   if (link.page === "compare") {
     void bootComparison(link).then(() => {
       keepLink(waits);
-      return restoreShelf(shelfOf(link));
+      return restoreModelList(modelListOf(link));
     });
     return;
   }
@@ -55,7 +55,7 @@ export function boot(): void {
     queueMicrotask(() => {
       stop();
       const link = readLink(location.hash);
-      void joinUntil(bootComparison(link)).then(() => restoreShelf(shelfOf(link)));
+      void joinUntil(bootComparison(link)).then(() => restoreModelList(modelListOf(link)));
     });
   });
 }

@@ -1,5 +1,5 @@
 import type { Region } from "../../worker/protocol";
-import { compared, room, slots, unit, vertex, view } from "../state/state";
+import { compared, slots, tab, unit, vertex, view } from "../state/state";
 import { REGIONS } from "../state/view";
 import { number, signed, withoutDust } from "../text/format";
 import { NumberField } from "../ui/NumberField";
@@ -13,7 +13,7 @@ import { picking } from "./stage-controller";
 /** One vertex in all five regions: chosen by its number or by a click. */
 export function VertexBar() {
   const chosen = vertex.value;
-  if (room.value !== "regions" || (view.value !== "sd" && chosen === null)) return null;
+  if (tab.value !== "regions" || (view.value !== "sd" && chosen === null)) return null;
   return (
     <section class="vertex-bar" aria-label="Vertex">
       <div class="vertex-choice">

@@ -10,10 +10,10 @@ import {
   packagedHeads,
   painting,
   region,
-  room,
   type Side,
   shapes,
   slots,
+  tab,
   vertex,
   view,
 } from "../state/state";
@@ -48,7 +48,7 @@ export const scene = computed<Scene>(() => ({
   dark: isDark(),
   fadeRim: packagedHeads.value,
   map: mapOf(shownMap.value),
-  ellipsoids: room.value === "regions" ? ellipsoids.value : {},
+  ellipsoids: tab.value === "regions" ? ellipsoids.value : {},
 }));
 
 /** Standard deviations come with what is drawn, before and after there is a comparison. */

@@ -21,7 +21,7 @@ import { DEMO_GROUPS, FIRST_DEMO, findDemo, type Nouns, nounsOf } from "./demos"
 import type { LinkedModels } from "./linked-models";
 import { patched } from "./preparation";
 import { DEFAULTS, settingsKey } from "./settings";
-import { FIRST_VIEW, type PageName, type Room, type ViewMode } from "./view";
+import { FIRST_VIEW, type PageName, type Tab, type ViewMode } from "./view";
 
 export type Side = "a" | "b";
 export const SIDES: Side[] = ["a", "b"];
@@ -98,9 +98,9 @@ export type Theme = "system" | "light" | "dark";
 
 export const slots: Record<Side, Signal<Slot | null>> = { a: signal(null), b: signal(null) };
 /** All models that are open, in the order of their table; the two that are compared among them. */
-export const shelf = signal<Slot[]>([]);
-/** What is being put on the shelf, and how many of how many are done. */
-export const shelving = signal<(Opening & { done: number; of: number }) | null>(null);
+export const modelList = signal<Slot[]>([]);
+/** What is being put on the model list, and how many of how many are done. */
+export const addingModels = signal<(Opening & { done: number; of: number }) | null>(null);
 /** While models of a former engine are opened anew, their handles are void. */
 export const reopening = signal(false);
 export const opening: Record<Side, Signal<Opening | null>> = { a: signal(null), b: signal(null) };
@@ -125,7 +125,7 @@ export const namesInLinks = signal(true);
 /** What the address said of the models when it was followed: not all of them may be open. */
 export const linked = signal<LinkedModels | null>(null);
 /** The part of the page that is looked at. */
-export const room = signal<Room>(FIRST_VIEW.room);
+export const tab = signal<Tab>(FIRST_VIEW.tab);
 export const view = signal<ViewMode>(FIRST_VIEW.view);
 /** What is coloured onto the vertices, and of which mode where it is of one. */
 export const vertexMap = signal<MapName>(FIRST_VIEW.map);

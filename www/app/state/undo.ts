@@ -7,7 +7,7 @@ import { Steps } from "./steps";
 /** What a step of the history holds that no address can: files, and long lists of points. */
 export interface Place {
   models: Record<Side, Wanted> | null;
-  shelf: Wanted[];
+  modelList: Wanted[];
   points: PointSelection | null;
 }
 

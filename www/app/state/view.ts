@@ -10,8 +10,8 @@ export const VIEW_MODES: ViewMode[] = ["mean", "samples", "sd"];
 export type PageName = "compare" | "learn" | "gallery";
 export const PAGES: PageName[] = ["compare", "learn", "gallery"];
 /** Parts of the page, each with its own look at the same comparison. */
-export type Room = "regions" | "explore" | "measures" | "diagnostics" | "models";
-export const ROOMS: Room[] = ["regions", "explore", "measures", "diagnostics", "models"];
+export type Tab = "regions" | "explore" | "measures" | "diagnostics" | "models";
+export const TABS: Tab[] = ["regions", "explore", "measures", "diagnostics", "models"];
 /** What can be coloured onto the vertices in the view "sd", which older links know by that name alone. */
 export const MAPS: MapName[] = [
   "sd",
@@ -35,7 +35,7 @@ export interface ViewState {
   /** A pair that comes with the page, unless the models are said one by one. */
   demo: string;
   settings: Settings;
-  room: Room;
+  tab: Tab;
   view: ViewMode;
   map: MapName;
   /** Which mode the map "mode" is of, from 0. */
@@ -62,7 +62,7 @@ export const FIRST_VIEW: ViewState = {
   embed: false,
   demo: FIRST_DEMO.id,
   settings: DEFAULTS,
-  room: "regions",
+  tab: "regions",
   view: "mean",
   map: "sd",
   mapMode: 0,

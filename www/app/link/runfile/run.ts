@@ -19,13 +19,13 @@ import {
   currentKey,
   dismiss,
   engine,
+  modelList,
   opening,
   result,
   SIDES,
   type Side,
   type Slot,
   settings,
-  shelf,
   slots,
   spoken,
   type Wanted,
@@ -151,7 +151,7 @@ export function watchRunFile(): void {
         takeOver(run, waitedAt === null ? null : waitedAt + 1);
       } else {
         waitedAt = currentStep();
-        if (opening.a.peek() === null && opening.b.peek() === null) void takeFromShelf(run);
+        if (opening.a.peek() === null && opening.b.peek() === null) void takeFromModelList(run);
       }
     });
   });
@@ -165,13 +165,13 @@ function isSame(expected: ExpectedModel, open: OpenModel | null): boolean {
   return verdictOf(expected, open) === "same";
 }
 
-/** Its models may be open in other places: on the shelf, or the other way round, or as another part of their file. */
-async function takeFromShelf(run: ExpectedRun): Promise<void> {
+/** Its models may be open in other places: on the model list, or the other way round, or as another part of their file. */
+async function takeFromModelList(run: ExpectedRun): Promise<void> {
   const found = (side: Side): Wanted | null => {
     const expected = run.models[side];
     if (isSame(expected, openAs(side)) || expected.fingerprint === null) return null;
     const open = (slot: Slot) => ({ report: slot.report, source: null });
-    const slot = shelf.value.find((one) => isSame(expected, open(one)));
+    const slot = modelList.value.find((one) => isSame(expected, open(one)));
     return slot ? wantedOf(slot) : partOf(expected);
   };
   const [a, b] = [found("a"), found("b")];
@@ -184,7 +184,7 @@ async function takeFromShelf(run: ExpectedRun): Promise<void> {
 /** The part that is expected, of an open file of that name of which only other parts are open. */
 function partOf({ name, part }: ExpectedModel): Wanted | null {
   if (name === null || part === null) return null;
-  const files = shelf.value.filter(({ source }) => nameOf(source) === name);
+  const files = modelList.value.filter(({ source }) => nameOf(source) === name);
   const file = files.find(({ parts }) => parts.includes(part));
   return file && files.every((one) => one.part !== part) ? { ...wantedOf(file), part } : null;
 }

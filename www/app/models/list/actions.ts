@@ -1,20 +1,20 @@
-/** Putting models on the shelf, taking them from it, and choosing which two of them are compared. */
+/** Putting models on the model list, taking them from it, and choosing which two of them are compared. */
 import { EngineFailure, sentenceOf, wasAborted } from "../../../worker/engine-errors";
 import { report } from "../../state/engine";
 import {
+  addingModels,
   demo,
   dismiss,
+  modelList,
   type Reading,
-  room,
   type Side,
   type Slot,
   type Source,
   settings,
-  shelf,
-  shelving,
   slotKey,
   slots,
   spoken,
+  tab,
   type Wanted,
 } from "../../state/state";
 import { currentStep, joinStep } from "../../state/undo";
@@ -27,7 +27,7 @@ import { arranged, isSame, isUsed, withModels } from "./order";
 let opening: AbortController | null = null;
 
 /**
- * Opens models one after the other and puts them on the shelf at once, so that one step undoes it: that of
+ * Opens models one after the other and puts them on the model list at once, so that one step undoes it: that of
  * the history given, if it still is the present one.
  */
 export async function addModels(wanted: Wanted[], step: number | null = null): Promise<void> {
@@ -35,16 +35,16 @@ export async function addModels(wanted: Wanted[], step: number | null = null): P
   const added = await openAll(wanted);
   if (added === null) return;
   const add = () => {
-    shelf.value = withModels(shelf.value, added);
+    modelList.value = withModels(modelList.value, added);
   };
   if (step === null) add();
   else joinStep(add, step);
   putDown(added.map(({ model }) => model));
-  if (added.length > 0) spoken.value = `${shelf.value.length} models are open.`;
+  if (added.length > 0) spoken.value = `${modelList.value.length} models are open.`;
 }
 
-/** Models that a link or a step of the history has on the shelf, in its order. */
-export async function restoreShelf(wanted: Wanted[]): Promise<void> {
+/** Models that a link or a step of the history has on the model list, in its order. */
+export async function restoreModelList(wanted: Wanted[]): Promise<void> {
   const begun = currentStep();
   const added = await openAll(wanted);
   if (added === null) return;
@@ -54,9 +54,9 @@ export async function restoreShelf(wanted: Wanted[]): Promise<void> {
 
 /** Of the models that are open, these, in this order, and the two that are compared. */
 export function arrange(wanted: Wanted[], added: readonly Slot[] = []): void {
-  const open = withModels(shelf.value, added);
+  const open = withModels(modelList.value, added);
   const keys = wanted.flatMap((one) => open.find((slot) => isOpen(slot, one)) ?? []).map(slotKey);
-  shelf.value = arranged(open, keys, { a: slots.a.value, b: slots.b.value });
+  modelList.value = arranged(open, keys, { a: slots.a.value, b: slots.b.value });
 }
 
 /** Ends the opening; what is open by then stays. */
@@ -68,10 +68,10 @@ export function cancelAdding(): void {
 export function giveUpAdding(): void {
   opening?.abort("discard");
   opening = null;
-  shelving.value = null;
+  addingModels.value = null;
 }
 
-/** Those that are not on the shelf yet; each is carried. Null where nobody wants them any more. */
+/** Those that are not on the model list yet; each is carried. Null where nobody wants them any more. */
 async function openAll(wanted: Wanted[]): Promise<Slot[] | null> {
   giveUpAdding();
   const controller = new AbortController();
@@ -81,10 +81,10 @@ async function openAll(wanted: Wanted[]): Promise<Slot[] | null> {
   const failed: { name: string; thrown: unknown }[] = [];
   for (const [done, one] of wanted.entries()) {
     if (signal.aborted) break;
-    if ([...shelf.peek(), ...added].some((slot) => isOpen(slot, one))) continue;
+    if ([...modelList.peek(), ...added].some((slot) => isOpen(slot, one))) continue;
     const name = nameOf(one.source);
     const tell = (read: Reading | null) => {
-      if (opening === controller) shelving.value = { name, read, done, of: wanted.length };
+      if (opening === controller) addingModels.value = { name, read, done, of: wanted.length };
     };
     tell(null);
     try {
@@ -97,7 +97,7 @@ async function openAll(wanted: Wanted[]): Promise<Slot[] | null> {
   }
   if (opening === controller) {
     opening = null;
-    shelving.value = null;
+    addingModels.value = null;
   }
   if (signal.reason === "discard") {
     putDown(added.map(({ model }) => model));
@@ -119,10 +119,10 @@ function tellFailed(failed: { name: string; thrown: unknown }[]): void {
   report("page", failed.length === 1 ? one.thrown : all);
 }
 
-/** Takes one from the shelf; those that are compared stay. */
+/** Takes one from the model list; those that are compared stay. */
 export function removeModel(slot: Slot): void {
   if (isSame(slot, slots.a.value) || isSame(slot, slots.b.value)) return;
-  shelf.value = shelf.value.filter((one) => !isSame(one, slot));
+  modelList.value = modelList.value.filter((one) => !isSame(one, slot));
   closeUnused();
   spoken.value = `${nameOf(slot.source)} is closed. It can be undone.`;
 }
@@ -130,7 +130,7 @@ export function removeModel(slot: Slot): void {
 /** Leaves only the two that are compared. */
 export function keepCompared(): void {
   const { a, b } = { a: slots.a.value, b: slots.b.value };
-  shelf.value = shelf.value.filter((slot) => isSame(slot, a) || isSame(slot, b));
+  modelList.value = modelList.value.filter((slot) => isSame(slot, a) || isSame(slot, b));
   closeUnused();
 }
 
@@ -140,16 +140,16 @@ export async function comparePair(a: Slot, b: Slot): Promise<void> {
     isSame(slot, slots[side].value) ? null : wantedOf(slot);
   const [nextA, nextB] = [change("a", a), change("b", b)];
   if (nextA === null && nextB === null) {
-    room.value = "regions";
+    tab.value = "regions";
     return;
   }
   await openPair(nextA, nextB, () => {
     settings.value = pairSettings(settings.value);
-    room.value = "regions";
+    tab.value = "regions";
   });
 }
 
-/** Makes a model of the shelf A or B; the two change places where it was the other one. */
+/** Makes a model of the model list A or B; the two change places where it was the other one. */
 export async function chooseFor(side: Side, slot: Slot): Promise<void> {
   const other = side === "a" ? "b" : "a";
   const former = slots[side].value;
@@ -158,21 +158,21 @@ export async function chooseFor(side: Side, slot: Slot): Promise<void> {
   await openPair(wanted.a ?? null, wanted.b ?? null);
 }
 
-/** What was dropped goes on the shelf, all of it; `a` and `b` of it are compared, null keeps what is. */
+/** What was dropped goes on the model list, all of it; `a` and `b` of it are compared, null keeps what is. */
 export async function openEvery(
   models: NamedSource[],
   a: Source | null,
   b: Source | null,
 ): Promise<void> {
   choosing.value = null;
-  room.value = "models";
+  tab.value = "models";
   // A pair that came with the page makes way; what somebody opened stays beside the rest.
-  const former = isUsed(shelf.value) || demo.value !== null ? [] : [...shelf.value];
+  const former = isUsed(modelList.value) || demo.value !== null ? [] : [...modelList.value];
   for (const { model } of former) carry(model);
   const begun = currentStep();
   const changed = await openPair(a && first(a), b && first(b), () => {
     forget()();
-    shelf.value = withModels(former, shelf.value);
+    modelList.value = withModels(former, modelList.value);
   });
   putDown(former.map(({ model }) => model));
   const wanted = models.map(({ source }) => first(source));

@@ -1,7 +1,7 @@
-/** Lets go of models in the engine once nobody has them any more: neither A, B, the shelf nor who opens them. */
+/** Lets go of models in the engine once nobody has them any more: neither A, B, the model list nor who opens them. */
 import type { Handle } from "../../../worker/protocol";
 import { engineClient } from "../../state/engine";
-import { shelf, slots } from "../../state/state";
+import { modelList, slots } from "../../state/state";
 
 const open = new Set<Handle>();
 /** Models on their way to a place, each as often as somebody carries it. */
@@ -25,7 +25,7 @@ export function putDown(models: readonly Handle[]): void {
 
 export function closeUnused(): void {
   const used = new Set(
-    [slots.a.peek(), slots.b.peek(), ...shelf.peek()].map((slot) => slot?.model),
+    [slots.a.peek(), slots.b.peek(), ...modelList.peek()].map((slot) => slot?.model),
   );
   for (const model of [...open]) {
     if (used.has(model) || carried.has(model)) continue;

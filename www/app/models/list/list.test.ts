@@ -26,8 +26,8 @@ function slot(name: string, part = "shape", parts = ["shape"]): Slot {
 }
 
 const [a, b, c, d] = ["a", "b", "c", "d"].map((name) => slot(name)) as [Slot, Slot, Slot, Slot];
-const names = (shelf: Slot[]) =>
-  shelf.map(({ source }) => (source as { name: string }).name).join();
+const names = (models: Slot[]) =>
+  models.map(({ source }) => (source as { name: string }).name).join();
 
 test("of two models, the one that is replaced makes way and the new one takes its place", () => {
   assert.equal(names(afterChoice([], { a: null, b: null }, { a, b })), "a,b");
@@ -36,7 +36,7 @@ test("of two models, the one that is replaced makes way and the new one takes it
   assert.equal(names(afterChoice([a, b], { a, b }, { a: b, b: a })), "a,b", "they change places");
 });
 
-test("on a shelf that is in use nothing is lost by comparing something else", () => {
+test("on a model list that is in use nothing is lost by comparing something else", () => {
   assert.equal(isUsed([a, b]), false);
   assert.equal(isUsed([a, b, c]), true);
   assert.equal(names(afterChoice([a, b, c], { a, b }, { a: c, b })), "a,b,c");
@@ -48,7 +48,7 @@ test("a model beside itself is one entry, and stays when one of the two leaves",
   assert.equal(names(afterChoice([a], { a, b: a }, { a, b })), "a,b");
 });
 
-test("the shelf has the same model under the handle under which it is compared", () => {
+test("the model list has the same model under the handle under which it is compared", () => {
   const again = slot("a");
   const [entry] = afterChoice([a, b], { a, b }, { a: again, b });
   assert.equal(entry?.model, again.model);
@@ -62,9 +62,9 @@ test("models are added once, and an order that is wanted keeps the two that are 
 
 test("parts of one file are told apart, and two files of one name by number", () => {
   const parts = ["shape", "expression"];
-  const shelf = [slot("x", "shape", parts), slot("x", "expression", parts), slot("y"), slot("y")];
+  const models = [slot("x", "shape", parts), slot("x", "expression", parts), slot("y"), slot("y")];
   assert.deepEqual(
-    namesOf(shelf, ({ source }) => (source as { name: string }).name),
+    namesOf(models, ({ source }) => (source as { name: string }).name),
     ["x, shape", "x, expression", "y", "y (2)"],
   );
 });

@@ -1,4 +1,4 @@
-/** How each model of the shelf lies to each other one: asked pair by pair while the table is looked at. */
+/** How each model of the model list lies to each other one: asked pair by pair while the table is looked at. */
 import { computed, effect, signal } from "@preact/signals";
 import {
   EngineFailure,
@@ -8,7 +8,7 @@ import {
 } from "../../../worker/engine-errors";
 import type { Relation, Settings } from "../../../worker/protocol";
 import { engineClient } from "../../state/engine";
-import { reopening, room, type Slot, settings, shelf, slotKey } from "../../state/state";
+import { modelList, reopening, type Slot, settings, slotKey, tab } from "../../state/state";
 import { ITSELF, type MeasureName, pairSettings, relationKey } from "./measures";
 
 /** Which number of each pair is shown. */
@@ -62,8 +62,8 @@ function isCurrent(found: Known): boolean {
 
 /** Pairs of two different models, row by row. */
 const pairs = computed(() =>
-  shelf.value.flatMap((row) =>
-    shelf.value.flatMap((column): [Slot, Slot][] => (row === column ? [] : [[row, column]])),
+  modelList.value.flatMap((row) =>
+    modelList.value.flatMap((column): [Slot, Slot][] => (row === column ? [] : [[row, column]])),
   ),
 );
 
@@ -80,15 +80,17 @@ export const progress = computed(() => {
 export function watchMatrix(): void {
   let timer: ReturnType<typeof setTimeout> | undefined;
   let controller = new AbortController();
-  const models = computed(() => shelf.value.map((slot) => `${slot.model} ${slotKey(slot)}`).join());
+  const models = computed(() =>
+    modelList.value.map((slot) => `${slot.model} ${slotKey(slot)}`).join(),
+  );
   effect(() => {
     const { base, laws, ofLaws } = wants.value;
-    const looked = room.value === "models" && !paused.value && !reopening.value;
+    const looked = tab.value === "models" && !paused.value && !reopening.value;
     const changed = `${models.value} ${base} ${ofLaws ? laws : ""}`;
     clearTimeout(timer);
     controller.abort();
     // Whoever comes back to it wants all of it.
-    if (room.value !== "models") paused.value = false;
+    if (tab.value !== "models") paused.value = false;
     if (!looked || changed === "") return;
     controller = new AbortController();
     const { signal } = controller;

@@ -4,18 +4,18 @@ import { type Side, type Slot, slotKey } from "../../state/state";
 export type Compared = Record<Side, Slot | null>;
 
 /** Whether more models are kept than two that are compared. */
-export function isUsed(shelf: readonly Slot[]): boolean {
-  return shelf.length > 2;
+export function isUsed(models: readonly Slot[]): boolean {
+  return models.length > 2;
 }
 
 /**
- * The shelf once `now` are compared in place of `before`. What was compared stays on a shelf that is in
+ * The list once `now` are compared in place of `before`. What was compared stays on a model list that is in
  * use; else it makes way, and what comes instead takes its place.
  */
-export function afterChoice(shelf: readonly Slot[], before: Compared, now: Compared): Slot[] {
-  const stays = isUsed(shelf);
+export function afterChoice(models: readonly Slot[], before: Compared, now: Compared): Slot[] {
+  const stays = isUsed(models);
   const kept = (slot: Slot) => stays || isSame(slot, now.a) || isSame(slot, now.b);
-  const next: (Slot | null)[] = [...shelf];
+  const next: (Slot | null)[] = [...models];
   for (const side of ["a", "b"] as const) {
     const [former, slot] = [before[side], now[side]];
     if (!slot || placeOf(next, slot) >= 0) continue;
@@ -28,8 +28,8 @@ export function afterChoice(shelf: readonly Slot[], before: Compared, now: Compa
 }
 
 /** With others at the end, each model once. */
-export function withModels(shelf: readonly Slot[], added: readonly Slot[]): Slot[] {
-  const next = [...shelf];
+export function withModels(models: readonly Slot[], added: readonly Slot[]): Slot[] {
+  const next = [...models];
   for (const slot of added) if (placeOf(next, slot) < 0) next.push(slot);
   return next;
 }
@@ -52,8 +52,8 @@ function placeOf(list: readonly (Slot | null)[], wanted: Slot): number {
 }
 
 /** What each model is called beside the others: with its part where its file has several. */
-export function namesOf(shelf: readonly Slot[], name: (slot: Slot) => string): string[] {
-  const names = shelf.map((slot) => {
+export function namesOf(models: readonly Slot[], name: (slot: Slot) => string): string[] {
+  const names = models.map((slot) => {
     const own = name(slot);
     return slot.parts.length > 1 ? `${own}, ${slot.part}` : own;
   });

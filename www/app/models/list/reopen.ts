@@ -1,7 +1,15 @@
 /** After the engine was replaced every model is opened anew: the two that are compared first. */
 import { batch } from "@preact/signals";
 import { onEngineRestart, report } from "../../state/engine";
-import { reopening, SIDES, type Side, type Slot, shelf, slotKey, slots } from "../../state/state";
+import {
+  modelList,
+  reopening,
+  SIDES,
+  type Side,
+  type Slot,
+  slotKey,
+  slots,
+} from "../../state/state";
 import { load } from "../opening";
 import { openWanted, wantedOf } from "../sources";
 import { carry, forgetHandles, putDown } from "./handles";
@@ -30,12 +38,12 @@ async function reopen(): Promise<void> {
     if (b) slots.b.value = b;
   });
   putDown([a, b].flatMap((slot) => slot?.model ?? []));
-  await reopenShelf(() => mine === engines);
+  await reopenModelList(() => mine === engines);
 }
 
 /** Those that are not compared, one after the other. */
-async function reopenShelf(isWanted: () => boolean): Promise<void> {
-  for (const former of shelf.peek()) {
+async function reopenModelList(isWanted: () => boolean): Promise<void> {
+  for (const former of modelList.peek()) {
     const key = slotKey(former);
     const shown = SIDES.map((side) => slots[side].peek()).find(
       (slot) => slot && slotKey(slot) === key,
@@ -44,20 +52,20 @@ async function reopenShelf(isWanted: () => boolean): Promise<void> {
     if (!isWanted()) return;
     if (!slot) continue;
     carry(slot.model);
-    shelf.value = shelf.peek().map((one) => (slotKey(one) === key ? slot : one));
+    modelList.value = modelList.peek().map((one) => (slotKey(one) === key ? slot : one));
     putDown([slot.model]);
   }
   reopening.value = false;
 }
 
-/** Null where it cannot be opened any more: it then leaves the shelf, unless the engine was replaced again. */
+/** Null where it cannot be opened any more: it then leaves the model list, unless the engine was replaced again. */
 async function openAgain(former: Slot, isWanted: () => boolean): Promise<Slot | null> {
   try {
     return await openWanted(new AbortController().signal, wantedOf(former), () => {});
   } catch (thrown) {
     if (isWanted()) {
       const key = slotKey(former);
-      shelf.value = shelf.peek().filter((slot) => slotKey(slot) !== key);
+      modelList.value = modelList.peek().filter((slot) => slotKey(slot) !== key);
       report("page", thrown);
     }
     return null;

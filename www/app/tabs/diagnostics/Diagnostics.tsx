@@ -36,7 +36,7 @@ const PAIRED_DRAWS = 600;
 export function Diagnostics() {
   const found = result.value;
   return (
-    <section class="room diagnostics" aria-label="Diagnostics" data-stale={outOfDate.value}>
+    <section class="tab diagnostics" aria-label="Diagnostics" data-stale={outOfDate.value}>
       {found ? (
         <>
           <Verdict report={found.report} />
@@ -44,7 +44,7 @@ export function Diagnostics() {
           <SweepChart />
         </>
       ) : (
-        <p class="room-empty">Plots of the draws are shown here once the comparison is finished.</p>
+        <p class="tab-empty">Plots of the draws are shown here once the comparison is finished.</p>
       )}
     </section>
   );
@@ -86,7 +86,7 @@ function Plots({ found }: { found: Result }) {
           <OfChains shown={chains.shown} />
         </div>
       ) : (
-        <p class="room-empty">Waiting for the draws…</p>
+        <p class="tab-empty">Waiting for the draws…</p>
       )}
       {pairs.shown?.answer && (
         <div class="charts" data-stale={!pairs.current}>
@@ -119,7 +119,7 @@ function OfChains({ shown }: { shown: ChainAnswer }) {
   const { question, answer: figures, problem } = shown;
   if (!figures) {
     return (
-      <p class="room-empty">
+      <p class="tab-empty">
         {problem?.message} <span class="dim">{problem?.hint}</span>
       </p>
     );

@@ -18,7 +18,7 @@ import {
   trouble,
 } from "../../state/exploring";
 import { latest } from "../../state/latest";
-import { currentKey, room, run, slots } from "../../state/state";
+import { currentKey, run, slots, tab } from "../../state/state";
 import { timed } from "../../viewer/timing";
 
 interface Wanted {
@@ -32,7 +32,7 @@ export function watchExplorer(): void {
     if (run.value?.progress === null) runningKey.value = currentKey.peek();
   });
   effect(() => {
-    if (room.value !== "explore") return;
+    if (tab.value !== "explore") return;
     const key = askable.value;
     const state = explorer.value;
     // What could not be answered is asked again when the run has got further.

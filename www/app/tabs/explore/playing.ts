@@ -2,7 +2,7 @@
 import { effect, signal } from "@preact/signals";
 import { REACH_SD } from "../../state/explorer";
 import { coefficients, currentAxes, explorer, setCoefficient, settle } from "../../state/exploring";
-import { room } from "../../state/state";
+import { tab } from "../../state/state";
 
 /** From the middle to one end, to the other, and back. */
 const PERIOD_MS = 4000;
@@ -71,7 +71,7 @@ export function watchPlaying(): void {
   let driven = "";
   effect(() => {
     const { space, kind } = explorer.value;
-    const now = `${room.value} ${space} ${kind}`;
+    const now = `${tab.value} ${space} ${kind}`;
     if (now !== driven) stopPlaying();
     driven = now;
   });

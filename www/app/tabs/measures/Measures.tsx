@@ -14,11 +14,11 @@ import { VarianceBars } from "./VarianceBars";
 export function Measures() {
   const found = result.value;
   return (
-    <section class="room measures" aria-label="Measures">
+    <section class="tab measures" aria-label="Measures">
       {found ? (
         <OfPair found={found} />
       ) : (
-        <p class="room-empty">The measures of the pair are shown here once it is compared.</p>
+        <p class="tab-empty">The measures of the pair are shown here once it is compared.</p>
       )}
       <Evaluations />
     </section>

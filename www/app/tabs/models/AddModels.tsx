@@ -5,12 +5,12 @@ import { isUsed } from "../../models/list/order";
 import { modelsIn } from "../../models/opening";
 import { demoSource, first } from "../../models/sources";
 import { DEMO_GROUPS } from "../../state/demos";
-import { shelf, shelving } from "../../state/state";
+import { addingModels, modelList } from "../../state/state";
 import { FileButton } from "../../ui/FileButton";
 
-/** What puts models on the shelf beside the two that are compared. */
+/** What puts models on the model list beside the two that are compared. */
 export function AddModels() {
-  const used = isUsed(shelf.value);
+  const used = isUsed(modelList.value);
   return (
     <div class="add-models">
       <div class="toolbar">
@@ -24,7 +24,7 @@ export function AddModels() {
           </button>
         )}
       </div>
-      {shelving.value ? <Adding /> : !used && <Hint />}
+      {addingModels.value ? <Adding /> : !used && <Hint />}
     </div>
   );
 }
@@ -40,7 +40,7 @@ function Hint() {
 
 /** How far the opening is, and the way out of it. */
 function Adding() {
-  const found = shelving.value;
+  const found = addingModels.value;
   if (!found) return null;
   const { name, read, done, of } = found;
   const share = read?.of ? Math.min(1, read.bytes / read.of) : 0;
@@ -74,7 +74,7 @@ function Opener({ label, name, folder = false, primary = false }: OpenerProps) {
       label={name}
       className={primary ? "primary" : ""}
       folder={folder}
-      disabled={shelving.value !== null}
+      disabled={addingModels.value !== null}
       onFiles={(files) => void add(files)}
     >
       {label}
@@ -85,7 +85,7 @@ function Opener({ label, name, folder = false, primary = false }: OpenerProps) {
 /** The models of the examples, one by one or a group at once. */
 function Examples() {
   const open = new Set(
-    shelf.value.flatMap(({ source }) => (source.kind === "demo" ? source.name : [])),
+    modelList.value.flatMap(({ source }) => (source.kind === "demo" ? source.name : [])),
   );
   const groups = DEMO_GROUPS.map(({ label, demos }) => ({
     label,
@@ -96,7 +96,7 @@ function Examples() {
     <select
       aria-label="Add examples"
       value=""
-      disabled={shelving.value !== null || groups.length === 0}
+      disabled={addingModels.value !== null || groups.length === 0}
       onChange={(event) => {
         const [label, name] = event.currentTarget.value.split("/");
         const group = groups.find((one) => one.label === label);

@@ -17,11 +17,11 @@ import {
   rangeOf,
 } from "../../models/list/measures";
 import { ALIGNMENTS } from "../../state/settings";
-import { change, settings, shelf } from "../../state/state";
+import { change, modelList, settings } from "../../state/state";
 import { viridisGradient } from "../../text/colormap";
 import { saveText } from "../../ui/download";
 import { MatrixTable } from "./MatrixTable";
-import { shelfNames } from "./ShelfTable";
+import { listNames } from "./ModelListTable";
 
 /** How each open model lies to each other one, as one number a pair. */
 export function Matrix() {
@@ -67,8 +67,8 @@ export function Matrix() {
 /** Numbers of all pairs that are known. */
 function valuesShown(name: MeasureName): number[] {
   const { value } = MEASURES[name];
-  return shelf.value.flatMap((row) =>
-    shelf.value.flatMap((column) => {
+  return modelList.value.flatMap((row) =>
+    modelList.value.flatMap((column) => {
       const { relation } = cellOf(row, column);
       return relation && !relation.problem ? (value(relation) ?? []) : [];
     }),
@@ -76,7 +76,7 @@ function valuesShown(name: MeasureName): number[] {
 }
 
 function isStale(): boolean {
-  return shelf.value.some((row) => shelf.value.some((column) => cellOf(row, column).stale));
+  return modelList.value.some((row) => modelList.value.some((column) => cellOf(row, column).stale));
 }
 
 function AlignmentChoice() {
@@ -97,8 +97,8 @@ function AlignmentChoice() {
 }
 
 function Save() {
-  const names = shelfNames();
-  const models = shelf.value;
+  const names = listNames();
+  const models = modelList.value;
   const relation = (row: number, column: number) => {
     const [a, b] = [models[row], models[column]];
     const cell = a && b ? cellOf(a, b) : null;
@@ -158,7 +158,7 @@ function Progress() {
 
 function Legend({ range: [low, high] }: { range: [number, number] }) {
   const { label, text, unit } = MEASURES[measure.value];
-  const units = new Set(shelf.value.map(({ report }) => report.unit));
+  const units = new Set(modelList.value.map(({ report }) => report.unit));
   const length = units.size === 1 ? ([...units][0] ?? "") : "";
   const end = (value: number) => text(value, length);
   return (
@@ -176,10 +176,10 @@ function Legend({ range: [low, high] }: { range: [number, number] }) {
 
 /** What is to be known about the numbers, and which pairs have none. */
 function Notes() {
-  const names = shelfNames();
-  const units = new Set(shelf.value.map(({ report }) => report.unit));
-  const problems = shelf.value.flatMap((row, i) =>
-    shelf.value.flatMap((column, j) => {
+  const names = listNames();
+  const units = new Set(modelList.value.map(({ report }) => report.unit));
+  const problems = modelList.value.flatMap((row, i) =>
+    modelList.value.flatMap((column, j) => {
       const problem = cellOf(row, column).relation?.problem;
       return problem ? { pair: `${names[i]} as A, ${names[j]} as B`, ...problem } : [];
     }),

@@ -5,9 +5,9 @@ import { colourOf, moved } from "../../models/list/cells";
 import { cellOf, measure } from "../../models/list/matrix";
 import { MEASURES } from "../../models/list/measures";
 import { isSame } from "../../models/list/order";
-import { type Slot, shelf, slots } from "../../state/state";
+import { modelList, type Slot, slots } from "../../state/state";
 import { length } from "../../text/format";
-import { shelfNames } from "./ShelfTable";
+import { listNames } from "./ModelListTable";
 
 interface Props {
   range: readonly [number, number];
@@ -17,8 +17,8 @@ interface Props {
 
 /** Rows are A, columns are B. One cell is in the order of Tab; arrow keys go from cell to cell. */
 export function MatrixTable({ range, tell }: Props) {
-  const names = shelfNames();
-  const models = shelf.value;
+  const names = listNames();
+  const models = modelList.value;
   const table = useRef<HTMLTableElement>(null);
   const active = useSignal<[number, number]>([0, 1]);
   const last = models.length - 1;
@@ -97,7 +97,7 @@ async function compare(a: Slot, b: Slot): Promise<void> {
   await new Promise(requestAnimationFrame);
   const { activeElement, body } = document;
   if (activeElement && activeElement !== body) return;
-  document.querySelector<HTMLElement>(".rooms [aria-current]")?.focus({ preventScroll: true });
+  document.querySelector<HTMLElement>(".tabs [aria-current]")?.focus({ preventScroll: true });
 }
 
 interface CellProps extends Props {

@@ -17,11 +17,11 @@ import {
   painting,
   region,
   result,
-  room,
   run,
   SIDES,
   shapes,
   slots,
+  tab,
   unit,
   vertexMap,
   view,
@@ -43,7 +43,7 @@ export function Stage() {
     <section
       class="stage"
       aria-label="Shapes"
-      hidden={room.value !== "regions"}
+      hidden={tab.value !== "regions"}
       data-region={alone.value ?? "all"}
       data-view={view.value}
       data-paint={painting.value?.tool}

@@ -4,7 +4,7 @@ import { wasAborted } from "../../../worker/engine-errors";
 import type { SweepPoint } from "../../../worker/protocol";
 import { sweepAdvice } from "../../comparison/advice";
 import { sweepPoint } from "../../comparison/run";
-import { canPreview, held, recommended, result, room, settings, unit } from "../../state/state";
+import { canPreview, held, recommended, result, settings, tab, unit } from "../../state/state";
 import { length } from "../../text/format";
 import { sweepSigmas } from "../../text/plots";
 import { Chart } from "../../ui/Chart";
@@ -54,7 +54,7 @@ function waiting(done: boolean): string {
 /** Beside the results; where the draws are diagnosed it is among their plots. */
 export function Sweep() {
   const open = useSignal(false);
-  const elsewhere = room.value === "diagnostics";
+  const elsewhere = tab.value === "diagnostics";
   const { points, done, current } = useSweep(open.value && !elsewhere);
   if (elsewhere) return null;
   return (

@@ -1,8 +1,8 @@
 import { useEffect, useRef } from "preact/hooks";
-import { painting, room } from "../state/state";
-import { ROOMS, type Room } from "../state/view";
+import { painting, tab } from "../state/state";
+import { TABS, type Tab } from "../state/view";
 
-const NAMES: Record<Room, string> = {
+const NAMES: Record<Tab, string> = {
   regions: "Regions",
   explore: "Explore",
   measures: "Measures",
@@ -11,27 +11,27 @@ const NAMES: Record<Room, string> = {
 };
 
 /** Parts of the page: each looks at the same comparison in its own way. */
-export function Rooms() {
+export function Tabs() {
   const list = useRef<HTMLElement>(null);
-  const shown = room.value;
+  const shown = tab.value;
   // On narrow screens the list scrolls sideways, and only that: the page stays where it is.
   useEffect(() => {
-    const current = list.current?.querySelector<HTMLElement>(`[data-room="${shown}"]`);
+    const current = list.current?.querySelector<HTMLElement>(`[data-tab="${shown}"]`);
     if (list.current && current) {
       list.current.scrollLeft = current.offsetLeft + current.offsetWidth - list.current.clientWidth;
     }
   }, [shown]);
   return (
-    <nav ref={list} class="rooms" aria-label="Views">
-      {ROOMS.map((name) => (
+    <nav ref={list} class="tabs" aria-label="Views">
+      {TABS.map((name) => (
         <button
           key={name}
           type="button"
-          data-room={name}
-          aria-current={room.value === name ? "page" : undefined}
-          disabled={painting.value !== null && room.value !== name}
+          data-tab={name}
+          aria-current={tab.value === name ? "page" : undefined}
+          disabled={painting.value !== null && tab.value !== name}
           onClick={() => {
-            room.value = name;
+            tab.value = name;
           }}
         >
           {NAMES[name]}

@@ -2,31 +2,31 @@ import { addModels, chooseFor, removeModel } from "../../models/list/actions";
 import { isSame, namesOf } from "../../models/list/order";
 import { nameOf } from "../../models/sources";
 import {
+  addingModels,
+  modelList,
   opening,
   partName,
   reopening,
   SIDES,
   type Side,
   type Slot,
-  shelf,
-  shelving,
   slots,
   sourceKey,
 } from "../../state/state";
 import { count } from "../../text/format";
 import { CloseIcon } from "../../ui/icons";
 
-/** What every model of the shelf is called, in its order. */
-export function shelfNames(): string[] {
-  return namesOf(shelf.value, (slot) => nameOf(slot.source));
+/** What every model of the model list is called, in its order. */
+export function listNames(): string[] {
+  return namesOf(modelList.value, (slot) => nameOf(slot.source));
 }
 
 /** The models that are open: what they are, and which two of them are compared. */
-export function ShelfTable() {
-  const names = shelfNames();
+export function ModelListTable() {
+  const names = listNames();
   return (
     <div class="scrolled-wide">
-      <table class="shelf">
+      <table class="model-list">
         <caption>Open models</caption>
         <thead>
           <tr>
@@ -48,7 +48,7 @@ export function ShelfTable() {
           </tr>
         </thead>
         <tbody>
-          {shelf.value.map((slot, i) => (
+          {modelList.value.map((slot, i) => (
             <ModelRow key={names[i]} slot={slot} name={names[i] ?? ""} />
           ))}
         </tbody>
@@ -63,7 +63,7 @@ function ModelRow({ slot, name }: { slot: Slot; name: string }) {
   return (
     <tr>
       <th scope="row">
-        <span class="shelf-name" title={`${name}: ${report.format}`}>
+        <span class="model-list-name" title={`${name}: ${report.format}`}>
           {name}
         </span>
         <OtherParts slot={slot} name={name} />
@@ -104,7 +104,7 @@ function Chosen({ side, slot, name }: { side: Side; slot: Slot; name: string }) 
       <label class="choice">
         <input
           type="radio"
-          name={`shelf-${side}`}
+          name={`model-list-${side}`}
           aria-label={`${name} as ${side.toUpperCase()}`}
           checked={isSame(slot, slots[side].value)}
           disabled={busy}
@@ -115,14 +115,14 @@ function Chosen({ side, slot, name }: { side: Side; slot: Slot; name: string }) 
   );
 }
 
-/** Models of the same file that are not on the shelf. */
+/** Models of the same file that are not on the model list. */
 function OtherParts({ slot, name }: { slot: Slot; name: string }) {
   const key = sourceKey(slot.source);
   const others = slot.parts.filter(
-    (part) => !shelf.value.some((one) => sourceKey(one.source) === key && one.part === part),
+    (part) => !modelList.value.some((one) => sourceKey(one.source) === key && one.part === part),
   );
   // Once for each file: at its first model.
-  const leads = shelf.value.find((one) => sourceKey(one.source) === key) === slot;
+  const leads = modelList.value.find((one) => sourceKey(one.source) === key) === slot;
   if (others.length === 0 || !leads) return null;
   return (
     <span class="other-parts">
@@ -131,7 +131,7 @@ function OtherParts({ slot, name }: { slot: Slot; name: string }) {
           key={part}
           type="button"
           class="as-link"
-          disabled={shelving.value !== null}
+          disabled={addingModels.value !== null}
           aria-label={`Add ${partName(part)} of ${name}`}
           onClick={() => void addModels([{ source: slot.source, part, scale: slot.scale }])}
         >
