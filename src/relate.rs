@@ -1,4 +1,4 @@
-//! How two models lie to one another, in closed form: what a matrix of many models shows.
+//! Compares two models in closed form, without draws: shares of variance, principal angles, Grassmann distance.
 //!
 //! Everything here comes from the residual operators and the joint basis; nothing is drawn and no fit is
 //! made. A comparison of the same two models with the same settings reports the same numbers.
@@ -18,7 +18,7 @@ use crate::pair::{Joint, Pair, ResidualOperator, recommended_tolerance};
 use crate::report::{KullbackLeibler, Overlap};
 use crate::settings::Settings;
 
-/// How two models lie to one another. Where they cannot be compared there is a problem, and the numbers are
+/// Closed-form measures of two models. Where they cannot be compared there is a problem, and the numbers are
 /// NaN.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
@@ -45,7 +45,7 @@ pub struct Relation {
     pub noise: f64,
 }
 
-/// How `a` and `b` lie to one another, after the steps that the settings ask for.
+/// Closed-form measures of `a` and `b`, after the steps that the settings ask for.
 pub fn relate(a: &LinearModel, b: &LinearModel, settings: &Settings) -> Relation {
     let pair = settings.check().map_err(ComparisonError::from).and_then(|()| {
         let Settings { prepare, align, modes, .. } = settings;

@@ -28,7 +28,7 @@ pub struct Report {
     pub intersection: IntersectionReport,
     /// The shapes of one that the other cannot make.
     pub differences: Differences,
-    /// How the two models' spaces and variances lie to one another.
+    /// Shares of variance, principal angles and divergences of the two models.
     pub overlap: Overlap,
     /// How few modes hold how much of each model.
     #[serde(default)]
@@ -431,7 +431,7 @@ pub struct ExclusiveReport {
     pub unexplained: f64,
 }
 
-/// How the two models' spaces lie to one another.
+/// Shares of variance, principal angles and divergences of two models.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Overlap {

@@ -1,4 +1,4 @@
-//! Known amounts of work, for whoever holds a clock: how near is the kernel to what this processor can do?
+//! Benchmarks of the distance kernel against the largest rate of arithmetic that the processor reaches.
 //!
 //! The engine never fuses a multiplication with an addition, because a fused one rounds differently and
 //! wasm's plain SIMD has none. Its roof is therefore the rate of separate single-precision multiplications

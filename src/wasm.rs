@@ -1,4 +1,4 @@
-//! The engine as the page's worker sees it: the only place that names wasm-bindgen.
+//! WebAssembly bindings of the engine for the page's worker; nothing else uses wasm-bindgen.
 //!
 //! Small things cross as plain objects, shapes as typed arrays (copies, since views into this
 //! memory die when it grows), errors as `{ code, message, hint }`. The worker owns the one
@@ -17,13 +17,13 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use wasm_bindgen::prelude::*;
 
-use crate::comparison::{self, Comparison, Region, RegionShapes, ShapeSource, Stage};
+use crate::comparison::{Comparison, Region, RegionShapes, ShapeSource, Stage};
 use crate::error::ComparisonError;
 use crate::files::{self, Described, Download, Error, ShownShape};
 use crate::formats::{self, Options, Origin};
 use crate::lessons::Lesson;
 use crate::linalg::parallel;
-use crate::model::{Cells, LinearModel};
+use crate::model::{Cells, LinearModel, Sides};
 use crate::pair::{PairError, PointSelection};
 use crate::report::{ModelReport, Seconds};
 use crate::roofline::{self, Workload};
@@ -267,7 +267,7 @@ impl Engine {
     pub fn inspect(&self, a: u32, b: u32, settings: JsValue) -> Result<JsValue, JsValue> {
         let settings = settings_of(settings)?;
         let (first, second) = (self.model(a)?, self.model(b)?);
-        Ok(plain(&comparison::inspect(&first.model, &second.model, &settings)))
+        Ok(plain(&crate::inspect::inspect(&first.model, &second.model, &settings)))
     }
 
     /// The choice of points that a vertex list or a file of pairs makes.
@@ -286,7 +286,7 @@ impl Engine {
     /// # Errors
     /// `{ code, message, hint }` when no comparison is open.
     pub fn compared(&self) -> Result<JsValue, JsValue> {
-        let [a, b] = self.current()?.pair().models().map(geometry_of);
+        let Sides { a, b } = self.current()?.pair().models().map(geometry_of);
         Ok(object(&[("a", a), ("b", b)]))
     }
 

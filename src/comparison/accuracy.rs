@@ -1,4 +1,4 @@
-//! How far the intersection model may be off, from what its moments are made of.
+//! Standard errors of the intersection model, from groups of the draws that its moments are made of.
 //!
 //! The moments of each side come with those of disjoint groups of draws. With one side's moments replaced by
 //! those of a group, the pooled covariance C moves by ΔC_g; in the eigenvectors V of C, D_g = Vᵀ ΔC_g V, and

@@ -1,4 +1,4 @@
-//! Where files meet comparisons: what is opened is described, what a run made is written.
+//! Opens models for a comparison, and writes what a comparison made: reports, draws, models, shapes, run files.
 //!
 //! The command line and the page go through here, so that both open the same things and write the
 //! same bytes.

@@ -209,7 +209,7 @@ pub struct LaneDraws {
     pub count: usize,
     /// Of so many chains, count/chains each.
     pub chains: usize,
-    /// Each so-manieth draw of a chain.
+    /// Every stride-th draw of a chain.
     pub every: usize,
 }
 

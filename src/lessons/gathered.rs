@@ -1,4 +1,4 @@
-//! What is made of draws: A∩B by principal components, and what those would make of a difference.
+//! Principal components of draws: the model of A∩B, and what they would make of a difference.
 //!
 //! d_G falls with the number of draws as √(Σ_{i≤k<j} λᵢλⱼ/(λᵢ − λⱼ)²/N_ij), the λ those of the closed form.
 //! What turns mode i towards j is the mean of zᵢzⱼ, the draws' coordinates in its modes: N_ij is the

@@ -256,7 +256,7 @@ impl Lane {
         Some((least, most))
     }
 
-    /// Each so-manieth draw of a chain, for `most` over all chains.
+    /// Every stride-th draw of a chain, for `most` over all chains.
     fn every(&self, most: usize) -> usize {
         let each = (most / self.chains()).max(1);
         self.length().div_ceil(each).max(1)

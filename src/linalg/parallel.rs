@@ -1,4 +1,4 @@
-//! The one place where work is spread over threads.
+//! Runs independent work on several threads; every parallel loop of the crate goes through here.
 //!
 //! Every parallel loop of the engine is "compute item i of n, independently", done by rayon's pool.
 //! Results come back in the order of their index, and sums over them are taken in that order, so

@@ -1,4 +1,4 @@
-//! The one place where numbers are worked on side by side.
+//! SIMD vectors, as wide as the processor has them, and the two matrix products that take the time.
 //!
 //! Everything heavy in the engine is one of two products of matrices, both row-major:
 //!

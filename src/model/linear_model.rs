@@ -520,7 +520,7 @@ pub(crate) fn lengths(squares: &[f64], dimension: usize) -> Vec<f64> {
     squares.chunks_exact(dimension).map(|point| point.iter().sum::<f64>().sqrt()).collect()
 }
 
-/// Without columns that are nothing beside the longest; the rest stays in its memory.
+/// Drops modes whose standard deviation is negligible against the largest; the rest stays in its memory.
 fn without_empty_columns(matrix: DMatrix<f64>) -> DMatrix<f64> {
     const NOTHING: f64 = 1e-9;
     let largest: Vec<f64> = matrix.column_iter().map(|column| column.amax()).collect();

@@ -1,4 +1,4 @@
-//! The shape of least change whose point is where somebody wants it.
+//! Conditions a model on the position of one vertex: the most probable shape through that point.
 //!
 //! Of all steps Δ of the coefficients that move a point by U_v Δ = y, the one of least norm is
 //! Δ = U_vᵀ(U_vU_vᵀ)⁻¹y. With noise τ on the wish it is the posterior mean of N(0, I) given y,

@@ -1,4 +1,4 @@
-//! How the residual operator is made, and the quadratic part of the posterior for many shapes.
+//! Computes R = U₁ − E₂(E₂ᵀU₁) in strips of rows, and ‖a′‖² + ‖a‖² of many shapes.
 //!
 //! C = E₂ᵀU₁ and R = U₁ − E₂C with RᵀR, in two passes over strips of rows: 6·d·n·q² flops in double
 //! precision, a few megabytes beside the result. Strips are added in their order.
@@ -28,7 +28,7 @@ pub(crate) enum Rows<'a> {
     Double(&'a [f64]),
 }
 
-/// Does something with R of a side, in the precision in which it is kept best.
+/// Calls the body with R as f64 rows where it is kept so, else as f32 rows.
 macro_rules! with_rows {
     ($side:expr, $rows:ident => $what:expr) => {
         match $side.rows() {

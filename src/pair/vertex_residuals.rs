@@ -1,4 +1,4 @@
-//! Where on the shape one model leaves the other, and how to show it.
+//! Distance of every vertex to the other model, and exaggeration of a shape along its residual.
 //!
 //! ‖r_v(a)‖ is how far point v of the shape x = m₁ + U₁ a lies from its projection x′. For coefficients
 //! with mean μ and covariance F Fᵀ, of whatever law, E‖r_v‖² = ‖r₀ᵥ + R_v μ‖² + ‖R_v F‖²: the prior has

@@ -5,7 +5,7 @@ use js_sys::Float32Array;
 use wasm_bindgen::prelude::*;
 
 use super::{Engine, object, parsed, plain, settings_of, thrown};
-use crate::comparison::{self, AxesKind, Comparison, Explored, MapName, Nearest, Region, Space};
+use crate::comparison::{AxesKind, Comparison, Explored, MapName, Nearest, Region, Space};
 use crate::files::Error;
 
 fn array(values: &[f32]) -> JsValue {
@@ -134,13 +134,13 @@ impl Engine {
         Ok(all)
     }
 
-    /// How two models lie to one another, without draws: `{ problem, points, varianceOfAInB, … }`.
+    /// Closed-form measures of two models, without draws: `{ problem, points, varianceOfAInB, … }`.
     ///
     /// # Errors
     /// `{ code, message, hint }` when a model is closed or the settings cannot be read.
     pub fn relate(&self, a: u32, b: u32, settings: JsValue) -> Result<JsValue, JsValue> {
         let settings = settings_of(settings)?;
         let (first, second) = (self.model(a)?, self.model(b)?);
-        Ok(plain(&comparison::relate(&first.model, &second.model, &settings)))
+        Ok(plain(&crate::relate::relate(&first.model, &second.model, &settings)))
     }
 }

@@ -1,4 +1,4 @@
-//! Reproductions in words: Markdown, aligned so that it reads well on a terminal too.
+//! Writes the results of `shapevenn reproduce` as Markdown tables.
 
 use shapevenn::report::MomentSource;
 use shapevenn::reproduce::printed::{

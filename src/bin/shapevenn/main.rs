@@ -64,7 +64,7 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// How every two of several models lie to one another: shares of variance and Grassmann distances
+    /// Compares several models pair by pair: shares of variance and Grassmann distances
     Matrix(matrix::Arguments),
     /// Write a model in another format, chosen by the ending of OUT: .h5, .h5.json, .npz, .json, .glb, or .ply and .obj (mean shape)
     Convert {

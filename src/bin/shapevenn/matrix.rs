@@ -1,4 +1,4 @@
-//! `shapevenn matrix`: how every two of several models lie to one another, without drawing.
+//! `shapevenn matrix`: compares several models pair by pair in closed form, without draws.
 
 use clap::Args;
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! What the chains of one side did, as figures to look at: traces, ranks, autocorrelation, pairs.
+//! Diagnostic plots of the chains of one side: traces, ranks, autocorrelation, pairs of coefficients.
 //!
 //! Nothing is computed anew: ranks and autocorrelations are those behind the R-hat and the lag-1
 //! correlation of the report, of the same draws. Works while a run goes on, on runs that were cancelled,
@@ -34,7 +34,7 @@ pub struct ChainFigures {
     pub chains: usize,
     /// Draws of each chain in `draws`.
     pub length: usize,
-    /// Each so-manieth draw is in `draws`.
+    /// Every stride-th draw is in `draws`.
     pub every: usize,
     /// The coefficient, chain after chain.
     pub draws: Vec<f32>,

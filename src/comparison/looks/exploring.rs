@@ -1,4 +1,4 @@
-//! Walking through a space of shapes while the other model follows.
+//! The explorer: shapes along the axes of a model, and the nearest shapes of both models to them.
 //!
 //! A slider moves along an axis, a unit vector v of the coefficients of its space, in standard deviations:
 //! x = m + U (W t) for slider values t. Four kinds of axes order the same space by four questions:

@@ -43,12 +43,14 @@ export function SettingsPanel() {
         parse={parseSeed}
         onChange={(seed) => change({ seed })}
         wrong="a whole number below 2⁶⁴"
+        help="Start of the random numbers. The same seed gives the same draws, to the last bit; another one gives other draws of the same law."
       />
       <CountField
         label="Chains"
         name="chains"
         standard={budgetOf(now.sampler).chains}
         range={RANGES.chains}
+        help="Markov chains on each side. More of them tell better whether the draws have converged; each has fewer draws."
         onChange={(chains) => change({ chains, draws: Math.max(now.draws, leastDraws(chains)) })}
       />
       <CountField
@@ -56,6 +58,7 @@ export function SettingsPanel() {
         name="draws"
         standard={budgetOf(now.sampler).draws}
         range={[leastDraws(now.chains), MOST_DRAWS]}
+        help="Shapes drawn of the intersection from A, and as many from B. Four times as many halve their Monte-Carlo errors; the time grows in proportion."
       />
       <More />
     </section>
@@ -113,7 +116,7 @@ function More() {
         parse={parsePositive}
         onChange={(noise) => change({ noise })}
         wrong={`a positive length in ${unit.value}`}
-        help="How far a true member of either population lies from its own model; the recommended σ takes it into account."
+        help="How far a true member of either population lies from its own model; the recommended σ takes it into account. A larger level raises the recommended σ."
       />
       <CountField
         label="Weighted"
@@ -122,7 +125,7 @@ function More() {
         standard={DEFAULTS.weighted}
         range={RANGES.weighted}
         suffix="draws"
-        help="Weighted draws with gradients, on each side, that correct the mean and variance of the fit."
+        help="Weighted draws with gradients, on each side, that correct the mean and variance of the fit. Four times as many halve the standard errors."
       />
       <h3>Differences</h3>
       <DifferenceFields />
@@ -162,7 +165,7 @@ function DifferenceFields() {
               change({ differenceQuantile, differenceThreshold: null })
             }
             wrong="0 to below 100"
-            help="Share of the model’s own shapes that are not in its difference."
+            help="Share of the model’s own shapes that are not in its difference. A larger share keeps only shapes that are less like the other model."
           />
           <TypedField
             label="Threshold"
@@ -173,7 +176,7 @@ function DifferenceFields() {
             parse={parsePositive}
             onChange={(differenceThreshold) => change({ differenceThreshold })}
             wrong="a positive number, or nothing"
-            help="Where a shape begins to count, instead of a share of the shapes."
+            help="Where a shape begins to count, instead of a share of the shapes. A larger threshold keeps fewer shapes, less like the other model."
           />
         </>
       )}
@@ -183,6 +186,7 @@ function DifferenceFields() {
         name="differenceDraws"
         standard={DEFAULTS.differenceDraws}
         range={RANGES.differenceDraws}
+        help="Shapes drawn of each difference. Four times as many halve the standard errors of its mean."
       />
     </>
   );
@@ -203,6 +207,7 @@ function ModesField() {
       }
       onChange={(modes) => change({ modes })}
       wrong="a whole number, or nothing for all"
+      help="The first modes of both models. Fewer make both models stiffer and the comparison faster; the variance of those left out counts as noise."
     />
   );
 }

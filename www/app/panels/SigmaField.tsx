@@ -37,7 +37,7 @@ export function SigmaField() {
         parse={parsePositive}
         onChange={(sigma) => change({ sigma })}
         wrong={`a positive length in ${unit.value}`}
-        help="How far from a model, on average per point, a shape may lie and still count as one it can make."
+        help="How far from a model, on average per point, a shape may lie and still count as one it can make. A larger σ widens the intersection and leaves less in the differences."
       />
       <SigmaSlider />
       <Expected />
