@@ -388,7 +388,7 @@ impl Engine {
         picture: Option<String>,
     ) -> Result<JsValue, JsValue> {
         let which: Region = parsed(region.clone(), "region")?;
-        let seed = seed.parse().unwrap_or(0);
+        let seed = files::seed_of(seed).map_err(thrown)?;
         let nothing = || thrown(Error::NothingYet);
         let comparison = self.comparison.as_mut().ok_or_else(nothing)?;
         let picture = ShownShape::picture_of(exaggeration.unwrap_or(0.0), picture.as_deref());
@@ -403,7 +403,7 @@ impl Engine {
     pub fn preview(&mut self, sigma: f64, count: usize, seed: &str) -> Result<JsValue, JsValue> {
         let nothing = || thrown(Error::NothingYet);
         let comparison = self.comparison.as_mut().ok_or_else(nothing)?;
-        let seed = seed.parse().unwrap_or(0);
+        let seed = files::seed_of(seed).map_err(thrown)?;
         let (prediction, shapes) = comparison.preview(sigma, count, seed).ok_or_else(|| {
             let message = format!("The numbers overflow at σ = {sigma}.");
             fault("not-finite", message, "Try a larger σ, or fewer modes.")

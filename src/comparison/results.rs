@@ -61,12 +61,12 @@ impl Results {
     #[allow(clippy::cast_possible_truncation, reason = "draws are stored in single precision")]
     pub fn to_arrays(&self) -> Vec<StoredArray> {
         let mut arrays = Vec::new();
-        for (name, draws) in
-            NAMES.into_iter().zip(self.intersection.iter().chain(&self.differences))
-        {
+        let all = self.intersection.iter().chain(&self.differences);
+        for (index, (name, draws)) in NAMES.into_iter().zip(all).enumerate() {
             let length = draws.statistics.iter().map(Vec::len).min().unwrap_or(0);
             let mut shape = vec![draws.values.len(), length];
-            if name.contains("without") {
+            // Draws of a difference are independent: there are no chains.
+            if index >= 2 {
                 shape.remove(0);
             }
             let distance = |chain: &Vec<f64>| -> Vec<f32> {

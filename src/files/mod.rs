@@ -36,6 +36,11 @@ pub enum Error {
         /// The name asked for.
         name: String,
     },
+    /// A seed is no number, or too large.
+    Seed {
+        /// What was given.
+        text: String,
+    },
     /// The run has nothing of the kind yet.
     NothingYet,
     /// A stored report cannot be read.
@@ -73,6 +78,7 @@ impl Error {
             Self::Comparison(error) => error.code(),
             Self::Evaluation(error) => error.code(),
             Self::Demo { .. } => "unknown-demo",
+            Self::Seed { .. } => "seed",
             Self::NothingYet => "nothing-yet",
             Self::StoredReport { .. } => "stored-report",
             Self::RunFile { .. } => "run-file",
@@ -87,6 +93,7 @@ impl Error {
             Self::Comparison(error) => error.hint().to_owned(),
             Self::Evaluation(error) => error.hint().to_owned(),
             Self::Demo { .. } => format!("Choose one of {}.", demos::names().join(", ")),
+            Self::Seed { .. } => "Give a whole number below 2⁶⁴.".to_owned(),
             Self::NothingYet => "Wait until the run has drawn some.".to_owned(),
             Self::StoredReport { .. } => "Run the comparison again.".to_owned(),
             Self::RunFile { hint, .. } => (*hint).to_owned(),
@@ -102,6 +109,12 @@ impl fmt::Display for Error {
             Self::Comparison(error) => error.fmt(f),
             Self::Evaluation(error) => error.fmt(f),
             Self::Demo { name } => write!(f, "There is no demo model “{name}”."),
+            Self::Seed { text } => {
+                write!(
+                    f,
+                    "The seed of the shapes is “{text}”; a whole number from 0 to 18446744073709551615 was expected."
+                )
+            }
             Self::NothingYet => write!(f, "There are no shapes of this region yet."),
             Self::StoredReport { reason } => {
                 write!(f, "The stored report cannot be read: {reason}.")
@@ -270,6 +283,14 @@ pub struct ShownShape {
     pub picture: Option<String>,
 }
 
+/// A seed as links and the page have it, decimal: JavaScript's numbers end at 2⁵³.
+///
+/// # Errors
+/// [`Error::Seed`] when it is no whole number below 2⁶⁴.
+pub fn seed_of(text: &str) -> Result<u64, Error> {
+    text.parse().map_err(|_| Error::Seed { text: text.to_owned() })
+}
+
 impl ShownShape {
     /// The mean of a region.
     pub fn mean(region: Region) -> Self {
@@ -290,7 +311,7 @@ impl ShownShape {
 
     /// Points (d·n) and, of a mean, the per-vertex standard deviation (n).
     fn points(&self, comparison: &mut Comparison) -> Result<(Vec<f32>, Option<Vec<f32>>), Error> {
-        let seed = self.seed.parse().unwrap_or(0);
+        let seed = seed_of(&self.seed)?;
         let picture = Self::picture_of(self.exaggeration, self.picture.as_deref());
         let shapes = comparison.shapes(self.region, self.count, seed, picture);
         let shapes = shapes.ok_or(Error::NothingYet)?;
@@ -488,4 +509,19 @@ pub fn restore(
         })
         .collect();
     Ok((Comparison::restored(a, b, report, &arrays)?, seconds))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_seed_that_is_no_number_is_refused_in_words() {
+        assert_eq!(seed_of("18446744073709551615"), Ok(u64::MAX), "the largest");
+        for text in ["", "-1", "1.5", "18446744073709551616", "seven"] {
+            let error = seed_of(text).expect_err("no seed");
+            assert_eq!(error.code(), "seed", "{text}");
+            assert!(error.to_string().contains(&format!("“{text}”")), "{error}");
+        }
+    }
 }

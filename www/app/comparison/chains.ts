@@ -1,4 +1,4 @@
-/** What tells chains apart: means, spreads, halves. Pure. */
+/** Means, spreads and halves of chains. Pure. */
 
 export interface Spread {
   mean: number;

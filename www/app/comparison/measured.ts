@@ -1,4 +1,4 @@
-/** What the measures of a pair say, in plain words. Pure. */
+/** Sentences about the measures of a pair. Pure. */
 import type { Evaluation, Report } from "../../worker/protocol";
 import type { Nouns } from "../state/demos";
 import { count, degrees, length, number, percent } from "../text/format";

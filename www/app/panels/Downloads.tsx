@@ -16,7 +16,7 @@ import {
 import { REGIONS } from "../state/view";
 import { download, saveText } from "../ui/download";
 import { FileButton } from "../ui/FileButton";
-import { openFiles } from "./intake";
+import { openFiles } from "./dropped-files";
 import { Methods, Pictures } from "./Pictures";
 
 /** What is taken away, and as which kinds of file. */

@@ -1,6 +1,6 @@
 import type { Side } from "../state/state";
 import { FileButton } from "../ui/FileButton";
-import { openFiles } from "./intake";
+import { openFiles } from "./dropped-files";
 
 /** Files, as many as belong together; or a folder of them. */
 export function OpenButtons({ side }: { side: Side }) {

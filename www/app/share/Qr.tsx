@@ -3,7 +3,7 @@ import { useEffect, useRef } from "preact/hooks";
 import { CloseIcon } from "../ui/icons";
 import type { QrCode } from "./qr";
 
-/** The code beside the link, and as large as the window for a room full of cameras. */
+/** The QR code of a link, beside it and as large as the window. */
 export function Qr({ text }: { text: string }) {
   const code = useSignal<QrCode | "too long" | "unavailable" | null>(null);
   const full = useSignal(false);

@@ -10,7 +10,7 @@ const NAMES: Record<Tab, string> = {
   models: "Models",
 };
 
-/** Parts of the page: each looks at the same comparison in its own way. */
+/** The tabs of a comparison: regions, explore, measures, diagnostics, models. */
 export function Tabs() {
   const list = useRef<HTMLElement>(null);
   const shown = tab.value;

@@ -1,7 +1,7 @@
 /** The whole window takes files, always. A miss never navigates away. */
 import { signal } from "@preact/signals";
 import type { DroppedFile } from "../../worker/protocol";
-import { openFiles } from "../panels/intake";
+import { openFiles } from "../panels/dropped-files";
 import { notify, type Side } from "../state/state";
 import { count } from "../text/format";
 import { filesBelow, filesOf, MOST_FILES } from "../ui/folders";

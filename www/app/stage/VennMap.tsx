@@ -5,7 +5,7 @@ import { outOfDate, painting, region, result } from "../state/state";
 import { percent } from "../text/format";
 import { regionLabel } from "./names";
 
-/** The map: two circles to scale, and five regions to go to. */
+/** The Venn diagram: two circles to scale, and five regions to go to. */
 export function VennMap() {
   const report = result.value?.report;
   const venn = useComputed(() => result.value && vennOf(result.value.report)).value;

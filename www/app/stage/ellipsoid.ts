@@ -1,4 +1,4 @@
-/** Figures of a vertex's covariance. Pure. */
+/** Standard deviations and axes of the covariance ellipsoid of a vertex. Pure. */
 import type { Ellipsoid } from "../../worker/protocol";
 
 /** Lengths of its semi-axes, so many standard deviations each, longest first. */

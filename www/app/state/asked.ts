@@ -1,4 +1,4 @@
-/** Questions to the engine whose answers are shown as long as nobody has a newer one. */
+/** Requests to the engine whose latest answer is shown. */
 import { useSignal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 import { EngineFailure, wasAborted } from "../../worker/engine-errors";

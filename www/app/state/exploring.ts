@@ -1,4 +1,4 @@
-/** What is explored, what the engine answered, and what changes it. */
+/** State of the explorer: axes, coefficients, the answer of the engine. */
 import { batch, computed, signal } from "@preact/signals";
 import type { Axes, AxesKind, Explored, Space } from "../../worker/protocol";
 import { coefficientsOf, defaultExplorer, type ExplorerState, rounded } from "./explorer";

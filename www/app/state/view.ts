@@ -1,4 +1,4 @@
-/** What of the page can be chosen to look at, and what is looked at first. */
+/** What is shown, as far as a link says it: page, tab, view, map, region, camera; and what is shown first. */
 import type { MapName, Picture, Region, Settings } from "../../worker/protocol";
 import { type Camera, HOME } from "./camera";
 import { FIRST_DEMO } from "./demos";

@@ -1,4 +1,4 @@
-/** From the state to what the panes show. Pure. */
+/** What the panes of the regions show. Pure. */
 import type { BothSides, Ellipsoid, Geometry, Region, RegionShapes } from "../../worker/protocol";
 import { REGIONS, type ViewMode } from "../state/view";
 import type { Palette } from "../text/colormap";

@@ -12,7 +12,7 @@ import {
   useSettingsAnyway,
 } from "./run";
 
-/** A run file that waits for its models, or what became of one. */
+/** Notice of a run file or a link: it waits for its models, or was taken over. */
 export function RunFileCard() {
   if (awaited.value) return <Awaited run={awaited.value} />;
   const shown = repeated.value;

@@ -1,4 +1,4 @@
-/** Nobody downloads hundreds of megabytes by opening a link: large files are asked about first. */
+/** Asks before a large file is downloaded. */
 import { signal } from "@preact/signals";
 
 /** Models of teaching size come without a question. */

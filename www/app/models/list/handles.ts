@@ -1,4 +1,4 @@
-/** Lets go of models in the engine once nobody has them any more: neither A, B, the model list nor who opens them. */
+/** Closes models in the engine that nothing refers to any more: neither A, B, the model list nor who opens them. */
 import type { Handle } from "../../../worker/protocol";
 import { engineClient } from "../../state/engine";
 import { modelList, slots } from "../../state/state";

@@ -1,4 +1,4 @@
-/** How each model of the model list lies to each other one: asked pair by pair while the table is looked at. */
+/** Closed-form measures of every pair of open models, computed pair by pair while the table is on show. */
 import { computed, effect, signal } from "@preact/signals";
 import {
   EngineFailure,

@@ -10,7 +10,7 @@ interface Props {
   chosen: Coefficient;
 }
 
-/** Whose draws are looked at, and which coefficient. */
+/** Which side and which coefficient the diagnostic plots are of. */
 export function CoefficientChooser({ report, chosen }: Props) {
   const both = report.intersection.coefficients;
   const modes = both?.[chosen.side].essBulk.length ?? report.models[chosen.side].modes;

@@ -14,7 +14,7 @@ interface Props {
   file: string;
 }
 
-/** How alike draws are that are so many steps apart. */
+/** Autocorrelation of the draws, by lag. */
 export function Correlation({ figures, advice, which, file }: Props) {
   const found = Array.from(figures.autocorrelation);
   const draws = drawsOf(figures);

@@ -21,7 +21,7 @@ interface Props {
   file: string;
 }
 
-/** Draws of every two of the first modes, and the Gaussians that stand for them. */
+/** Scatter plots of the first coefficients in pairs, with the Gaussians that stand for them. */
 export function PairPlots({ figures, advice, model, file }: Props) {
   const { modes, count: drawn, fit } = figures;
   const pairs = pairsOf(modes.length);

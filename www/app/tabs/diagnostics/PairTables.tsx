@@ -11,7 +11,7 @@ interface TablesProps {
   file: string;
 }
 
-/** The Gaussians beside the draws in numbers. */
+/** Means, standard deviations and correlations of the Gaussians beside the scatter plots. */
 export function PairTables({ figures, pairs, shares, model, file }: TablesProps) {
   const { modes, fit } = figures;
   const plain = (value: number) => number(value, 3);

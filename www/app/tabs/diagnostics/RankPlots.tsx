@@ -13,7 +13,7 @@ interface Props {
   file: string;
 }
 
-/** Where a chain's draws stand among all draws: alike in every bar if the chains are alike. */
+/** Rank histograms of the chains: flat in every chain if the chains agree. */
 export function RankPlots({ figures, advice, which, file }: Props) {
   const { bins, chains } = figures;
   const bars = chainsOf(figures.ranks, chains);

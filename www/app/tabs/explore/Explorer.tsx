@@ -1,4 +1,4 @@
-/** What is driven and how, and what the other model makes of it: beside the explorer's stage. */
+/** Panel of the explorer: which axes of which model are moved, and how near the other model comes. */
 import type { AxesKind } from "../../../worker/protocol";
 import { KINDS, MOST_MAGNIFY, SPACES } from "../../state/explorer";
 import {

@@ -1,4 +1,4 @@
-/** Whether the other model can follow: in words, in numbers, and on a meter. */
+/** Whether the other model can make the explored shape: in words, in numbers, and on a meter. */
 import type { BothSides, Nearest } from "../../../worker/protocol";
 import { answer, sigmaInUse } from "../../state/exploring";
 import { outOfDate, unit } from "../../state/state";

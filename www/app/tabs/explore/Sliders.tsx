@@ -1,4 +1,4 @@
-/** One slider for every direction of the model that is driven. */
+/** One slider for every axis of the model that is explored. */
 import { useComputed, useSignal } from "@preact/signals";
 import type { Axes } from "../../../worker/protocol";
 import { MOST_SD, REACH_SD } from "../../state/explorer";

@@ -1,4 +1,4 @@
-/** From what is explored to what its three panes show. Pure. */
+/** What the three panes of the explorer show. Pure. */
 import type { Explored, Nearest, Space } from "../../../worker/protocol";
 import type { ExplorerState } from "../../state/explorer";
 import { contentOf, drawnWith, isCloud, type Scene, tintOf } from "../../viewer/contents";

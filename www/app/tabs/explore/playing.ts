@@ -1,4 +1,4 @@
-/** Lets a slider swing from end to end and back, or all of them in turn. */
+/** Moves a slider of the explorer from end to end and back, or all of them in turn. */
 import { effect, signal } from "@preact/signals";
 import { REACH_SD } from "../../state/explorer";
 import { coefficients, currentAxes, explorer, setCoefficient, settle } from "../../state/exploring";

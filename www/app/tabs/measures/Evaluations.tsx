@@ -14,7 +14,7 @@ import { type Curve, CurveLegend, Curves } from "../../ui/Curves";
 import { DataTable } from "../../ui/DataTable";
 import { FileButton } from "../../ui/FileButton";
 
-/** Each model put to the test by shapes it was not made of, or by those that it was made of. */
+/** Generalization and specificity of each model, by test shapes or by those that it was made of. */
 export function Evaluations() {
   return (
     <section class="evaluations" aria-label="Generalization and specificity">

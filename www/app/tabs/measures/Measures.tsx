@@ -10,7 +10,7 @@ import { Evaluations } from "./Evaluations";
 import { Compactness, ExclusiveSpectrum } from "./Spectra";
 import { VarianceBars } from "./VarianceBars";
 
-/** What the pair is, in order and in words: first what both share, then what sets them apart. */
+/** The measures of a pair: first what both models share, then what sets them apart. */
 export function Measures() {
   const found = result.value;
   return (

@@ -7,7 +7,7 @@ import { type Curve, CurveLegend, Curves } from "../../ui/Curves";
 import { DataTable } from "../../ui/DataTable";
 import { Phrase } from "../../ui/Phrase";
 
-/** How few modes hold how much, of both models and of what they share. */
+/** Compactness and spectra of both models and of what they share. */
 export function Compactness({ report }: { report: Report }) {
   const found = report.compactness;
   if (!found) return null;

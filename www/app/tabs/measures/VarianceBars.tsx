@@ -12,7 +12,7 @@ const SHARES = [
 
 const [ROW, BAR] = [46, 20];
 
-/** How much of the variance of either model the other can make. */
+/** Share of the variance of either model that the other can make. */
 export function VarianceBars({ report, nouns }: { report: Report; nouns: Nouns }) {
   const { varianceOfAInB, varianceOfBInA } = report.overlap;
   const values = { a: varianceOfAInB, b: varianceOfBInA };

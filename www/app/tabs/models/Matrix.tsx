@@ -23,7 +23,7 @@ import { saveText } from "../../ui/download";
 import { MatrixTable } from "./MatrixTable";
 import { listNames } from "./ModelListTable";
 
-/** How each open model lies to each other one, as one number a pair. */
+/** Table of every pair of open models: one measure a pair. */
 export function Matrix() {
   const shown = MEASURES[measure.value];
   /** The sentence of the cell under the pointer or the focus. */

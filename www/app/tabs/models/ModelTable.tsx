@@ -3,7 +3,7 @@ import { AddModels } from "./AddModels";
 import { Matrix } from "./Matrix";
 import { ModelListTable } from "./ModelListTable";
 
-/** Several models at once: which are open, and how each lies to each other one. */
+/** Several models: the list of those that are open, and a table of every pair. */
 export function ModelTable() {
   return (
     <section class="tab several" aria-label="Models">

@@ -32,7 +32,7 @@ import { contentOf } from "../../viewer/contents";
 import { DifferenceBar } from "./DifferenceBar";
 import { Toolbar } from "./Toolbar";
 
-/** Left is A, right is B, what they share is between them; the map lies under A∩B. */
+/** The five regions side by side: A at the left, B at the right, A∩B between them above the Venn diagram. */
 const ORDER: (Region | "map")[] = ["a", "intersection", "b", "aWithoutB", "map", "bWithoutA"];
 
 export function Stage() {

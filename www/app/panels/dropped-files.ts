@@ -1,4 +1,4 @@
-/** What was dropped or chosen: models, a run file, or a run file with its models. */
+/** Opens dropped or chosen files: models, a run file, or a run file with its models. */
 import type { DroppedFile } from "../../worker/protocol";
 import { openRun, runAmong } from "../link/runfile/run";
 import { openModels } from "../models/opening";
