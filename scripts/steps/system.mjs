@@ -37,12 +37,7 @@ export async function installPackages(packages, why, elsewhere) {
     throw new StepError(`Missing: ${why}.`, `run this once as root, then try again: ${command}`);
   }
   const env = { DEBIAN_FRONTEND: "noninteractive" };
-  if (!updated) {
-    await change("Updating the list of system packages", "apt-get", ["update"], {
-      hint: "check the network and /etc/apt/sources.list, then try again.",
-    });
-    updated = true;
-  }
+  await updateLists();
   await change(
     `Installing ${packages.join(", ")} (${why})`,
     "apt-get",
@@ -51,9 +46,19 @@ export async function installPackages(packages, why, elsewhere) {
   );
 }
 
+/** Once: what the lists of a fresh machine have is old, or nothing. */
+async function updateLists() {
+  if (updated) return;
+  await change("Updating the list of system packages", "apt-get", ["update"], {
+    hint: "check the network and /etc/apt/sources.list, then try again.",
+  });
+  updated = true;
+}
+
 /** Whether apt knows all of these packages (after an update, where allowed). */
 export async function aptOffers(packages) {
   if (!isDebian()) return false;
+  if (isDebianRoot()) await updateLists();
   for (const name of packages) {
     const { output } = await attempt("apt-cache", ["policy", name]);
     if (!/Candidate: (?!\(none\))/.test(output)) return false;

@@ -418,7 +418,7 @@ test("a run that fails leaves numbers and picture there, out of date, and says w
     const alert = page.getByRole("alert").filter({ hasText: "A test ended the run." });
     await alert.waitFor();
     await staleResults(page).waitFor();
-    await page.getByText("this is what was there before", { exact: false }).waitFor();
+    await page.getByText("This run gave no result. The previous one is still shown.").waitFor();
     assert.deepEqual(await results(), before);
     assert.deepEqual(await downloadReport(page), report);
     await untilDrawn(page);
@@ -456,7 +456,7 @@ test("a run that is cancelled before it has draws leaves what was there, out of 
     });
     await typeSetting(page, "Seed", "4");
     await page
-      .getByText("This run failed. The previous result is still shown.")
+      .getByText("This run gave no result. The previous one is still shown.")
       .waitFor({ timeout: 60_000 });
     await staleResults(page).waitFor();
     assert.deepEqual(await downloadReport(page), report);

@@ -59,7 +59,7 @@ function stateSentence(): string {
   if (inspection.value?.problem) return "These two cannot be compared as they stand.";
   if (held === null) return "Nothing compared yet.";
   if (outOfDate.value && failedKey.value === currentKey.value) {
-    return "This run failed. The previous result is still shown.";
+    return "This run gave no result. The previous one is still shown.";
   }
   if (outOfDate.value) return "Out of date: the choices have changed.";
   if (held.stored) return "Computed beforehand by this engine.";
