@@ -7,7 +7,14 @@ import { existsSync, mkdirSync, readFileSync, statSync, writeFileSync } from "no
 import { homedir } from "node:os";
 import { join } from "node:path";
 import { ask, attempt, cache, isMain, main, root, StepError, which } from "./steps/run.mjs";
-import { aptOffers, change, dryRun, installPackages, isDebian, isDebianRoot } from "./steps/system.mjs";
+import {
+  aptOffers,
+  change,
+  dryRun,
+  installPackages,
+  isDebian,
+  isDebianRoot,
+} from "./steps/system.mjs";
 import { ensureLinters, ensureRust, ensureWasm } from "./steps/toolchain.mjs";
 
 /** What the Rust tests compare with. */

@@ -22,7 +22,7 @@ use crate::model::Cells;
 /// Names listed when an archive holds no model.
 const MOST_NAMES: usize = 20;
 
-/// Reads one model from files that belong together: usually one, else a group of [`groups`].
+/// Reads one model from files that belong together: usually one, else a group of [`groups`](crate::formats::groups()).
 ///
 /// # Errors
 /// [`FormatError`], which names the file, what was expected, what was found and what to do next.
