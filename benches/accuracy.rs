@@ -10,11 +10,10 @@
 mod common;
 
 use nalgebra::DMatrix;
+use shapevenn::linalg::Moments;
 use shapevenn::model::Side;
 use shapevenn::model::{Alignment, LinearModel};
-use shapevenn::pair::{
-    Intersection, Joint, Moments, Pair, ResidualOperator, fit_rms, fit_variational_step,
-};
+use shapevenn::pair::{Intersection, Joint, Pair, ResidualOperator, fit_rms, fit_variational_step};
 use shapevenn::sampling::{Draws, Gaussian, Importance, summarise};
 use shapevenn::settings::{Sampler, Settings};
 

@@ -5,6 +5,7 @@
 //! a run that was prepared says how in its report.
 
 use crate::model::Sides;
+use crate::report::Notice;
 use nalgebra::DVector;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -38,7 +39,7 @@ const ENOUGH_VARIANCE: f64 = 0.98;
 #[serde(rename_all = "camelCase")]
 pub struct Inspection {
     /// Why they cannot be compared as they stand.
-    pub problem: Option<Problem>,
+    pub problem: Option<Notice>,
     /// Points of each file.
     pub points: Sides<usize>,
     /// Points that would be compared.
@@ -55,17 +56,6 @@ pub struct Inspection {
     pub remedies: Vec<Remedy>,
     /// What was done already.
     pub applied: Vec<Remedy>,
-}
-
-/// Why two models cannot be compared.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Problem {
-    /// Stable code.
-    pub code: String,
-    /// One sentence.
-    pub message: String,
-    /// What to do next.
-    pub hint: String,
 }
 
 /// Whether two meshes have the same triangles.
@@ -207,7 +197,7 @@ impl Inspector<'_> {
     }
 
     /// Why a comparison would not start, as far as that shows without its modes.
-    fn problem(&self, selection: Option<&SelectionError>) -> Option<Problem> {
+    fn problem(&self, selection: Option<&SelectionError>) -> Option<Notice> {
         let (a, b, prepare) = (self.a, self.b, &self.settings.prepare);
         let one_region = matches!(prepare.points, None | Some(PointSelection::Region { .. }));
         let becomes = |model: &LinearModel, rebase: bool, other: Kind| {
@@ -230,7 +220,7 @@ impl Inspector<'_> {
         };
         let (code, message, hint) =
             (error.code().to_owned(), error.to_string(), error.hint().to_owned());
-        Some(Problem { code, message, hint })
+        Some(Notice { code, message, hint })
     }
 
     fn distances(&self, [of_a, of_b]: [Option<&Vec<u32>>; 2]) -> MeanDistance {

@@ -8,14 +8,13 @@ use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
 use crate::error::ComparisonError;
-use crate::inspect::Problem;
 use crate::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, bhattacharyya_distance, kullback_leibler,
     mean_vertex_distance, principal_angles,
 };
 use crate::model::LinearModel;
 use crate::pair::{Joint, Pair, ResidualOperator, recommended_tolerance};
-use crate::report::{KullbackLeibler, Overlap};
+use crate::report::{KullbackLeibler, Notice, Overlap};
 use crate::settings::Settings;
 
 /// Closed-form measures of two models. Where they cannot be compared there is a problem, and the numbers are
@@ -24,7 +23,7 @@ use crate::settings::Settings;
 #[serde(rename_all = "camelCase")]
 pub struct Relation {
     /// Why the two cannot be compared with these settings.
-    pub problem: Option<Problem>,
+    pub problem: Option<Notice>,
     /// Points that are compared.
     pub points: usize,
     /// Share of A's variance that lies in the space of B.
@@ -54,11 +53,7 @@ pub fn relate(a: &LinearModel, b: &LinearModel, settings: &Settings) -> Relation
     match pair {
         Ok(pair) => of_pair(&pair, settings),
         Err(error) => Relation {
-            problem: Some(Problem {
-                code: error.code().to_owned(),
-                message: error.to_string(),
-                hint: error.hint().to_owned(),
-            }),
+            problem: Some(Notice::new(error.code(), &error, error.hint())),
             points: 0,
             variance_of_a_in_b: f64::NAN,
             variance_of_b_in_a: f64::NAN,

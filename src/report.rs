@@ -34,7 +34,7 @@ pub struct Report {
     #[serde(default)]
     pub compactness: Option<Compactness>,
     /// What the reader should know before believing the numbers.
-    pub warnings: Vec<Warning>,
+    pub warnings: Vec<Notice>,
     /// Wall-clock seconds.
     pub seconds: Seconds,
 }
@@ -491,15 +491,23 @@ pub struct LinearSplitReport {
     pub variance_ratio: f64,
 }
 
-/// Something the reader should know, with what can be done.
+/// Something that a person should know: a warning of a report, why two models cannot be compared, an error.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Warning {
-    /// Stable code.
+pub struct Notice {
+    /// Stable code, for programs.
     pub code: String,
     /// One sentence.
     pub message: String,
-    /// What can be done.
+    /// What to do next.
     pub hint: String,
+}
+
+impl Notice {
+    /// Of its three parts.
+    pub fn new(code: &str, message: impl ToString, hint: impl ToString) -> Self {
+        let (message, hint) = (message.to_string(), hint.to_string());
+        Self { code: code.to_owned(), message, hint }
+    }
 }
 
 /// Wall-clock seconds of the stages; the only part of a report that is not reproducible.

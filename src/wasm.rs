@@ -25,7 +25,7 @@ use crate::lessons::Lesson;
 use crate::linalg::parallel;
 use crate::model::{Cells, LinearModel, Sides};
 use crate::pair::{PairError, PointSelection};
-use crate::report::{ModelReport, Seconds};
+use crate::report::{ModelReport, Notice, Seconds};
 use crate::roofline::{self, Workload};
 use crate::settings::Settings;
 
@@ -115,15 +115,8 @@ fn shown(region: JsValue, shapes: &RegionShapes) -> JsValue {
     ])
 }
 
-#[derive(Serialize)]
-struct Fault {
-    code: String,
-    message: String,
-    hint: String,
-}
-
 fn fault(code: &str, message: impl ToString, hint: impl ToString) -> JsValue {
-    plain(&Fault { code: code.to_owned(), message: message.to_string(), hint: hint.to_string() })
+    plain(&Notice::new(code, message, hint))
 }
 
 fn thrown(error: impl Into<Error>) -> JsValue {

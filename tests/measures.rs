@@ -4,13 +4,14 @@
 use crate::common::{compared, face_like_pair, model, random_orthonormal, report};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
+use shapevenn::linalg::Moments;
 use shapevenn::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, bhattacharyya_distance, principal_angles,
     vertex_standard_deviations,
 };
 use shapevenn::model::Side;
 use shapevenn::model::{Alignment, LinearModel, principal_components};
-use shapevenn::pair::{Moments, Pair};
+use shapevenn::pair::Pair;
 use shapevenn::sampling::{pareto_k, summarise};
 use shapevenn::settings::{Sampler, Settings};
 

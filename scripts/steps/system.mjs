@@ -55,10 +55,10 @@ async function updateLists() {
   updated = true;
 }
 
-/** Whether apt knows all of these packages (after an update, where allowed). */
-export async function aptOffers(packages) {
+/** Whether apt knows all of these packages; after an `update`, where that is allowed. */
+export async function aptOffers(packages, { update = true } = {}) {
   if (!isDebian()) return false;
-  if (isDebianRoot()) await updateLists();
+  if (update && isDebianRoot()) await updateLists();
   for (const name of packages) {
     const { output } = await attempt("apt-cache", ["policy", name]);
     if (!/Candidate: (?!\(none\))/.test(output)) return false;

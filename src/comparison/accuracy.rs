@@ -16,9 +16,10 @@ use crate::model::Side;
 use nalgebra::DMatrix;
 
 use super::inference::Estimate;
+use crate::linalg::Moments;
 use crate::linalg::parallel;
 use crate::linalg::product;
-use crate::pair::{Joint, Moments};
+use crate::pair::Joint;
 use crate::report::Accuracy;
 
 /// Modes whose errors are looked at.

@@ -6,12 +6,13 @@
 //! Hamiltonian Monte Carlo, which does not freeze where the fit misses a tail.
 
 use super::fitting::Fitting;
+use crate::linalg::Moments;
 use crate::model::Side;
-use crate::pair::{Fit, Intersection, Moments, ResidualOperator, without_distance};
+use crate::pair::{Fit, Intersection, ResidualOperator, without_distance};
 use crate::report::{InferenceReport, MomentSource};
 use crate::sampling::{
     Chains, Draws, EndedChains, FitChains, Gaussian, Importance, ImportanceEstimate,
-    ImportanceMoments, IndependenceChains, RandomWalkChains, Scaling, Schedule, WhitenedChains,
+    IndependenceChains, RandomWalkChains, Scaling, Schedule, WhitenedChains,
 };
 use crate::settings::{Sampler, Settings};
 
@@ -195,11 +196,11 @@ impl Inference {
             && found.pareto_k.is_none_or(|k| k < LARGEST_PARETO_K)
             && found.total.covariance.clone().cholesky().is_some()
         {
-            let groups = found.groups.iter().map(moments).collect();
+            let groups = found.groups.clone();
             if found.is_within_error() {
                 return closed(groups);
             }
-            let total = moments(&found.total);
+            let total = found.total.clone();
             return Some(Estimate { source: MomentSource::Weighted, total, groups });
         }
         let draws = self.draws();
@@ -220,10 +221,6 @@ impl Inference {
         let (sampler, reason) = self.chosen.clone()?;
         Some(InferenceReport { sampler, reason, fit: self.fit.as_ref()?.method, moments: source })
     }
-}
-
-fn moments(found: &ImportanceMoments) -> Moments {
-    Moments { mean: found.mean.clone(), covariance: found.covariance.clone() }
 }
 
 /// Whether a sampler has its moments from weighted draws of the fit.

@@ -32,9 +32,10 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::linalg::Moments;
 use crate::model::LinearModel;
 use crate::pair::{
-    Criterion, Difference, DifferenceDefinition, Joint, JointModel, Level, Meeting, Moments, Pair,
+    Criterion, Difference, DifferenceDefinition, Joint, JointModel, Level, Meeting, Pair,
     ResidualOperator, Tolerance, nearest_meeting, plausible_radius, recommended_tolerance,
 };
 use crate::report::{Diagnostics, DifferenceReport, ModeDiagnostics, ModelReport, Report, Seconds};

@@ -7,6 +7,7 @@ use super::accuracy::accuracy;
 use super::inference::Estimate;
 use super::{Comparison, Finished, Stage, summary};
 use crate::error::ComparisonError;
+use crate::linalg::Moments;
 use crate::linalg::product;
 use crate::measure::{
     AffineSpace, Displacement, ExclusiveModes, affine_grassmann_distance, compactness,
@@ -14,7 +15,7 @@ use crate::measure::{
     vertex_standard_deviations,
 };
 use crate::model::LinearModel;
-use crate::pair::{Joint, JointModel, Moments};
+use crate::pair::{Joint, JointModel};
 use crate::relate::{affine_space, overlap};
 use crate::report::{
     Compactness, DifferenceReport, Differences, Disagreement, EnvelopeName, ExclusiveReport,

@@ -6,7 +6,7 @@ use crate::inspect::canonical;
 use crate::measure::mean_vertex_distance;
 use crate::model::{Alignment, Cells, procrustes};
 use crate::model::{Side, Sides};
-use crate::report::{Report, Warning};
+use crate::report::{Notice, Report};
 use crate::settings::{Plausibility, Sampler};
 use crate::text::three_digits;
 
@@ -27,12 +27,8 @@ const LEADING_MODES: usize = 5;
 /// Share of the mean-to-mean distance that a rigid motion must remove to be worth a word.
 const WORTH_ALIGNING: f64 = 0.3;
 
-fn warning(code: &str, message: String, hint: &str) -> Warning {
-    Warning { code: code.to_owned(), message, hint: hint.to_owned() }
-}
-
 impl Comparison {
-    pub(super) fn warnings(&self, report: &Report) -> Vec<Warning> {
+    pub(super) fn warnings(&self, report: &Report) -> Vec<Notice> {
         let mut warnings = Vec::new();
         self.about_the_models(report, &mut warnings);
         self.about_the_intersection(report, &mut warnings);
@@ -40,19 +36,19 @@ impl Comparison {
         warnings
     }
 
-    fn about_the_models(&self, report: &Report, warnings: &mut Vec<Warning>) {
+    fn about_the_models(&self, report: &Report, warnings: &mut Vec<Notice>) {
         let Sides { a, b } = self.pair.models();
         if let (Cells::Triangles(first), Cells::Triangles(second)) = (a.cells(), b.cells())
             && canonical(first) != canonical(second)
         {
-            warnings.push(warning(
+            warnings.push(Notice::new(
                 "topology",
                 "The two meshes have the same number of points, but other triangles.".to_owned(),
                 "Check that point k is the same place on both: the order of the points may differ.",
             ));
         }
         if report.models.a.unit != report.models.b.unit {
-            warnings.push(warning(
+            warnings.push(Notice::new(
                 "unit",
                 format!(
                     "A is in {}, B in {}.",
@@ -69,7 +65,7 @@ impl Comparison {
             let before = report.overlap.mean_to_mean;
             let after = mean_vertex_distance(a.mean(), &moved, a.dimension());
             if before > 1e-6 * a.size() && after < (1.0 - WORTH_ALIGNING) * before {
-                warnings.push(warning(
+                warnings.push(Notice::new(
                     "not-aligned",
                     format!(
                         "A rigid motion would bring the two mean shapes from {before:.3} to {after:.3} {} apart.",
@@ -81,10 +77,10 @@ impl Comparison {
         }
     }
 
-    fn about_the_intersection(&self, report: &Report, warnings: &mut Vec<Warning>) {
+    fn about_the_intersection(&self, report: &Report, warnings: &mut Vec<Notice>) {
         let intersection = &report.intersection;
         if self.cancelled {
-            warnings.push(warning(
+            warnings.push(Notice::new(
                 "cancelled",
                 "The run was stopped early: these are the draws until then.".to_owned(),
                 "Run again for the full number of draws.",
@@ -93,7 +89,7 @@ impl Comparison {
         let diagnostics = &intersection.diagnostics;
         let unsafe_weights = diagnostics.pareto_k.is_some_and(|k| k >= LARGEST_PARETO_K);
         if unsafe_weights && self.settings.sampler != Sampler::Auto {
-            warnings.push(warning(
+            warnings.push(Notice::new(
                 "pareto-k",
                 format!(
                     "The Gaussian fit misses a part of the intersection: Pareto k is {}, above 0.7.",
@@ -111,7 +107,7 @@ impl Comparison {
                 ),
                 None => "there are too few draws to tell".to_owned(),
             };
-            warnings.push(warning(
+            warnings.push(Notice::new(
                 "not-converged",
                 format!("The draws of the intersection have not converged: {state}."),
                 "Draw more, or choose the sampler “auto”.",
@@ -119,7 +115,7 @@ impl Comparison {
         }
         self.about_ties(report, warnings);
         if self.settings.sampler == Sampler::Paper {
-            warnings.push(warning(
+            warnings.push(Notice::new(
                 "as-published",
                 "The walk as published leaves out a factor and draws from another law than it states.".to_owned(),
                 "Use it to compare with the paper only.",
@@ -129,7 +125,7 @@ impl Comparison {
     }
 
     /// Whether the models meet at all, and whether σ says anything.
-    fn about_sigma(&self, report: &Report, warnings: &mut Vec<Warning>) {
+    fn about_sigma(&self, report: &Report, warnings: &mut Vec<Notice>) {
         let symbol = report.models.a.unit.symbol();
         let Some(tolerance) = self.tolerance else { return };
         let closest = self.closest_approach();
@@ -137,7 +133,7 @@ impl Comparison {
         let range = tolerance.farthest - tolerance.nearest;
         let apart = tolerance.farthest > 1e-9 * self.pair.scale();
         if apart && range <= 1e-3 * tolerance.farthest {
-            warnings.push(warning(
+            warnings.push(Notice::new(
                 "parallel",
                 format!(
                     "The two models run parallel, {} {symbol} apart whatever the shape: they have no shape in common.",
@@ -150,7 +146,7 @@ impl Comparison {
         if let Some(noise) = tolerance.noise
             && meeting > noise
         {
-            warnings.push(warning(
+            warnings.push(Notice::new(
                 "no-intersection-within-noise",
                 format!(
                     "No intersection within noise: plausible shapes of the two models come no nearer than {} {symbol}, and true members lie within {} {symbol} of their own model.",
@@ -160,7 +156,7 @@ impl Comparison {
                 "What is shown is their closest approach, not shapes that both can make.",
             ));
         } else if closest > APART * self.sigma() {
-            warnings.push(warning(
+            warnings.push(Notice::new(
                 "beyond-tolerance",
                 format!(
                     "Within σ = {} {symbol} the two models do not meet: the nearest shapes are {} {symbol} apart, and the intersection shows that closest approach.",
@@ -173,7 +169,7 @@ impl Comparison {
         let predicted =
             report.intersection.tolerance.as_ref().map_or(f64::NAN, |found| found.predicted);
         if apart && predicted > tolerance.nearest + IDLE * range {
-            warnings.push(warning(
+            warnings.push(Notice::new(
                 "sigma-large",
                 format!(
                     "σ = {} {symbol} is so large that the distance hardly acts: the shapes lie {} {symbol} from the other model, and would lie {} {symbol} from it without any tolerance.",
@@ -186,7 +182,7 @@ impl Comparison {
         }
         let error = self.density_error();
         if error > LARGEST_DENSITY_ERROR {
-            warnings.push(warning(
+            warnings.push(Notice::new(
                 "sigma-small",
                 format!(
                     "σ = {} {symbol} is so small beside the models that single precision blurs the density (by {} in its logarithm).",
@@ -218,7 +214,7 @@ impl Comparison {
     }
 
     /// Modes that are not determined one by one.
-    fn about_ties(&self, report: &Report, warnings: &mut Vec<Warning>) {
+    fn about_ties(&self, report: &Report, warnings: &mut Vec<Notice>) {
         let Some(accuracy) = &report.intersection.accuracy else { return };
         let first = accuracy.modes_trusted;
         if first >= LEADING_MODES.min(accuracy.mode_turns.len()) {
@@ -238,7 +234,7 @@ impl Comparison {
             ),
         };
         let hint = "Compare what such modes span, not the modes one by one; more weighted draws help where it is not a tie.";
-        warnings.push(warning("near-tie", message, hint));
+        warnings.push(Notice::new("near-tie", message, hint));
     }
 
     /// d at the means of the fits, averaged over the sides.
@@ -250,7 +246,7 @@ impl Comparison {
         at_mean.sum()
     }
 
-    fn about_the_differences(&self, report: &Report, warnings: &mut Vec<Warning>) {
+    fn about_the_differences(&self, report: &Report, warnings: &mut Vec<Notice>) {
         let differences = &report.differences;
         let both = [
             (Side::A, "A", "B", &differences.a_without_b),
@@ -269,7 +265,7 @@ impl Comparison {
                 }
                 Plausibility::Idempotent => "",
             };
-            warnings.push(warning(
+            warnings.push(Notice::new(
                 "identical-spaces",
                 format!("The two models make the same shapes: both differences are empty.{half}"),
                 "The setting “idempotent” gives a model compared with itself its own variance.",
@@ -277,7 +273,7 @@ impl Comparison {
             return;
         }
         if nearly_all(Side::A) && nearly_all(Side::B) {
-            warnings.push(warning(
+            warnings.push(Notice::new(
                 "nearly-all-differs",
                 "At this σ practically every shape of either model counts as outside the other: the two differences look like A and B themselves.".to_owned(),
                 LARGER_SIGMA,
@@ -286,7 +282,7 @@ impl Comparison {
         }
         for (side, this, other, difference) in both {
             if self.is_empty(side) {
-                warnings.push(warning(
+                warnings.push(Notice::new(
                     "empty-difference",
                     format!(
                         "{this} lies inside {other}, which can make every shape of it: {this} without {other} is empty."
@@ -294,7 +290,7 @@ impl Comparison {
                     "Nothing to do: there is no difference to show.",
                 ));
             } else if nearly_all(side) {
-                warnings.push(warning(
+                warnings.push(Notice::new(
                     "nearly-all-differs",
                     format!(
                         "At this σ practically every shape of {this} counts as outside {other}: {this} without {other} looks like {this} itself."
@@ -303,7 +299,7 @@ impl Comparison {
                 ));
             } else if difference.diagnostics.evaluations > 0 && difference.probability < NEARLY_NONE
             {
-                warnings.push(warning(
+                warnings.push(Notice::new(
                     "hardly-differs",
                     format!("Hardly any shape of {this} lies outside {other} at this σ."),
                     "Choose a smaller σ to see more of the difference.",

@@ -16,11 +16,12 @@ use super::answer::{Fall, LessonIntersection, LessonModel, LessonPrincipal};
 use super::ask::LessonTarget;
 use super::lane::Lane;
 use super::models::Opened;
+use crate::linalg::Moments;
 use crate::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, grassmann_sampling_error, paper_distance,
 };
 use crate::model::LinearModel;
-use crate::pair::{Moments, distance_likelihood};
+use crate::pair::distance_likelihood;
 use crate::sampling::{Stream, fill_normal, stream, summarise};
 
 /// Shapes of the Gaussian that are looked at, always of the same random numbers.

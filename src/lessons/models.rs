@@ -12,10 +12,11 @@ use super::ask::{LessonTarget, Opening, number};
 use super::target::LaneTarget;
 use crate::comparison::settled_fit;
 use crate::demos::{self, PlanesAt, STAR_ROWS, planes_at, star_intersection};
+use crate::linalg::Moments;
 use crate::measure::{paper_distance, principal_angles};
 use crate::model::{Alignment, Cells, LinearModel, Similarity};
 use crate::pair::{
-    Criterion, Difference, DifferenceDefinition, Intersection, Joint, Level, Moments, Pair,
+    Criterion, Difference, DifferenceDefinition, Intersection, Joint, Level, Pair,
     ResidualOperator, expected_distance, recommended_tolerance, without_distance,
 };
 use crate::sampling::{Envelope, Gaussian};

@@ -1,12 +1,16 @@
-//! Linear algebra of tall matrices: thin singular value decomposition, products, and where they run.
+//! Linear algebra: thin singular value decomposition, products of tall matrices, moments; SIMD and threads.
 
 mod combination;
+mod eigen;
+mod moments;
 pub(crate) mod parallel;
 mod product;
 pub(crate) mod simd;
 mod thin_svd;
 
 pub(crate) use combination::{Sum, combined};
+pub(crate) use eigen::eigen;
+pub use moments::Moments;
 pub use product::{cross, gram, product};
 pub(crate) use product::{product_in_place, product_of, row_squares_of};
 pub use thin_svd::{ThinSvd, thin_svd};

@@ -9,7 +9,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::pair::Moments;
+use crate::linalg::Moments;
 
 /// The distance after adding noise of standard deviation `noise` to every coordinate; `None` when a
 /// covariance with noise is not positive definite.

@@ -12,7 +12,7 @@
 
 use nalgebra::DMatrix;
 
-use crate::pair::Moments;
+use crate::linalg::Moments;
 
 /// KL(`first` ‖ `second`) in nats after adding noise of standard deviation `noise` to every coordinate of
 /// both; `None` when a covariance with noise is not positive definite.

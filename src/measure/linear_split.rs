@@ -20,7 +20,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::pair::{Moments, eigen};
+use crate::linalg::{Moments, eigen};
 
 /// What is left, as moments.
 #[derive(Debug, Clone, PartialEq)]

@@ -21,7 +21,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::pair::{Moments, eigen};
+use crate::linalg::{Moments, eigen};
 
 /// Scores, one a column, and the ratios of their variances, largest first.
 #[derive(Debug, Clone, PartialEq)]

@@ -232,7 +232,8 @@ fn laplace<const D: usize>(
 fn is_smooth<const D: usize>(side: &ResidualOperator, fit: &Gaussian) -> bool {
     let norm = |vector: &[f64]| vector.iter().map(|value| value * value).sum::<f64>().sqrt();
     let residual = side.residual_at(fit.mean().as_slice());
-    let spreads: Vec<f64> = side.residual().chunks_exact(D * side.mode_count()).map(norm).collect();
+    let spreads: Vec<f64> =
+        side.row_squares().chunks_exact(D).map(|rows| rows.iter().sum::<f64>().sqrt()).collect();
     let largest = spreads.iter().copied().fold(0.0, f64::max);
     residual.chunks_exact(D).zip(spreads).all(|(residual, spread)| {
         spread <= VANISHED * largest || norm(residual) > VANISHED * spread

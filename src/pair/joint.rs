@@ -14,12 +14,10 @@
 //! evidence is no use: L_P is not normalised on a common measure, so the evidence of a side
 //! depends on the volume of its own coordinates.
 
-use crate::model::Side;
 use nalgebra::{DMatrix, DVector};
 
-use crate::linalg::{cross, gram, product_of, row_squares_of};
-use crate::linalg::{product, thin_svd};
-use crate::model::{LinearModel, lengths};
+use crate::linalg::{Moments, cross, eigen, gram, product, product_of, row_squares_of, thin_svd};
+use crate::model::{LinearModel, Side, lengths};
 
 /// Directions of B's basis that lie in A's to this share are not new ones.
 const SMALLEST_NEW_DIRECTION: f64 = 1e-9;
@@ -27,86 +25,6 @@ const SMALLEST_NEW_DIRECTION: f64 = 1e-9;
 const NEARLY_INSIDE: f64 = 0.03;
 /// Directions that are formed together.
 const BATCH: usize = 16;
-/// Eigenvalues of the intersection below this share of the largest are rounding.
-const SMALLEST_EIGENVALUE: f64 = 1e-10;
-
-/// Mean and covariance in some coordinates.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Moments {
-    /// Mean (p).
-    pub mean: DVector<f64>,
-    /// Covariance (p × p).
-    pub covariance: DMatrix<f64>,
-}
-
-impl Moments {
-    /// Of draws (divisor N − 1), each of `dimension` numbers; zeros when there are fewer than two.
-    pub fn of<'a>(draws: impl Iterator<Item = &'a [f64]> + Clone, dimension: usize) -> Self {
-        let count = draws.clone().count() as f64;
-        let mut mean = DVector::zeros(dimension);
-        for draw in draws.clone() {
-            mean += DVector::from_column_slice(draw);
-        }
-        mean /= count.max(1.0);
-        let mut centred = DMatrix::zeros(draws.clone().count(), dimension);
-        for (row, draw) in draws.enumerate() {
-            for (column, (value, centre)) in draw.iter().zip(mean.iter()).enumerate() {
-                centred[(row, column)] = value - centre;
-            }
-        }
-        Self { mean, covariance: gram(&centred) / (count - 1.0).max(1.0) }
-    }
-
-    /// Of the equal mixture of two laws.
-    pub fn pooled(first: &Self, second: &Self) -> Self {
-        let mean = (&first.mean + &second.mean) * 0.5;
-        let apart = (&first.mean - &second.mean) * 0.5;
-        let covariance =
-            (&first.covariance + &second.covariance) * 0.5 + &apart * apart.transpose();
-        Self { mean, covariance }
-    }
-
-    /// F with F Fᵀ = covariance: Cholesky with pivots, as many columns as the rank.
-    pub fn factor(&self) -> DMatrix<f64> {
-        let size = self.mean.len();
-        let mut rest = self.covariance.clone();
-        let floor = f64::EPSILON * rest.diagonal().iter().copied().fold(0.0, f64::max);
-        let mut columns: Vec<DVector<f64>> = Vec::new();
-        while columns.len() < size {
-            let (pivot, largest) = rest.diagonal().argmax();
-            if largest <= floor {
-                break;
-            }
-            let column = rest.column(pivot) / largest.sqrt();
-            rest.ger(-1.0, &column, &column, 1.0);
-            columns.push(column);
-        }
-        if columns.is_empty() { DMatrix::zeros(size, 0) } else { DMatrix::from_columns(&columns) }
-    }
-
-    /// Eigenvectors and eigenvalues of the covariance, largest first, without rounding.
-    pub fn principal_components(&self) -> (DMatrix<f64>, DVector<f64>) {
-        let (vectors, values) = eigen(self.covariance.clone());
-        let floor = SMALLEST_EIGENVALUE * values[0].max(0.0);
-        let kept = values.iter().take_while(|&&value| value > floor).count();
-        (vectors.columns(0, kept).into_owned(), values.rows(0, kept).into_owned())
-    }
-}
-
-/// Eigenvectors and eigenvalues of a symmetric matrix, largest first; the largest entry of every vector is
-/// positive.
-pub(crate) fn eigen(matrix: DMatrix<f64>) -> (DMatrix<f64>, DVector<f64>) {
-    let found = matrix.symmetric_eigen();
-    let mut order: Vec<usize> = (0..found.eigenvalues.len()).collect();
-    order.sort_by(|&i, &j| found.eigenvalues[j].total_cmp(&found.eigenvalues[i]));
-    let mut vectors = found.eigenvectors.select_columns(&order);
-    for mut vector in vectors.column_iter_mut() {
-        if vector[vector.iamax()] < 0.0 {
-            vector.neg_mut();
-        }
-    }
-    (vectors, found.eigenvalues.select_rows(&order))
-}
 
 /// A linear model in the joint basis: mean and principal components, none of them as a shape.
 #[derive(Debug, Clone, PartialEq)]
@@ -146,70 +64,44 @@ pub struct Joint {
 impl Joint {
     /// Spans both models (in the same frame).
     pub fn new(a: &LinearModel, b: &LinearModel) -> Self {
-        let (inside, others) = (a.mode_count(), b.mode_count());
-        let apart = b.mean() - a.mean();
-        let length = apart.norm();
-        let directions = usize::from(length > 0.0);
-        let apart = DMatrix::from_fn(apart.len(), directions, |row, _| apart[row] / length);
-
-        // H, with the parts of E₂ᵀE₂ = I that are known.
-        let leaning = side_by_side(&[&cross(a.basis(), b.basis()), &cross(a.basis(), &apart)]);
-        let mut beyond = DMatrix::identity(others + directions, others + directions);
-        let across = cross(b.basis(), &apart);
-        beyond.view_mut((0, others), across.shape()).copy_from(&across);
-        beyond.view_mut((others, 0), (directions, others)).copy_from(&across.transpose());
-        beyond -= gram(&leaning);
-        let (vectors, squares) = eigen(beyond.clone());
-        let clear =
-            squares.iter().take_while(|&&value| value > NEARLY_INSIDE * NEARLY_INSIDE).count();
-        let mut turned = vectors.columns(0, clear).into_owned();
-        for (mut column, square) in turned.column_iter_mut().zip(squares.iter()) {
-            column /= square.sqrt();
-        }
-        // W/s has lost digits where s is small: by Cholesky it gets back those that H has.
-        let unit = cross(&turned, &product(&beyond, &turned)).cholesky();
-        if let Some(rows) =
-            unit.and_then(|unit| unit.l().solve_lower_triangular(&turned.transpose()))
-        {
-            turned = rows.transpose();
-        }
-        let seen_beyond = cross(&turned, &beyond);
-
-        let (rows, kept) = (inside + others + directions, inside + clear);
-        let mut mixing = DMatrix::zeros(rows, kept);
-        mixing.view_mut((0, 0), (inside, inside)).fill_with_identity();
-        mixing.view_mut((0, inside), (inside, clear)).copy_from(&-product(&leaning, &turned));
-        mixing.view_mut((inside, inside), turned.shape()).copy_from(&turned);
+        let (delta, length) = direction_between(a.mean(), b.mean());
+        let (k, h) = overlap_and_rest(a.basis(), b.basis(), &delta);
+        let (w, w_over_s) = directions_beyond(&h);
         let mut joint = Self {
             models: [a.clone(), b.clone()],
-            formed: DMatrix::zeros(apart.nrows(), 0),
-            apart,
-            mixing,
+            formed: DMatrix::zeros(delta.nrows(), 0),
+            apart: delta,
+            mixing: mixing_of(&k, &w_over_s),
             means: [DVector::zeros(0), DVector::zeros(0)],
             scaled: [DMatrix::zeros(0, 0), DMatrix::zeros(0, 0)],
         };
-        let nearly = vectors.columns(clear, others + directions - clear);
-        for first in (0..nearly.ncols()).step_by(BATCH) {
-            let count = BATCH.min(nearly.ncols() - first);
-            joint.form(&nearly.columns(first, count).into_owned());
+        let clear = w_over_s.ncols();
+        let nearly_inside = w.columns(clear, w.ncols() - clear);
+        for first in (0..nearly_inside.ncols()).step_by(BATCH) {
+            let count = BATCH.min(nearly_inside.ncols() - first);
+            joint.form(&nearly_inside.columns(first, count).into_owned());
         }
-
-        // Bᵀ[E₂ δ] is K, (W/s)ᵀH and what the formed directions see.
+        // BᵀM is K, (W/s)ᵀH and what the formed directions see.
         let seen =
             side_by_side(&[&cross(&joint.formed, b.basis()), &cross(&joint.formed, &joint.apart)]);
-        let coordinates = stacked(&[&leaning, &seen_beyond, &seen]);
-        let size = coordinates.nrows();
-        let mut scaled = coordinates.columns(0, others).into_owned();
+        joint.place(&stacked(&[&k, &cross(&w_over_s, &h), &seen]), length);
+        joint
+    }
+
+    /// Takes BᵀUᵢ and Bᵀ(mᵢ − m₁) from BᵀM, `length` being that of m₂ − m₁.
+    fn place(&mut self, coordinates: &DMatrix<f64>, length: f64) {
+        let [a, b] = &self.models;
+        let (size, modes) = (coordinates.nrows(), b.mode_count());
+        let mut scaled = coordinates.columns(0, modes).into_owned();
         for (mut column, deviation) in scaled.column_iter_mut().zip(b.standard_deviations().iter())
         {
             column *= *deviation;
         }
-        let mut own = DMatrix::zeros(size, inside);
+        let mut own = DMatrix::zeros(size, a.mode_count());
         own.set_diagonal(a.standard_deviations());
-        joint.scaled = [own, scaled];
-        let mean = coordinates.columns(others, directions).column_sum() * length;
-        joint.means = [DVector::zeros(size), mean];
-        joint
+        let mean = coordinates.columns(modes, self.apart.ncols()).column_sum() * length;
+        self.scaled = [own, scaled];
+        self.means = [DVector::zeros(size), mean];
     }
 
     /// Adds what there is beyond the basis in these mixtures of [E₂ δ], all nearly inside A.
@@ -353,6 +245,57 @@ impl Joint {
     pub fn model(&self, moments: &Moments, most: usize) -> Option<LinearModel> {
         Some(self.formed(&self.principal_components(moments, most)?))
     }
+}
+
+/// δ (d·n × 1), the direction from m₁ to m₂, without a column when they are the same; and their distance.
+fn direction_between(from: &DVector<f64>, to: &DVector<f64>) -> (DMatrix<f64>, f64) {
+    let apart = to - from;
+    let length = apart.norm();
+    let directions = usize::from(length > 0.0);
+    (DMatrix::from_fn(apart.len(), directions, |row, _| apart[row] / length), length)
+}
+
+/// K = E₁ᵀM and H = MᵀM − KᵀK for M = [E₂, δ], with the parts of MᵀM that are known.
+fn overlap_and_rest(
+    first: &DMatrix<f64>,
+    second: &DMatrix<f64>,
+    delta: &DMatrix<f64>,
+) -> (DMatrix<f64>, DMatrix<f64>) {
+    let (modes, directions) = (second.ncols(), delta.ncols());
+    let k = side_by_side(&[&cross(first, second), &cross(first, delta)]);
+    let mut h = DMatrix::identity(modes + directions, modes + directions);
+    let across = cross(second, delta);
+    h.view_mut((0, modes), across.shape()).copy_from(&across);
+    h.view_mut((modes, 0), (directions, modes)).copy_from(&across.transpose());
+    h -= gram(&k);
+    (k, h)
+}
+
+/// W of H = W diag(s²) Wᵀ, largest s first, and W/s of the sines above [`NEARLY_INSIDE`].
+fn directions_beyond(h: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
+    let (w, squares) = eigen(h.clone());
+    let clear = squares.iter().take_while(|&&value| value > NEARLY_INSIDE * NEARLY_INSIDE).count();
+    let mut w_over_s = w.columns(0, clear).into_owned();
+    for (mut column, square) in w_over_s.column_iter_mut().zip(squares.iter()) {
+        column /= square.sqrt();
+    }
+    // W/s has lost digits where s is small: by Cholesky it gets back those that H has.
+    let unit = cross(&w_over_s, &product(h, &w_over_s)).cholesky();
+    if let Some(rows) = unit.and_then(|unit| unit.l().solve_lower_triangular(&w_over_s.transpose()))
+    {
+        w_over_s = rows.transpose();
+    }
+    (w, w_over_s)
+}
+
+/// How an orthonormal basis mixes [E₁ E₂ δ]: E₁ itself, and (M − E₁K) W/s.
+fn mixing_of(k: &DMatrix<f64>, w_over_s: &DMatrix<f64>) -> DMatrix<f64> {
+    let (inside, clear) = (k.nrows(), w_over_s.ncols());
+    let mut mixing = DMatrix::zeros(inside + k.ncols(), inside + clear);
+    mixing.view_mut((0, 0), (inside, inside)).fill_with_identity();
+    mixing.view_mut((0, inside), (inside, clear)).copy_from(&-product(k, w_over_s));
+    mixing.view_mut((inside, inside), w_over_s.shape()).copy_from(w_over_s);
+    mixing
 }
 
 /// [X₁ X₂ …]

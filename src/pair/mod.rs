@@ -25,8 +25,7 @@ pub use fit::{
     fit_reweighted, fit_rms, fit_variational_step, fit_variational_step_every, without_distance,
 };
 pub use intersection::{Intersection, distance_likelihood};
-pub(crate) use joint::eigen;
-pub use joint::{Joint, JointModel, Moments};
+pub use joint::{Joint, JointModel};
 pub use kernel::DistanceKernel;
 pub use least_change::least_change;
 pub use meeting::{Meeting, nearest_meeting, plausible_radius};

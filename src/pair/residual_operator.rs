@@ -121,6 +121,15 @@ impl ResidualOperator {
         with_rows!(self, rows => rows.iter().map(|value| value.double()).collect())
     }
 
+    /// The sum of squares of every row of R (d·n).
+    pub fn row_squares(&self) -> Vec<f64> {
+        let square = |value: f64| value * value;
+        with_rows!(self, rows => rows
+            .chunks_exact(self.modes)
+            .map(|row| row.iter().map(|value| square(value.double())).sum())
+            .collect())
+    }
+
     /// R, row-major (d·n × q), as it is kept.
     pub(crate) fn rows(&self) -> Rows<'_> {
         match &self.double {

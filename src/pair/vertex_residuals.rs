@@ -8,9 +8,12 @@
 
 use nalgebra::DVector;
 
+use super::residual_rows::with_rows;
+use crate::linalg::Moments;
 use crate::linalg::parallel;
+use crate::linalg::simd::Real;
 use crate::model::LinearModel;
-use crate::pair::{Moments, ResidualOperator};
+use crate::pair::ResidualOperator;
 
 impl ResidualOperator {
     /// ‖r_v(a)‖ of every point (n) of one shape, in the unit of the models.
@@ -20,8 +23,7 @@ impl ResidualOperator {
 
     /// √E‖r_v‖² of every point (n) over all shapes of the model, in its unit.
     pub fn expected_vertex_residuals(&self) -> Vec<f64> {
-        let residual = self.residual();
-        let spread = residual.chunks_exact(self.mode_count()).map(norm_squared);
+        let spread = self.row_squares();
         self.vertex_norms(self.offset().iter().zip(spread).map(|(r, spread)| r * r + spread))
     }
 
@@ -29,15 +31,15 @@ impl ResidualOperator {
     pub fn expected_vertex_residuals_of(&self, coefficients: &Moments) -> Vec<f64> {
         let factor = coefficients.factor();
         let centre = self.residual_at(coefficients.mean.as_slice());
-        let (residual, modes) = (self.residual(), self.mode_count());
-        let squares = parallel::map(centre.len(), |row| {
-            let row_of_residual = &residual[row * modes..(row + 1) * modes];
+        let modes = self.mode_count();
+        let squares: Vec<f64> = with_rows!(self, rows => parallel::map(centre.len(), |row| {
+            let row_of_residual = &rows[row * modes..(row + 1) * modes];
             let moved = factor.column_iter().map(|column| {
-                let product = column.iter().zip(row_of_residual).map(|(f, r)| f * r);
+                let product = column.iter().zip(row_of_residual).map(|(f, r)| f * r.double());
                 product.sum::<f64>()
             });
             centre[row] * centre[row] + moved.map(|value| value * value).sum::<f64>()
-        });
+        }));
         self.vertex_norms(squares.into_iter())
     }
 
@@ -56,10 +58,6 @@ impl ResidualOperator {
         }
         norms.into_iter().map(f64::sqrt).collect()
     }
-}
-
-fn norm_squared(row: &[f64]) -> f64 {
-    row.iter().map(|value| value * value).sum()
 }
 
 #[cfg(test)]

@@ -32,11 +32,12 @@ use serde::Serialize;
 
 use crate::comparison::{Comparison, Stage};
 use crate::error::ComparisonError;
+use crate::linalg::Moments;
 use crate::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, paper_distance as distance,
 };
 use crate::model::LinearModel;
-use crate::pair::{Joint, Moments};
+use crate::pair::Joint;
 use crate::report::{MeanSd, ModelReport, MomentSource, Report, Seconds};
 use crate::settings::{Sampler, Settings};
 use printed::{Budget, DRAWS, Printed};

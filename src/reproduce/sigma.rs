@@ -15,8 +15,8 @@ use super::{Gathered, Observer, Plan, Table, Task, Trial};
 use super::{distance, seed_of};
 use crate::demos::{STAR_ROWS, star_intersection, star_pair};
 use crate::error::ComparisonError;
+use crate::linalg::Moments;
 use crate::model::LinearModel;
-use crate::pair::Moments;
 use crate::report::{Grassmann, MeanSd};
 use crate::settings::Settings;
 

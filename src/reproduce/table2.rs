@@ -17,11 +17,11 @@ use super::printed::{DRAWS, TABLE_2, TABLE_2_BUDGET, TABLE_2_SIGMA};
 use super::{Baselines, Gathered, Observer, Plan, Row, Table, Task, Trial};
 use super::{seed_of, uncut_distance};
 use crate::error::ComparisonError;
+use crate::linalg::Moments;
 use crate::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, grassmann_sampling_error,
 };
 use crate::model::{LinearModel, Unit};
-use crate::pair::Moments;
 use crate::sampling::{Stream, fill_normal, stream, uniform};
 
 /// Points of the synthetic face: as many as the Basel Face Model of the paper has.

@@ -24,7 +24,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{Gaussian, Stream, Target, fill_normal, importance_ess, pareto_smooth, stream};
-use crate::linalg::parallel;
+use crate::linalg::{Moments, parallel};
 
 /// Groups of pairs whose moments tell the error.
 const GROUPS: usize = 16;
@@ -49,22 +49,13 @@ pub struct Importance {
     statistics: Vec<f64>,
 }
 
-/// Mean (q) and covariance (q × q) of the coefficients.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ImportanceMoments {
-    /// E_p a.
-    pub mean: DVector<f64>,
-    /// Cov_p a.
-    pub covariance: DMatrix<f64>,
-}
-
 /// What weighted draws say of their target.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImportanceEstimate {
     /// From all draws.
-    pub total: ImportanceMoments,
+    pub total: Moments,
     /// From each group of draws alone.
-    pub groups: Vec<ImportanceMoments>,
+    pub groups: Vec<Moments>,
     /// E_p of the statistic.
     pub statistic: f64,
     /// Pareto k of the weights; absent where their tail is constant (an exact fit).
@@ -171,13 +162,13 @@ impl Importance {
         let parts = parallel::map(GROUPS, |group| {
             self.moments(group * length..(group + 1) * length, &weights)
         });
-        let size = |moments: &ImportanceMoments, from: &ImportanceMoments| {
+        let size = |moments: &Moments, from: &Moments| {
             (&moments.mean - &from.mean).norm_squared()
                 + (&moments.covariance - &from.covariance).norm_squared()
         };
         let spread: f64 = parts.iter().map(|part| size(part, &whole)).sum();
         let dimension = self.fit.dimension();
-        let none = ImportanceMoments {
+        let none = Moments {
             mean: DVector::zeros(dimension),
             covariance: DMatrix::identity(dimension, dimension),
         };
@@ -193,16 +184,16 @@ impl Importance {
     }
 
     /// Moments of z as moments of a = μ + T z.
-    fn placed(&self, whitened: &ImportanceMoments) -> ImportanceMoments {
+    fn placed(&self, whitened: &Moments) -> Moments {
         let transform = self.fit.transform();
-        ImportanceMoments {
+        Moments {
             mean: self.fit.mean() + transform * &whitened.mean,
             covariance: transform * &whitened.covariance * transform.transpose(),
         }
     }
 
     /// Stein's moments of z over the draws in `range`, whose weights shall sum to one there.
-    fn moments(&self, range: core::ops::Range<usize>, weights: &[f64]) -> ImportanceMoments {
+    fn moments(&self, range: core::ops::Range<usize>, weights: &[f64]) -> Moments {
         let size = self.fit.dimension();
         let weights = &weights[range.clone()];
         let all: f64 = weights.iter().sum();
@@ -217,7 +208,7 @@ impl Importance {
         }
         let product = slopes * normals.transpose();
         let half = (&product + product.transpose()) * 0.5;
-        ImportanceMoments { mean, covariance: DMatrix::identity(size, size) - half }
+        Moments { mean, covariance: DMatrix::identity(size, size) - half }
     }
 }
 

@@ -22,7 +22,7 @@ mod whitened;
 pub use diagnostics::{ChainSummary, autocorrelation, rank_histograms, split_r_hat, summarise};
 pub use fit_draws::FitChains;
 pub use gaussian::Gaussian;
-pub use importance::{Importance, ImportanceEstimate, ImportanceMoments};
+pub use importance::{Importance, ImportanceEstimate};
 pub use independence::IndependenceChains;
 pub use normal_quantile::normal_quantile;
 pub use pareto::{importance_ess, pareto_k, pareto_smooth};

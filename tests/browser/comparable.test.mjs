@@ -8,6 +8,7 @@ import {
   downloadReport,
   dropFiles,
   leave,
+  openLink,
   shownMetrics,
   typeSetting,
   untilDrawn,
@@ -50,8 +51,7 @@ test("two that fit are one line, which unfolds into what there is to know", asyn
 
 test("two that do not fit say so beside the models, and nothing is run", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#v=1&demo=heads-sex`);
-    await untilState(page, "done");
+    await openLink(page, url, "v=1&demo=heads-sex");
     const results = async () =>
       (await shownMetrics(page)).filter(([path]) => !path.startsWith("intersection.tolerance"));
     const before = await results();
@@ -71,8 +71,7 @@ test("two that do not fit say so beside the models, and nothing is run", async (
 
 test("typed vertices are compared alone, drawn alone, in the link, and undone in three ways", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#v=1&demo=heads-sex&sigma=1&draws=400`);
-    await untilState(page, "done");
+    await openLink(page, url, "v=1&demo=heads-sex&sigma=1&draws=400");
     const before = await downloadReport(page);
     await unfold(page);
     const type = (text) => typeSetting(page, "Points that are compared", text);
@@ -112,8 +111,7 @@ test("typed vertices are compared alone, drawn alone, in the link, and undone in
 
 test("a region is painted on A, added to, inverted, and compared", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#v=1&demo=heads-sex&sigma=1&draws=400`);
-    await untilState(page, "done");
+    await openLink(page, url, "v=1&demo=heads-sex&sigma=1&draws=400");
     await untilDrawn(page);
     await unfold(page);
     await pair(page).getByRole("button", { name: "Paint a region…" }).click();
@@ -157,8 +155,7 @@ test("a region is painted on A, added to, inverted, and compared", async () => {
 
 test("painting that is given up changes nothing", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${STARS}`);
-    await untilState(page, "done");
+    await openLink(page, url, STARS);
     const before = await shownMetrics(page);
     await unfold(page);
     await pair(page).getByRole("button", { name: "Paint a region…" }).click();
@@ -173,8 +170,7 @@ test("painting that is given up changes nothing", async () => {
 
 test("a list of pairs is compared; a file that is none is refused, and the former stays", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#v=1&demo=heads-sex&sigma=1&draws=400`);
-    await untilState(page, "done");
+    await openLink(page, url, "v=1&demo=heads-sex&sigma=1&draws=400");
     await unfold(page);
     const give = (name, text) =>
       pair(page)
@@ -204,8 +200,7 @@ test("a list of pairs is compared; a file that is none is refused, and the forme
 
 test("fewer points, evenly spread, are compared and drawn", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#v=1&demo=heads-sex&sigma=1&draws=400`);
-    await untilState(page, "done");
+    await openLink(page, url, "v=1&demo=heads-sex&sigma=1&draws=400");
     await unfold(page);
     await typeSetting(page, "Most points compared", "600");
     await untilPoints(page, /^600 points compared/);
@@ -216,8 +211,7 @@ test("fewer points, evenly spread, are compared and drawn", async () => {
 
 test("a unit that a file does not state is declared, and everything is written in it", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${STARS}`);
-    await untilState(page, "done");
+    await openLink(page, url, STARS);
     await unfold(page);
     for (const side of ["A", "B"]) {
       await pair(page)
@@ -234,8 +228,7 @@ test("a unit that a file does not state is declared, and everything is written i
 
 test("an alignment is a chip, and its cross takes it back", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${STARS}`);
-    await untilState(page, "done");
+    await openLink(page, url, STARS);
     await unfold(page);
     const align = pair(page).getByRole("combobox", { name: "Align B to A" });
     await align.selectOption("rigid");
@@ -249,8 +242,7 @@ test("an alignment is a chip, and its cross takes it back", async () => {
 
 test("on a phone everything of the pair is within reach", async () => {
   await withPage({ viewport: { width: 390, height: 844 } }, async ({ url, page }) => {
-    await page.goto(`${url}#${STARS}`);
-    await untilState(page, "done");
+    await openLink(page, url, STARS);
     await unfold(page);
     const beyond = await page.evaluate(() =>
       [...document.querySelectorAll(".pair *, .downloads *")]

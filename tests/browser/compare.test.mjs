@@ -11,6 +11,7 @@ import {
   dropFiles,
   isBlankPicture,
   metric,
+  openLink,
   typeSetting,
   untilCompared,
   untilDrawn,
@@ -74,8 +75,7 @@ test("what is taken away can be opened, and the draws are the command line's", a
       writeFileSync(path, bytes);
       return JSON.parse(shapevenn("info", path, "--json"));
     };
-    await page.goto(`${url}#v=1&demo=planes`);
-    await untilState(page, "done");
+    await openLink(page, url, "v=1&demo=planes");
     await dropFiles(page, "body", [a, b]);
     await untilCompared(page, { a: "one.npz", b: "other.npz" });
     const modes = await metric(page, "intersection.modes");
@@ -115,8 +115,7 @@ test("every setting on the page is one of the command line, and another seed dra
   const { a, b } = starFiles(t);
   await withPage({}, async ({ url, page }) => {
     const fragment = "v=1&demo=planes&seed=18446744073709551615&chains=4&draws=64";
-    await page.goto(`${url}#${fragment}&sampler=paper-corrected&align=rigid&modes=3&burnin=40`);
-    await untilState(page, "done");
+    await openLink(page, url, `${fragment}&sampler=paper-corrected&align=rigid&modes=3&burnin=40`);
     await dropFiles(page, "body", [a, b]);
     await untilCompared(page, { a: "one.npz", b: "other.npz" });
     await typeSetting(page, "Tolerance σ", "0.3");

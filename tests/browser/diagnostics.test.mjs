@@ -6,6 +6,7 @@ import {
   assertShows,
   download,
   downloadReport,
+  openLink,
   typeSetting,
   untilShown,
   untilState,
@@ -22,8 +23,7 @@ const tab = (page) => page.getByRole("region", { name: "Diagnostics", exact: tru
 const advice = (page, chart) => page.locator(`[data-chart="${chart}"] .advice`);
 
 async function openRoom(page, url, link) {
-  await page.goto(`${url}#${link}`);
-  await untilState(page, "done");
+  await openLink(page, url, link);
   await untilPlotted(page);
 }
 

@@ -6,6 +6,7 @@ import { test } from "node:test";
 import { root } from "../../scripts/steps/run.mjs";
 import {
   dropFiles,
+  openLink,
   shownMetrics,
   typeSetting,
   untilCompared,
@@ -50,8 +51,7 @@ async function alertOf(page) {
 
 test("a wrong file is refused by name, with what to do, and the former model stays", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${STARS}`);
-    await untilState(page, "done");
+    await openLink(page, url, STARS);
     const before = await shownMetrics(page);
     for (const { what, name, bytes, why } of WRONG) {
       const file = { name, bytes: bytes ?? (await readFile(fixture(name))) };
@@ -71,8 +71,7 @@ test("a wrong file is refused by name, with what to do, and the former model sta
 
 test("one good and one bad file: the good one fills its side, the bad one is named", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${STARS}`);
-    await untilState(page, "done");
+    await openLink(page, url, STARS);
     const bad = { name: "nothing.npz", bytes: Buffer.alloc(0) };
     await dropFiles(page, "body", [fixture("double.h5"), bad]);
     await card(page, "B").getByRole("alert").filter({ hasText: "nothing.npz" }).waitFor();
@@ -83,8 +82,7 @@ test("one good and one bad file: the good one fills its side, the bad one is nam
 
 test("models that cannot be compared: a sentence says why, and the former results stay", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#v=1&demo=heads-sex`);
-    await untilState(page, "done");
+    await openLink(page, url, "v=1&demo=heads-sex");
     // What stands under σ is about the models that are chosen now.
     const results = async () =>
       (await shownMetrics(page)).filter(([path]) => !path.startsWith("intersection.tolerance"));
@@ -109,8 +107,7 @@ test("models that cannot be compared: a sentence says why, and the former result
 
 test("on a phone the page scrolls to what went wrong", async () => {
   await withPage({ viewport: { width: 390, height: 844 } }, async ({ url, page }) => {
-    await page.goto(`${url}#${STARS}`);
-    await untilState(page, "done");
+    await openLink(page, url, STARS);
     await dropFiles(page, "body", [{ name: "nothing.h5", bytes: Buffer.alloc(0) }]);
     await alertOf(page);
     await page.waitForFunction(() => {
@@ -122,8 +119,7 @@ test("on a phone the page scrolls to what went wrong", async () => {
 
 test("a drop never navigates away, wherever it lands, even if it holds no file", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${STARS}`);
-    await untilState(page, "done");
+    await openLink(page, url, STARS);
     const kept = await page.evaluate(() =>
       ["header", "canvas", "footer", "html", ".venn", "input"].map((selector) => {
         const target = document.querySelector(selector);
@@ -143,8 +139,7 @@ test("a drop never navigates away, wherever it lands, even if it holds no file",
 
 test("one file dropped on the right half fills B only", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${STARS}`);
-    await untilState(page, "done");
+    await openLink(page, url, STARS);
     const { width, height } = page.viewportSize();
     const at = { clientX: 0.8 * width, clientY: 0.3 * height };
     await dropFiles(page, "body", [fixture("flat-two-dimensional.npz")], at);
@@ -155,8 +150,7 @@ test("one file dropped on the right half fills B only", async () => {
 
 test("while files are dragged over the window, two halves say where they would go", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${STARS}`);
-    await untilState(page, "done");
+    await openLink(page, url, STARS);
     const drag = (type) =>
       page.evaluate((kind) => {
         const dataTransfer = new DataTransfer();
@@ -174,8 +168,7 @@ test("while files are dragged over the window, two halves say where they would g
 
 test("by keyboard alone: to the file chooser, two files, and their comparison", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${STARS}`);
-    await untilState(page, "done");
+    await openLink(page, url, STARS);
     // Whoever listens from the start misses no chooser while the browser gets ready to tell.
     page.on("filechooser", () => {});
     const opener = page.getByRole("button", { name: "Open model… for A" });

@@ -4,7 +4,14 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { shapevenn, temporaryFolder } from "./command.mjs";
-import { accessibilityFaults, untilDrawn, untilRedrawn, untilState, withPage } from "./harness.mjs";
+import {
+  accessibilityFaults,
+  openLink,
+  untilDrawn,
+  untilRedrawn,
+  untilState,
+  withPage,
+} from "./harness.mjs";
 
 const HEADS = "v=1&demo=heads-sex&sigma=1&draws=800&room=explore";
 const STARS = "v=1&demo=stars-1&draws=800&room=explore";
@@ -17,8 +24,7 @@ const meter = (page) => page.getByRole("meter", { name: "Where the shape lies" }
 const button = (page, name) => page.getByRole("button", { name, exact: true });
 
 async function open(page, url, link) {
-  await page.goto(`${url}#${link}`);
-  await untilState(page, "done");
+  await openLink(page, url, link);
   await slider(page, 1).waitFor();
   await meter(page).waitFor();
 }

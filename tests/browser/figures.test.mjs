@@ -6,18 +6,17 @@ import {
   download,
   downloadReport,
   isBlankPicture,
+  openLink,
   typeSetting,
   untilDrawn,
   untilShown,
-  untilState,
   withPage,
 } from "./harness.mjs";
 
 const button = (page, name) => page.getByRole("button", { name, exact: true });
 
 async function open(page, url, more) {
-  await page.goto(`${url}#v=1&${more}`);
-  await untilState(page, "done");
+  await openLink(page, url, `v=1&${more}`);
   await untilDrawn(page);
 }
 

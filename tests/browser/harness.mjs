@@ -170,6 +170,12 @@ export async function untilState(page, states, timeout = 60_000) {
   );
 }
 
+/** Opens the page at a link, `v=1&…`; resolves once everything that it asks for is done. */
+export async function openLink(page, url, link) {
+  await page.goto(`${url}#${link}`);
+  await untilState(page, "done");
+}
+
 /**
  * Call it before what begins a run. The function that comes back waits for the end of that run, which
  * may be so short that nobody who looks now and then sees it going on.

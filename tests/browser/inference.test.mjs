@@ -7,6 +7,7 @@ import {
   downloadReport,
   leave,
   nextRun,
+  openLink,
   shownMetrics,
   untilDrawn,
   untilRedrawn,
@@ -25,8 +26,7 @@ const fold = (page, name) =>
   });
 
 async function openPage(page, url, link) {
-  await page.goto(`${url}#${link}`);
-  await untilState(page, "done");
+  await openLink(page, url, link);
 }
 
 /** Opens a fold by its heading and resolves to it. */

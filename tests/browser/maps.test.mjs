@@ -6,22 +6,17 @@ import { test } from "node:test";
 import { shapevenn, temporaryFolder } from "./command.mjs";
 import {
   accessibilityFaults,
+  openLink,
   typeSetting,
   untilDrawn,
   untilRedrawn,
   untilShown,
-  untilState,
   withPage,
 } from "./harness.mjs";
 
 const field = (page) => page.getByRole("spinbutton", { name: "Vertex" });
 const chooser = (page) => page.getByRole("combobox", { name: "What is coloured" });
 const scale = (page) => page.locator("figure.color-bar");
-
-async function open(page, url, more) {
-  await page.goto(`${url}#v=1&${more}`);
-  await untilState(page, "done");
-}
 
 /** Unrounded, in the order A, A∖B, A∩B, B∖A, B; waits until every region has its number. */
 async function figuresOf(page, row, least = 5) {
@@ -72,7 +67,7 @@ test("the numbers of a vertex are those of the models as the command line has th
   const variance = (matrix) => matrix[0][0] + matrix[1][1];
   assert.ok(variance(ofA) > 0.1 && variance(ofB) > 0, "this vertex moves");
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, `demo=stars-1&view=sd&vertex=${vertex}`);
+    await openLink(page, url, `v=1&demo=stars-1&view=sd&vertex=${vertex}`);
     const deviations = await figuresOf(page, /^Standard deviation/);
     near(deviations[0], Math.sqrt(variance(ofA)), "SD in A");
     near(deviations[4], Math.sqrt(variance(ofB)), "SD in B");
@@ -104,7 +99,7 @@ test("the numbers of a vertex are those of the models as the command line has th
 
 test("normal and tangential part make up the standard deviation, in every region", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, "demo=heads-sex&view=sd&vertex=400");
+    await openLink(page, url, "v=1&demo=heads-sex&view=sd&vertex=400");
     const whole = await figuresOf(page, /^Standard deviation/);
     const normal = await choose(page, "SD, normal part", /^SD, normal part/);
     const tangential = await choose(page, "SD, tangential part", /^SD, tangential part/);
@@ -119,7 +114,7 @@ test("normal and tangential part make up the standard deviation, in every region
 
 test("the ratio has a scale that is centred at 0 and says which end is which", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, "demo=heads-sex&view=sd&map=ratio&vertex=10");
+    await openLink(page, url, "v=1&demo=heads-sex&view=sd&map=ratio&vertex=10");
     await figuresOf(page, /^Variance ratio/);
     const legend = page.getByRole("figure", { name: /^Variance of A over variance of B, log₂/ });
     const { low, high } = await legend.evaluate(({ dataset }) => dataset);
@@ -139,7 +134,7 @@ test("the ratio has a scale that is centred at 0 and says which end is which", a
 
 test("a locked scale stays for maps of one kind, is in the link, and goes with another kind", async () => {
   await withPage({}, async ({ url, page, another }) => {
-    await open(page, url, "demo=stars-1&view=sd&vertex=0");
+    await openLink(page, url, "v=1&demo=stars-1&view=sd&vertex=0");
     const high = await scale(page).getAttribute("data-high");
     await page.getByRole("checkbox", { name: "Lock scale" }).check();
     await choose(page, "SD, normal part", /^SD, normal part/);
@@ -159,7 +154,7 @@ test("a locked scale stays for maps of one kind, is in the link, and goes with a
 
 test("which mode is mapped is a number in the link, and Back undoes it", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, "demo=heads-sex&view=sd&map=mode&vertex=3000");
+    await openLink(page, url, "v=1&demo=heads-sex&view=sd&map=mode&vertex=3000");
     const first = await figuresOf(page, /^Displacement by mode/);
     const mode = page.getByRole("spinbutton", { name: "Mode", exact: true });
     await mode.fill("3");
@@ -194,7 +189,7 @@ async function hoverVertex(page, region) {
 
 test("hovering says vertex, value and unit; a click picks it, and the table says the same", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, "demo=heads-sex&view=sd&map=sd-normal");
+    await openLink(page, url, "v=1&demo=heads-sex&view=sd&map=sd-normal");
     await untilDrawn(page);
     await scale(page).waitFor();
     const { place, text } = await hoverVertex(page, "a");
@@ -213,7 +208,7 @@ test("hovering says vertex, value and unit; a click picks it, and the table says
 
 test("the vertex's ellipsoid is drawn in all five panes, also of other views", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, "demo=stars-1");
+    await openLink(page, url, "v=1&demo=stars-1");
     const plain = await untilDrawn(page);
     await page.goto(`${url}#v=1&demo=stars-1&vertex=0`);
     await figuresOf(page, /^Semi-axes at 2 SD/, 10);
@@ -226,7 +221,7 @@ test("the vertex's ellipsoid is drawn in all five panes, also of other views", a
 
 test("a vertex that is not there says how many there are", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, "demo=stars-1&view=sd&vertex=10");
+    await openLink(page, url, "v=1&demo=stars-1&view=sd&vertex=10");
     await page.getByText("There is no vertex 10: these shapes have 10 points, 0 to 9.").waitFor();
     await field(page).fill("12");
     await field(page).press("Enter");
@@ -239,7 +234,7 @@ test("a vertex that is not there says how many there are", async () => {
 
 test("after another run the map is of its result", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, "demo=stars-2&view=sd&map=sd-normal&vertex=6");
+    await openLink(page, url, "v=1&demo=stars-2&view=sd&map=sd-normal&vertex=6");
     const before = await figuresOf(page, /^SD, normal part/);
     assert.ok(before[0] > 0 && before[2] > 0, "this vertex moves");
     await typeSetting(page, "Tolerance σ", "3");

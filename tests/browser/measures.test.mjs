@@ -8,10 +8,10 @@ import {
   accessibilityFaults,
   assertShows,
   downloadReport,
+  openLink,
   typeSetting,
   untilCompared,
   untilShown,
-  untilState,
   withPage,
 } from "./harness.mjs";
 import { headsOf, saveCsv, showNumbers, valuesOf } from "./tables.mjs";
@@ -23,8 +23,7 @@ const tab = (page) => page.getByRole("region", { name: "Measures", exact: true }
 const chart = (page, name) => page.locator(`[data-chart="${name}"]`);
 
 async function openRoom(page, url, link) {
-  await page.goto(`${url}#${link}`);
-  await untilState(page, "done");
+  await openLink(page, url, link);
 }
 
 test("every number of the tab is the report's: angles, shares, curves and spectra", async () => {
@@ -228,8 +227,7 @@ test("shapes that a model has not seen, and those that it was made of, put it to
   const [one, two] = [meshes(folder, "one", 0, 16), meshes(folder, "two", 100, 116)];
   const unseen = meshes(folder, "unseen", 200, 212);
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#v=1&demo=stars-1&draws=400&room=measures`);
-    await untilState(page, "done");
+    await openLink(page, url, "v=1&demo=stars-1&draws=400&room=measures");
     await page.getByLabel("Folder for model A", { exact: true }).setInputFiles(one);
     await page
       .getByRole("region", { name: "Model A" })
@@ -309,8 +307,7 @@ test("what was tested before another model is marked as old", async (t) => {
   const [one, unseen] = [meshes(folder, "one", 0, 12), meshes(folder, "unseen", 200, 206)];
   const two = meshes(folder, "two", 50, 62);
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#v=1&demo=stars-1&draws=400&room=measures`);
-    await untilState(page, "done");
+    await openLink(page, url, "v=1&demo=stars-1&draws=400&room=measures");
     const open = page.getByLabel("Folder for model A", { exact: true });
     const card = page.getByRole("region", { name: "Model A" });
     await open.setInputFiles(one);

@@ -8,6 +8,7 @@ import {
   download,
   downloadReport,
   dropFiles,
+  openLink,
   untilCompared,
   untilState,
   withPage,
@@ -69,8 +70,7 @@ async function watchHandles(page) {
 
 test("a cell has the number of the report, and opens that pair as the comparison", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#v=1&demo=heads-sex&sigma=1&room=models&shelf=${HEADS}`);
-    await untilState(page, "done");
+    await openLink(page, url, `v=1&demo=heads-sex&sigma=1&room=models&shelf=${HEADS}`);
     await untilTable(page, 4);
     assert.deepEqual(await listNames(page), HEADS.split(","));
     const first = await downloadReport(page);
@@ -99,8 +99,7 @@ test("a cell has the number of the report, and opens that pair as the comparison
 
 test("every measure of the table is that of the report", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#v=1&demo=stars-1&room=models&draws=400`);
-    await untilState(page, "done");
+    await openLink(page, url, "v=1&demo=stars-1&room=models&draws=400");
     const { overlap } = await downloadReport(page);
     for (const [measure, expected] of [
       ["Share of variance", overlap.varianceOfAInB],
@@ -127,8 +126,7 @@ test("every measure of the table is that of the report", async () => {
 test("four models that are dropped become a table of four by four, and one that is closed leaves it", async () => {
   await withPage({}, async ({ url, page }) => {
     const count = await watchHandles(page);
-    await page.goto(`${url}#${STARS}`);
-    await untilState(page, "done");
+    await openLink(page, url, STARS);
     const files = ["double.h5", "group.h5", "cpp-0.9.h5", "bfm-groups.h5"];
     await dropFiles(page, "body", files.map(fixture));
     const dialog = page.getByRole("dialog", { name: "Which two are compared?" });
@@ -172,8 +170,7 @@ test("four models that are dropped become a table of four by four, and one that 
 test("a model on a list that is in use stays open when another takes its place", async () => {
   await withPage({}, async ({ url, page }) => {
     const count = await watchHandles(page);
-    await page.goto(`${url}#${STARS}&room=models&shelf=stars-1-a,stars-1-b,stars-2-a`);
-    await untilState(page, "done");
+    await openLink(page, url, `${STARS}&room=models&shelf=stars-1-a,stars-1-b,stars-2-a`);
     await untilTable(page, 3);
     // Not `check`: it is only chosen once the model is there.
     await page.getByRole("radio", { name: "stars-2-a as A" }).click();
@@ -201,8 +198,7 @@ test("a model on a list that is in use stays open when another takes its place",
 
 test("examples and the other parts of a file are added by themselves", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#v=1&demo=planes&room=models&draws=400`);
-    await untilState(page, "done");
+    await openLink(page, url, "v=1&demo=planes&room=models&draws=400");
     await untilTable(page, 2);
     const examples = page.getByRole("combobox", { name: "Add examples" });
     await examples.selectOption({ label: "stars-3-b" });
@@ -231,8 +227,7 @@ test("examples and the other parts of a file are added by themselves", async () 
 
 test("a file among several that is none is named, and the others are added", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${STARS}&room=models`);
-    await untilState(page, "done");
+    await openLink(page, url, `${STARS}&room=models`);
     const input = page.getByLabel("Files of models to add");
     await input.setInputFiles([
       fixture("double.h5"),
@@ -304,8 +299,7 @@ test("the table is taken away as CSV, to the last digit", async () => {
 
 test("a setting that changes the pairs marks the table out of date until it is worked out again", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#v=1&demo=heads-sex&sigma=1&room=models&shelf=${HEADS}`);
-    await untilState(page, "done");
+    await openLink(page, url, `v=1&demo=heads-sex&sigma=1&room=models&shelf=${HEADS}`);
     await untilTable(page, 4);
     const before = await value(page, "heads-male", "heads-expression");
     await models(page)
@@ -357,8 +351,7 @@ test("work on the table can be ended and gone on with", async () => {
 test("after the engine was replaced the model list is open again, and so is every cell", async () => {
   await withPage({}, async ({ url, page, errors }) => {
     const count = await watchHandles(page);
-    await page.goto(`${url}#${STARS}&room=models`);
-    await untilState(page, "done");
+    await openLink(page, url, `${STARS}&room=models`);
     await page
       .getByLabel("Files of models to add")
       .setInputFiles([fixture("bfm-groups.h5"), fixture("double.h5")]);

@@ -8,6 +8,7 @@ import {
   download,
   downloadReport,
   dropFiles,
+  openLink,
   untilCompared,
   untilDrawn,
   untilShown,
@@ -27,8 +28,7 @@ const titles = async (page) => [
 
 /** Two folders of shapes, opened and compared. */
 async function openFolders(page, url) {
-  await page.goto(`${url}#${STARS}`);
-  await untilState(page, "done");
+  await openLink(page, url, STARS);
   await dropFiles(page, "body", [...meshes("female", 0, 7), ...meshes("male", 20, 6)]);
   await untilCompared(page, { a: "female", b: "male" });
 }
@@ -67,8 +67,7 @@ test("shapes of a set are brought to one size on request, and the modes wanted a
 
 test("three models ask which two are meant, and closing the question changes nothing", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${STARS}`);
-    await untilState(page, "done");
+    await openLink(page, url, STARS);
     const files = ["double.h5", "group.h5", "bfm-groups.h5"].map(fixture);
     await dropFiles(page, "body", files);
     const dialog = page.getByRole("dialog", { name: "Which two are compared?" });
@@ -88,8 +87,7 @@ test("three models ask which two are meant, and closing the question changes not
 
 test("identity against expression of one file is one click, and each part says which it is", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${STARS}`);
-    await untilState(page, "done");
+    await openLink(page, url, STARS);
     await dropFiles(page, "body", [fixture("bfm-groups.h5")]);
     const button = card(page, "A").getByRole("button", {
       name: "Compare identity with expression",
@@ -110,8 +108,7 @@ test("identity against expression of one file is one click, and each part says w
 
 test("Back and Ctrl+Z go to the models before, files included, and forth again", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${STARS}`);
-    await untilState(page, "done");
+    await openLink(page, url, STARS);
     await dropFiles(page, "body", [fixture("double.h5"), fixture("group.h5")]);
     await untilCompared(page, { a: "double.h5", b: "group.h5" });
     await dropFiles(page, "body", [fixture("bfm-groups.h5")]);
@@ -140,8 +137,7 @@ test("after the engine was replaced, models of files are opened anew with their 
         }
       };
     });
-    await page.goto(`${url}#${STARS}`);
-    await untilState(page, "done");
+    await openLink(page, url, STARS);
     await dropFiles(page, "body", [fixture("bfm-groups.h5"), fixture("double.h5")]);
     await untilCompared(page, { a: "bfm-groups.h5", b: "double.h5" });
     const parts = card(page, "A").getByRole("combobox", { name: "Part of bfm-groups.h5" });
@@ -163,8 +159,7 @@ test("after the engine was replaced, models of files are opened anew with their 
 
 test("everything that can be taken away is what its name says", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#v=1&demo=heads-sex&sigma=1`);
-    await untilState(page, "done");
+    await openLink(page, url, "v=1&demo=heads-sex&sigma=1");
     await untilDrawn(page);
     const save = (name) =>
       download(page, () => page.getByRole("button", { name, exact: true }).click());
@@ -196,8 +191,7 @@ test("a shape of a difference is taken away as exaggerated as it is drawn", asyn
       const button = page.getByRole("button", { name: "Shape .obj", exact: true });
       return (await download(page, () => button.click())).bytes;
     };
-    await page.goto(`${url}#${fragment}`);
-    await untilState(page, "done");
+    await openLink(page, url, fragment);
     const plain = await shape();
     await page.goto(`${url}#${fragment}&exaggerate=3`);
     await page.reload();

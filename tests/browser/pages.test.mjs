@@ -5,7 +5,14 @@ import { test } from "node:test";
 import { EXHIBITS } from "../../scripts/exhibits.mjs";
 import { root } from "../../scripts/steps/run.mjs";
 import { shapevenn } from "./command.mjs";
-import { accessibilityFaults, dropFiles, untilCompared, untilState, withPage } from "./harness.mjs";
+import {
+  accessibilityFaults,
+  dropFiles,
+  openLink,
+  untilCompared,
+  untilState,
+  withPage,
+} from "./harness.mjs";
 
 const hash = (page) => page.evaluate(() => location.hash);
 const turnTo = (page, name) => page.getByRole("link", { name, exact: true }).click();
@@ -16,8 +23,7 @@ test("a lesson needs no models, no shapes and no three.js; the comparison begins
   await withPage({}, async ({ url, page }) => {
     const asked = [];
     page.on("request", (request) => asked.push(new URL(request.url()).pathname));
-    await page.goto(`${url}#v=1&page=learn&scene=model`);
-    await untilState(page, "done");
+    await openLink(page, url, "v=1&page=learn&scene=model");
     assert.deepEqual(
       asked.filter((path) => /viewer|\.npz|first\//.test(path)),
       [],
@@ -36,8 +42,7 @@ test("a lesson needs no models, no shapes and no three.js; the comparison begins
 
 test("what is compared is still there after a lesson, files of one's own too", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#v=1&demo=planes&draws=400`);
-    await untilState(page, "done");
+    await openLink(page, url, "v=1&demo=planes&draws=400");
     const files = ["double.h5", "bfm-groups.h5"].map((name) => join(root, "tests/fixtures", name));
     await dropFiles(page, "body", files);
     await untilCompared(page, { a: "double.h5", b: "bfm-groups.h5" });
@@ -98,8 +103,7 @@ for (const colorScheme of ["light", "dark"]) {
 test("what is shared of a lesson is the scene: link, frame and command", async () => {
   await withPage({}, async ({ url, page }) => {
     const fragment = "v=1&page=learn&scene=step&seed=7&steps=137";
-    await page.goto(`${url}#${fragment}`);
-    await untilState(page, "done");
+    await openLink(page, url, fragment);
     await page.getByRole("button", { name: "Share", exact: true }).click();
     const dialog = page.getByRole("dialog", { name: "Share this scene" });
     await dialog.waitFor();
@@ -133,8 +137,7 @@ test("what is shared of a lesson is the scene: link, frame and command", async (
 test("at no width does any page scroll sideways", async () => {
   await withPage({}, async ({ url, page }) => {
     for (const link of ["demo=stars-1&sigma=0.003", "page=learn&scene=model", "page=gallery"]) {
-      await page.goto(`${url}#v=1&${link}`);
-      await untilState(page, "done");
+      await openLink(page, url, `v=1&${link}`);
       for (const width of [1600, 1440, 1400, 1280, 1200, 1100, 1024, 861, 860, 600, 390, 320]) {
         await page.setViewportSize({ width, height: 800 });
         const beyond = await page.evaluate(() => {

@@ -1,7 +1,7 @@
 /** The five regions: what is drawn of them, how they are chosen, and how they are turned. */
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { untilDrawn, untilRedrawn, untilState, withPage } from "./harness.mjs";
+import { openLink, untilDrawn, untilRedrawn, withPage } from "./harness.mjs";
 
 const REGIONS = ["a", "aWithoutB", "intersection", "bWithoutA", "b"];
 const canvas = (page) => page.getByRole("application");
@@ -9,8 +9,7 @@ const choose = (page, mode) =>
   page.getByRole("radio", { name: mode, exact: true }).check({ force: true });
 
 async function openDemo(page, url, demo, more = "") {
-  await page.goto(`${url}#v=1&demo=${demo}${more}`);
-  await untilState(page, "done");
+  await openLink(page, url, `v=1&demo=${demo}${more}`);
   return untilDrawn(page);
 }
 
@@ -36,8 +35,7 @@ for (const demo of ["heads-sex", "stars-1", "planes"]) {
 
 test("the differences that are empty say so instead of showing something", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#v=1&demo=stars-1&diff=distance&beyond=1000&draws=400`);
-    await untilState(page, "done");
+    await openLink(page, url, "v=1&demo=stars-1&diff=distance&beyond=1000&draws=400");
     for (const name of ["aWithoutB", "bWithoutA"]) {
       await page
         .locator(`[data-pane="${name}"]`)

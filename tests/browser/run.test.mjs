@@ -7,6 +7,7 @@ import { shapevenn, temporaryFolder, timeless } from "./command.mjs";
 import {
   downloadReport,
   dropFiles,
+  openLink,
   shownMetrics,
   typeSetting,
   untilCompared,
@@ -113,8 +114,7 @@ for (const { build, query, link } of [
 
 test("running again gives the same numbers", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${SHORT}`);
-    await untilState(page, "done");
+    await openLink(page, url, SHORT);
     const first = await downloadReport(page);
     await button(page, "Run again").click();
     await untilState(page, "done");
@@ -138,8 +138,7 @@ test("the stored comparison run live gives its own numbers", async () => {
 
 test("a changed setting marks the numbers out of date, then runs; Back undoes it", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${SHORT}`);
-    await untilState(page, "done");
+    await openLink(page, url, SHORT);
     const before = await shownMetrics(page);
     await typeSetting(page, "Seed", "6");
     await page.getByText("Out of date", { exact: true }).waitFor();
@@ -173,8 +172,7 @@ test("σ belongs to its models: others get the one recommended for them", async 
 test("one model exchanged for another keeps the σ that was typed for them", async () => {
   await withPage({}, async ({ url, page }) => {
     const fixtures = join(root, "tests/fixtures");
-    await page.goto(`${url}#v=1&demo=planes&draws=400`);
-    await untilState(page, "done");
+    await openLink(page, url, "v=1&demo=planes&draws=400");
     await dropFiles(page, "body", [join(fixtures, "double.h5"), join(fixtures, "group.h5")]);
     await untilCompared(page, { a: "double.h5", b: "group.h5" });
     await typeSetting(page, "Tolerance σ", "0.5");
@@ -187,8 +185,7 @@ test("one model exchanged for another keeps the σ that was typed for them", asy
 
 test("a value that is none is refused in words and changes nothing", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${SHORT}`);
-    await untilState(page, "done");
+    await openLink(page, url, SHORT);
     const before = await shownMetrics(page);
     await typeSetting(page, "Tolerance σ", "-1");
     const field = page.getByRole("textbox", { name: "Tolerance σ" });
@@ -200,8 +197,7 @@ test("a value that is none is refused in words and changes nothing", async () =>
 
 test("a link opened again gives the same numbers and the same view", async () => {
   await withPage({}, async ({ url, page, another }) => {
-    await page.goto(`${url}#v=1&demo=stars-2`);
-    await untilState(page, "done");
+    await openLink(page, url, "v=1&demo=stars-2");
     await typeSetting(page, "Seed", "11");
     await untilShown(page, /seed 11$/);
     await page.getByRole("radio", { name: "Samples" }).check({ force: true });

@@ -10,6 +10,7 @@ import {
   download,
   downloadReport,
   dropFiles,
+  openLink,
   shownMetrics,
   untilCompared,
   untilShown,
@@ -39,16 +40,14 @@ function changed(file, change) {
 
 /** Two files of one's own, compared with a seed of their own. */
 async function openFiles(page, url) {
-  await page.goto(`${url}#${PLANES}&seed=3`);
-  await untilState(page, "done");
+  await openLink(page, url, `${PLANES}&seed=3`);
   await dropFiles(page, "body", [fixture("double.h5"), fixture("bfm-groups.h5")]);
   await untilCompared(page, { a: "double.h5", b: "bfm-groups.h5" });
 }
 
 test("a run file of examples brings models and settings back, and every number is the same", async () => {
   await withPage({}, async ({ url, page, another }) => {
-    await page.goto(`${url}#${STARS}`);
-    await untilState(page, "done");
+    await openLink(page, url, STARS);
     const before = await downloadReport(page);
     const file = await runFile(page);
     assert.equal(file.name, "shapevenn-run.json");
@@ -58,8 +57,7 @@ test("a run file of examples brings models and settings back, and every number i
     assert.equal(run.models.a.fingerprint, before.models.a.fingerprint);
 
     const other = await another();
-    await other.goto(`${url}#v=1&demo=heads-sex`);
-    await untilState(other, "done");
+    await openLink(other, url, "v=1&demo=heads-sex");
     await dropFiles(other, "body", [file]);
     await untilCompared(other, { a: "stars-2-a", b: "stars-2-b" });
     await untilShown(other, /seed 7\b/);
@@ -174,8 +172,7 @@ test("a wrong fingerprint is said, and its settings can be used all the same, or
 
 test("an example that is another one by now is said to be so", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${PLANES}`);
-    await untilState(page, "done");
+    await openLink(page, url, PLANES);
     const old = changed(await runFile(page), ({ models }) => {
       models.b.fingerprint = "0123456789abcdef0123456789abcdef";
     });
@@ -188,8 +185,7 @@ test("an example that is another one by now is said to be so", async () => {
 
 test("a model .json is a model, a damaged run file is refused in words", async () => {
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${PLANES}`);
-    await untilState(page, "done");
+    await openLink(page, url, PLANES);
     const model = await download(page, () =>
       page.getByRole("button", { name: "A∩B .json", exact: true }).click(),
     );

@@ -12,6 +12,7 @@ import {
   dropFiles,
   metric,
   nextRun,
+  openLink,
   untilCompared,
   untilDrawn,
   untilShown,
@@ -87,8 +88,7 @@ test("what cannot be downloaded is said in words, and what is open stays", async
   });
   const shut = await host({ "/m.h5": await bytesOf("double.h5") }, { cors: false });
   await withPage({}, async ({ url, page, errors }) => {
-    await page.goto(`${url}#${PLANES}`);
-    await untilState(page, "done");
+    await openLink(page, url, PLANES);
     const shown = await metric(page, "overlap.varianceOfAInB");
     for (const [address, code, words] of [
       [`${files.url}/none.h5`, "not-found", /none\.h5 does not exist: localhost:\d+ answered 404/],
@@ -147,8 +147,7 @@ test("a download shows how far it is, and can be cancelled", async () => {
     "/vague.h5": { bytes, wait, length: null },
   });
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${PLANES}`);
-    await untilState(page, "done");
+    await openLink(page, url, PLANES);
     const read = (name) => follow(page, `v=1&a=${files.url}/${name}&b=demo:planes-b&draws=400`);
     await read("vague.h5");
     await card(page, "A")
@@ -171,8 +170,7 @@ test("what is large is asked about first; “Not now” leaves everything, and n
   const bytes = Buffer.concat([await bytesOf("double.h5"), Buffer.alloc(51e6)]);
   const files = await host({ "/large.h5": bytes, "/vague.h5": { bytes, length: null } });
   await withPage({}, async ({ url, page }) => {
-    await page.goto(`${url}#${PLANES}`);
-    await untilState(page, "done");
+    await openLink(page, url, PLANES);
     const link = (name) => `v=1&a=${files.url}/${name}&b=demo:heads-male&draws=400`;
     const question = page.locator(".consent");
     await follow(page, link("large.h5"));
@@ -240,8 +238,7 @@ test("a pointer of Git LFS on GitHub is followed, and what arrives is checked", 
 
 test("a link of local files waits for the same files, and every number comes back", async () => {
   await withPage({}, async ({ url, page, another }) => {
-    await page.goto(`${url}#${PLANES}&seed=3&weighted=2048`);
-    await untilState(page, "done");
+    await openLink(page, url, `${PLANES}&seed=3&weighted=2048`);
     await dropFiles(page, "body", [fixture("double.h5"), fixture("bfm-groups.h5")]);
     await untilCompared(page, { a: "double.h5", b: "bfm-groups.h5" });
     const parts = card(page, "B").getByRole("combobox", { name: "Part of bfm-groups.h5" });
@@ -302,8 +299,7 @@ test("a link of local files waits for the same files, and every number comes bac
 
 test("one file and one example: the example is there, the file is waited for", async () => {
   await withPage({}, async ({ url, page, another }) => {
-    await page.goto(`${url}#v=1&demo=heads-sex&${RUN}`);
-    await untilState(page, "done");
+    await openLink(page, url, `v=1&demo=heads-sex&${RUN}`);
     const link = `${url}#v=1&a=demo:planes-a&name-b=mine.h5&hash-b=0123456789abcdef&${RUN}`;
     // In a page that shows something else nothing of that is lost before.
     await follow(page, new URL(link).hash);
@@ -397,8 +393,7 @@ test("on a phone everything in the dialog is within reach of a thumb", async () 
         globalThis.sent = what;
       };
     });
-    await page.goto(`${url}#${PLANES}`);
-    await untilState(page, "done");
+    await openLink(page, url, PLANES);
     const dialog = await openShare(page);
     await dialog.getByRole("img", { name: "QR code" }).waitFor();
     await dialog.getByText("In another web page").click();
@@ -421,8 +416,7 @@ for (const [width, height] of [
   test(`a frame of ${width} × ${height} shows shapes, a caption and the way out of it`, async () => {
     const viewport = { width, height };
     await withPage({ viewport }, async ({ url, page }) => {
-      await page.goto(`${url}#v=1&demo=heads-sex&sigma=1&embed=1`);
-      await untilState(page, "done");
+      await openLink(page, url, "v=1&demo=heads-sex&sigma=1&embed=1");
       await untilDrawn(page);
       for (const name of [".top", ".rail", ".tabs", ".toolbar"]) {
         assert.equal(await page.locator(name).filter({ visible: true }).count(), 0, name);

@@ -7,6 +7,7 @@ import { timeless } from "./command.mjs";
 import {
   downloadReport,
   dropFiles,
+  openLink,
   shownMetrics,
   typeSetting,
   untilCompared,
@@ -27,11 +28,6 @@ const radio = (page, name) => page.getByRole("radio", { name, exact: true });
 const button = (page, name) => page.getByRole("button", { name, exact: true });
 const text = (page, name) => page.getByRole("textbox", { name }).inputValue();
 const staleResults = (page) => page.locator('.results[data-stale="true"]');
-
-async function open(page, url, fragment) {
-  await page.goto(`${url}#${fragment}`);
-  await untilState(page, "done");
-}
 
 /** Reads until it is `expected`. */
 async function until(page, read, expected) {
@@ -66,7 +62,7 @@ async function undoes(page, what, read, act) {
 
 test("Undo and Redo are named, say their keys, and are there only where there is something to do", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, STARS);
+    await openLink(page, url, STARS);
     assert.match(await undo(page).getAttribute("title"), /^Undo \(/);
     assert.match(await redo(page).getAttribute("title"), /^Redo \(/);
     const can = async () => [await undo(page).isEnabled(), await redo(page).isEnabled()].join();
@@ -99,7 +95,7 @@ test("Undo and Redo are named, say their keys, and are there only where there is
 
 test("pressing Undo fast goes back as many steps as were taken", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, STARS);
+    await openLink(page, url, STARS);
     for (const name of ["Samples", "Map", "Mean", "Samples"]) {
       await radio(page, name).check({ force: true });
     }
@@ -116,7 +112,7 @@ test("pressing Undo fast goes back as many steps as were taken", async () => {
 
 test("view, region, tab, samples, differences and exaggeration are steps of their own", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, STARS);
+    await openLink(page, url, STARS);
     const stage = page.locator(".stage");
     const shown = (name) => () => stage.getAttribute(name);
     await undoes(page, "the view", shown("data-view"), () =>
@@ -172,7 +168,7 @@ test("view, region, tab, samples, differences and exaggeration are steps of thei
 
 test("maps, a locked scale and a vertex go back and forth", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, "v=1&demo=heads-sex&sigma=1&view=sd");
+    await openLink(page, url, "v=1&demo=heads-sex&sigma=1&view=sd");
     const map = page.getByRole("combobox", { name: "What is coloured" });
     await undoes(
       page,
@@ -207,7 +203,7 @@ test("maps, a locked scale and a vertex go back and forth", async () => {
 
 test("the lock of the colours of what is missed goes back and forth, and is in the link", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, "v=1&demo=stars-1&draws=400&room=explore");
+    await openLink(page, url, "v=1&demo=stars-1&draws=400&room=explore");
     const slider = page.getByRole("slider", { name: /^Direction 1,/ });
     await slider.press("ArrowRight");
     // A moment after the last key: then it is a step.
@@ -229,7 +225,7 @@ test("the lock of the colours of what is missed goes back and forth, and is in t
 
 test("other samples are drawn as they were once they are undone", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, "v=1&demo=heads-sex&sigma=1&view=samples");
+    await openLink(page, url, "v=1&demo=heads-sex&sigma=1&view=samples");
     const first = await untilDrawn(page);
     await button(page, "Resample").click();
     const second = await untilRedrawn(page, first);
@@ -242,7 +238,7 @@ test("other samples are drawn as they were once they are undone", async () => {
 
 test("settings, typed, chosen or on a slider, go back and forth", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, STARS);
+    await openLink(page, url, STARS);
     await undoes(
       page,
       "the seed",
@@ -286,7 +282,7 @@ test("settings, typed, chosen or on a slider, go back and forth", async () => {
 
 test("a part of a file goes back and forth", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, STARS);
+    await openLink(page, url, STARS);
     await dropFiles(page, "body", [fixture("bfm-groups.h5"), fixture("double.h5")]);
     await untilCompared(page, { a: "bfm-groups.h5", b: "double.h5" });
     const parts = page.getByRole("combobox", { name: "Part of bfm-groups.h5" });
@@ -301,7 +297,7 @@ test("a part of a file goes back and forth", async () => {
 
 test("the size of a population goes back and forth", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, STARS);
+    await openLink(page, url, STARS);
     await dropFiles(page, "body", [...meshes("female", 0, 7), ...meshes("male", 20, 6)]);
     await untilCompared(page, { a: "female", b: "male" });
     const card = page.getByRole("region", { name: "Model A" });
@@ -314,7 +310,7 @@ test("the size of a population goes back and forth", async () => {
 
 test("what helps a pair, and what undoes it, go back and forth", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, "v=1&demo=heads-sex&sigma=1&draws=400");
+    await openLink(page, url, "v=1&demo=heads-sex&sigma=1&draws=400");
     const pair = page.getByRole("region", { name: "Comparable?" });
     await pair.locator("summary").click();
     const done = () => pair.getByRole("button", { name: /^Undo: / }).count();
@@ -341,7 +337,7 @@ test("going back while models are still being opened gives them up", async () =>
         }
       };
     });
-    await open(page, url, STARS);
+    await openLink(page, url, STARS);
     const example = page.getByRole("combobox", { name: "Example" });
     await example.selectOption("planes");
     await untilCompared(page, { a: "planes-a", b: "planes-b" });
@@ -364,7 +360,7 @@ test("going back while models are still being opened gives them up", async () =>
 
 test("models that cannot be compared leave the results there, out of date; Undo makes them count again", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, "v=1&demo=heads-sex&sigma=1");
+    await openLink(page, url, "v=1&demo=heads-sex&sigma=1");
     const report = await downloadReport(page);
     await dropFiles(page, "body", [fixture("double.h5")]);
     await page.getByRole("alert").first().waitFor();
@@ -382,7 +378,7 @@ test("models that cannot be compared leave the results there, out of date; Undo 
 
 test("a file that cannot be opened changes no setting and leaves nothing to undo", async () => {
   await withPage({}, async ({ url, page }) => {
-    await open(page, url, `${STARS}&sigma=0.5`);
+    await openLink(page, url, `${STARS}&sigma=0.5`);
     const before = await shownMetrics(page);
     await dropFiles(page, "body", [{ name: "nothing.h5", bytes: Buffer.alloc(0) }]);
     await page.getByRole("alert").filter({ hasText: "nothing.h5" }).waitFor();
@@ -406,7 +402,7 @@ test("a run that fails leaves numbers and picture there, out of date, and says w
         }
       };
     });
-    await open(page, url, STARS);
+    await openLink(page, url, STARS);
     const report = await downloadReport(page);
     const results = async () =>
       (await shownMetrics(page)).filter(([path]) => !path.startsWith("intersection.tolerance"));
@@ -449,7 +445,7 @@ test("a run that is cancelled before it has draws leaves what was there, out of 
       };
       new MutationObserver(cancel).observe(document, { subtree: true, childList: true });
     });
-    await open(page, url, "v=1&demo=heads-sex&sigma=1");
+    await openLink(page, url, "v=1&demo=heads-sex&sigma=1");
     const report = await downloadReport(page);
     await page.evaluate(() => {
       globalThis.cancels = true;

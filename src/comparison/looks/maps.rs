@@ -15,10 +15,11 @@ use crate::comparison::Comparison;
 use crate::comparison::looks::exploring::Space;
 use crate::comparison::looks::regions::Region;
 use crate::error::ComparisonError;
+use crate::linalg::Moments;
 use crate::linalg::single;
 use crate::measure::{VertexCovariances, scaled_modes, semi_axes};
 use crate::model::{Kind, LinearModel, vertex_normals};
-use crate::pair::{JointModel, Moments, formed, nearest_coefficients};
+use crate::pair::{JointModel, formed, nearest_coefficients};
 
 /// What a map shows at every vertex, in the unit of A unless it says otherwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -11,8 +11,9 @@ use crate::comparison::Comparison;
 use crate::comparison::inference::Estimate;
 use crate::comparison::looks::regions::{RegionShapes, ShapeSource};
 use crate::comparison::results::{grassmann, pooled};
+use crate::linalg::Moments;
 use crate::linalg::single;
-use crate::pair::{Moments, ResidualOperator, effective_dimensions, fit_quickly};
+use crate::pair::{ResidualOperator, effective_dimensions, fit_quickly};
 use crate::report::{Grassmann, MomentSource};
 use crate::sampling::{Gaussian, Stream, fill_normal, stream};
 

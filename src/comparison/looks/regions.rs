@@ -4,9 +4,9 @@ use crate::model::Side;
 use serde::{Deserialize, Serialize};
 
 use crate::comparison::Comparison;
+use crate::linalg::Moments;
 use crate::linalg::single;
 use crate::measure::vertex_standard_deviations;
-use crate::pair::Moments;
 use crate::sampling::{Draws, Stream, fill_normal, stream, uniform};
 
 /// A region of the Venn diagram.

@@ -166,6 +166,34 @@ fn names_a_class(start: &[u8]) -> bool {
         && lines.next().is_some_and(|next| matches!(next, [b'p' | b'q' | b'(' | b')', ..]))
 }
 
+/// The text at the start of a file.
+struct Text<'a> {
+    /// What is looked at, without blanks before.
+    text: &'a str,
+    /// Whether the file goes on, so that the last line may be cut.
+    goes_on: bool,
+}
+
+type Rule = (Content, fn(&Text<'_>) -> bool);
+
+/// Formats that begin with text and may go on in binary, from the surest to the weakest.
+const HEADED: [Rule; 5] = [
+    (Content::Ply, |text| text.is_ply()),
+    (Content::Vtk, |text| text.is_vtk()),
+    (Content::Vtp, |text| text.is_vtk_xml()),
+    (Content::Stl, |text| text.is_stl()),
+    (Content::Json, |text| text.is_json()),
+];
+
+/// Formats that are text throughout, from the surest to the weakest.
+const PLAIN: [Rule; 5] = [
+    (Content::Tps, |text| text.is_tps()),
+    (Content::Obj, |text| text.is_obj()),
+    (Content::Clmtrackr, |text| text.is_clmtrackr()),
+    (Content::Numbers, |text| text.says_points()),
+    (Content::Numbers, |text| text.is_numeric()),
+];
+
 fn text_of(start: &[u8], length: u64) -> Option<Content> {
     // The last line may be cut; so may the last character.
     let text = match core::str::from_utf8(start) {
@@ -180,79 +208,83 @@ fn text_of(start: &[u8], length: u64) -> Option<Content> {
         }
     };
     let text = text.trim_start_matches('\u{feff}').trim_start();
-    if text.starts_with("ply\n") || text.starts_with("ply\r\n") || text.starts_with("ply\r") {
-        return Some(Content::Ply);
+    let text = Text { text, goes_on: length > LOOKED_AT as u64 };
+    let plain = if start.contains(&0) { &[][..] } else { &PLAIN[..] };
+    let found = HEADED.iter().chain(plain).find(|(_, holds)| holds(&text));
+    found.map(|(content, _)| *content)
+}
+
+impl<'a> Text<'a> {
+    fn lines(&self) -> impl Iterator<Item = &'a str> {
+        self.text.lines().map(str::trim).filter(|line| !line.is_empty())
     }
-    if text.starts_with("# vtk DataFile Version") {
-        return Some(Content::Vtk);
+
+    fn is_ply(&self) -> bool {
+        ["ply\n", "ply\r"].iter().any(|line| self.text.starts_with(line))
     }
-    if text.starts_with("<VTKFile") || text.starts_with("<?xml") && text.contains("<VTKFile") {
-        return Some(Content::Vtp);
+
+    fn is_vtk(&self) -> bool {
+        self.text.starts_with("# vtk DataFile Version")
     }
-    if text.starts_with("solid") && text.contains("facet") {
-        return Some(Content::Stl);
+
+    fn is_vtk_xml(&self) -> bool {
+        let text = self.text;
+        text.starts_with("<VTKFile") || text.starts_with("<?xml") && text.contains("<VTKFile")
     }
-    if text.starts_with('{') {
-        return Some(Content::Json);
+
+    fn is_stl(&self) -> bool {
+        self.text.starts_with("solid") && self.text.contains("facet")
     }
-    if start.contains(&0) {
-        return None;
+
+    fn is_json(&self) -> bool {
+        self.text.starts_with('{')
     }
-    let lines = || text.lines().map(str::trim).filter(|line| !line.is_empty());
-    let upper = |line: &str| line.to_ascii_uppercase();
-    if lines()
-        .take(20)
-        .any(|line| upper(line).starts_with("LM=") || upper(line).starts_with("LM3="))
-    {
-        return Some(Content::Tps);
+
+    fn is_tps(&self) -> bool {
+        let begins = |line: &str| line.starts_with("LM=") || line.starts_with("LM3=");
+        self.lines().take(20).any(|line| begins(&line.to_ascii_uppercase()))
     }
-    let first_word = |line: &str| line.split_whitespace().next().unwrap_or_default().to_owned();
-    if lines().take(200).any(|line| first_word(line) == "v" && line.split_whitespace().count() >= 4)
-        && lines().take(200).all(|line| {
+
+    fn is_obj(&self) -> bool {
+        const WORDS: [&str; 12] =
+            ["v", "vn", "vt", "vp", "f", "l", "o", "g", "s", "p", "mtllib", "usemtl"];
+        let first_word = |line: &str| line.split_whitespace().next().unwrap_or_default().to_owned();
+        let is_point = |line: &str| first_word(line) == "v" && line.split_whitespace().count() >= 4;
+        let is_statement = |line: &str| {
             line.starts_with('#')
-                || matches!(
-                    first_word(line).as_str(),
-                    "v" | "vn"
-                        | "vt"
-                        | "vp"
-                        | "f"
-                        | "l"
-                        | "o"
-                        | "g"
-                        | "s"
-                        | "p"
-                        | "mtllib"
-                        | "usemtl"
-                )
-                || (length > LOOKED_AT as u64 && text.ends_with(line))
-        })
-    {
-        return Some(Content::Obj);
+                || WORDS.contains(&first_word(line).as_str())
+                || self.goes_on && self.text.ends_with(line)
+        };
+        self.lines().take(200).any(is_point) && self.lines().take(200).all(is_statement)
     }
-    if text.contains("shapeModel") || text.contains("clmtrackr") || text.contains("pModel") {
-        return Some(Content::Clmtrackr);
+
+    fn is_clmtrackr(&self) -> bool {
+        ["shapeModel", "clmtrackr", "pModel"].iter().any(|word| self.text.contains(word))
     }
-    // The points of face alignment (`.pts`), and columns that say what they are.
-    let first_line = lines().next().unwrap_or_default().to_lowercase();
-    let is_pts = first_line.starts_with("version:") && text.contains("n_points:");
-    if is_pts || matches!(first_line.replace([' ', ';', '\t'], ",").as_str(), "x,y" | "x,y,z") {
-        return Some(Content::Numbers);
+
+    /// The points of face alignment (`.pts`), and columns that say what they are.
+    fn says_points(&self) -> bool {
+        let first = self.lines().next().unwrap_or_default().to_lowercase();
+        let is_pts = first.starts_with("version:") && self.text.contains("n_points:");
+        is_pts || matches!(first.replace([' ', ';', '\t'], ",").as_str(), "x,y" | "x,y,z")
     }
-    let is_number = |word: &str| word.parse::<f64>().is_ok();
-    let complete =
-        if length > LOOKED_AT as u64 { lines().count().saturating_sub(1) } else { usize::MAX };
-    let numeric = |line: &str| {
-        line.starts_with('#')
-            || line.split([' ', '\t', ',', ';']).filter(|word| !word.is_empty()).all(is_number)
-    };
-    // A table wider than what is looked at is one line that is cut in its last number.
-    let one_cut_line = complete == 0
-        && lines().next().is_some_and(|line| {
-            line.rsplit_once([' ', '\t', ',', ';']).is_some_and(|(whole, _)| numeric(whole))
-        });
-    (one_cut_line
-        || complete > 0 && lines().next().is_some() && lines().take(complete).all(numeric))
-    .then_some(Content::Numbers)
+
+    fn is_numeric(&self) -> bool {
+        const BETWEEN: [char; 4] = [' ', '\t', ',', ';'];
+        let is_number = |word: &str| word.parse::<f64>().is_ok();
+        let numeric = |line: &str| {
+            line.starts_with('#')
+                || line.split(BETWEEN).filter(|word| !word.is_empty()).all(is_number)
+        };
+        let complete =
+            if self.goes_on { self.lines().count().saturating_sub(1) } else { usize::MAX };
+        let Some(first) = self.lines().next() else { return false };
+        if complete == 0 {
+            // A table wider than what is looked at is one line that is cut in its last number.
+            return first.rsplit_once(BETWEEN).is_some_and(|(whole, _)| numeric(whole));
+        }
+        self.lines().take(complete).all(numeric)
+    }
 }
 
 /// Formats without a magic number, whose sizes must fit one another.
