@@ -11,8 +11,7 @@ mod common;
 
 use nalgebra::DMatrix;
 use shapevenn::linalg::Moments;
-use shapevenn::model::Side;
-use shapevenn::model::{Alignment, LinearModel};
+use shapevenn::model::{Alignment, LinearModel, Side};
 use shapevenn::pair::{Intersection, Joint, Pair, ResidualOperator, fit_rms, fit_variational_step};
 use shapevenn::sampling::{Draws, Gaussian, Importance, summarise};
 use shapevenn::settings::{Sampler, Settings};

@@ -9,11 +9,10 @@
 #[path = "../tests/common/mod.rs"]
 mod common;
 
-use shapevenn::model::Side;
 use std::time::Instant;
 
 use shapevenn::comparison::{Comparison, Stage};
-use shapevenn::model::{Alignment, LinearModel};
+use shapevenn::model::{Alignment, LinearModel, Side};
 use shapevenn::pair::{Intersection, Pair};
 use shapevenn::report::ModelReport;
 use shapevenn::sampling::{Stream, Target, fill_normal, stream};

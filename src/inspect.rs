@@ -5,7 +5,6 @@
 //! a run that was prepared says how in its report.
 
 use crate::model::Sides;
-use crate::report::Notice;
 use nalgebra::DVector;
 use serde::Serialize;
 use serde_json::{Value, json};
@@ -13,6 +12,7 @@ use serde_json::{Value, json};
 use crate::measure::mean_vertex_distance;
 use crate::model::{Alignment, Cells, Kind, LinearModel, Unit, procrustes};
 use crate::pair::{PairError, PointSelection, Preparation, SelectionError, SidePreparation};
+use crate::report::Notice;
 use crate::settings::Settings;
 use crate::text::three_digits;
 

@@ -5,8 +5,7 @@ use crate::common::{
     compared, face_like_pair, model, random_orthonormal, repetitions, report, warns,
 };
 use nalgebra::{DMatrix, DVector};
-use shapevenn::model::Side;
-use shapevenn::model::{Alignment, LinearModel};
+use shapevenn::model::{Alignment, LinearModel, Side};
 use shapevenn::pair::{Criterion, Difference, DifferenceDefinition, Level, Pair, ResidualOperator};
 use shapevenn::sampling::{Envelope, Rejection, Stream, fill_normal, stream};
 use shapevenn::settings::Settings;

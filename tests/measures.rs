@@ -9,8 +9,7 @@ use shapevenn::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, bhattacharyya_distance, principal_angles,
     vertex_standard_deviations,
 };
-use shapevenn::model::Side;
-use shapevenn::model::{Alignment, LinearModel, principal_components};
+use shapevenn::model::{Alignment, LinearModel, Side, principal_components};
 use shapevenn::pair::Pair;
 use shapevenn::sampling::{pareto_k, summarise};
 use shapevenn::settings::{Sampler, Settings};

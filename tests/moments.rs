@@ -6,8 +6,7 @@ use crate::common::{
 };
 use nalgebra::{DMatrix, DVector};
 use shapevenn::demos::{STAR_ROWS, star_pair};
-use shapevenn::model::Side;
-use shapevenn::model::{Alignment, LinearModel};
+use shapevenn::model::{Alignment, LinearModel, Side};
 use shapevenn::pair::{Intersection, Pair, ResidualOperator, fit_rms, fit_variational_step};
 use shapevenn::report::MomentSource;
 use shapevenn::sampling::{Gaussian, Importance, ImportanceEstimate};

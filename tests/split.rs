@@ -10,8 +10,7 @@ use crate::common::{compared, grassmann, random_orthonormal};
 use nalgebra::{DMatrix, DVector};
 use shapevenn::comparison::Comparison;
 use shapevenn::linalg::Moments;
-use shapevenn::model::Side;
-use shapevenn::model::{Alignment, LinearModel};
+use shapevenn::model::{Alignment, LinearModel, Side};
 use shapevenn::pair::{Joint, Pair, fit_rms, fit_variational_step};
 use shapevenn::settings::{Sampler, Settings};
 

@@ -16,9 +16,7 @@ use crate::model::Side;
 use nalgebra::DMatrix;
 
 use super::inference::Estimate;
-use crate::linalg::Moments;
-use crate::linalg::parallel;
-use crate::linalg::product;
+use crate::linalg::{Moments, parallel, product};
 use crate::pair::Joint;
 use crate::report::Accuracy;
 

@@ -16,9 +16,6 @@ mod results;
 mod summary;
 mod warnings;
 
-use crate::error::ComparisonError;
-use crate::model::Side;
-use crate::settings::Settings;
 pub(crate) use fitting::settled_fit;
 pub(crate) use inference::MOST_LEAPS;
 pub use looks::diagnostics_plots::{ChainFigures, Marginal, PairFigures};
@@ -32,15 +29,18 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use inference::Inference;
+
+use crate::error::ComparisonError;
 use crate::linalg::Moments;
-use crate::model::LinearModel;
+use crate::model::{LinearModel, Side};
 use crate::pair::{
     Criterion, Difference, DifferenceDefinition, Joint, JointModel, Level, Meeting, Pair,
     ResidualOperator, Tolerance, nearest_meeting, plausible_radius, recommended_tolerance,
 };
 use crate::report::{Diagnostics, DifferenceReport, ModeDiagnostics, ModelReport, Report, Seconds};
 use crate::sampling::{Draws, Gaussian, Rejection};
-use inference::Inference;
+use crate::settings::Settings;
 
 /// Proposals of the rejection sampler for each draw wanted, before it gives up.
 const MOST_PROPOSALS_PER_DRAW: u64 = 100;

@@ -7,8 +7,7 @@ use super::accuracy::accuracy;
 use super::inference::Estimate;
 use super::{Comparison, Finished, Stage, summary};
 use crate::error::ComparisonError;
-use crate::linalg::Moments;
-use crate::linalg::product;
+use crate::linalg::{Moments, product};
 use crate::measure::{
     AffineSpace, Displacement, ExclusiveModes, affine_grassmann_distance, compactness,
     exclusive_modes, linear_split, mean_vertex_distance, scaled_modes, unexplained_share,

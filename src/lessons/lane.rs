@@ -16,8 +16,7 @@ use super::ask::{
 use super::models::{Opened, standard};
 use super::target::LaneTarget;
 use crate::comparison::MOST_LEAPS;
-use crate::linalg::Moments;
-use crate::linalg::single;
+use crate::linalg::{Moments, single};
 use crate::pair::formed;
 use crate::sampling::{
     Chains, Draws, Envelope, Gaussian, IndependenceChains, RandomWalkChains, Rejection, Scaling,

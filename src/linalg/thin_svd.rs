@@ -17,8 +17,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::linalg::product;
-use crate::linalg::{gram, product_in_place};
+use crate::linalg::{gram, product, product_in_place};
 
 /// Matrices with fewer rows for each column are left to Householder.
 const TALL: usize = 8;

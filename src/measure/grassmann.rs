@@ -18,8 +18,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::linalg::product;
-use crate::linalg::{cross, singular_values};
+use crate::linalg::{cross, product, singular_values};
 use crate::model::LinearModel;
 
 /// Principal angles between the column spaces of two orthonormal bases (rows alike), smallest first, in

@@ -12,8 +12,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::linalg::cross;
-use crate::linalg::thin_svd;
+use crate::linalg::{cross, thin_svd};
 
 /// Cosines below which a partner is any direction that is left.
 const RIGHT_ANGLE: f64 = 1e-12;

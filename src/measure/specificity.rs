@@ -14,8 +14,7 @@
 use nalgebra::DMatrix;
 
 use super::vertices::mean_distance;
-use crate::linalg::parallel;
-use crate::linalg::product;
+use crate::linalg::{parallel, product};
 use crate::model::{LinearModel, evenly_spread};
 use crate::sampling::{Stream, fill_normal, stream};
 

@@ -26,8 +26,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::linalg::parallel;
-use crate::linalg::thin_svd;
+use crate::linalg::{parallel, thin_svd};
 use crate::model::LinearModel;
 use crate::pair::ResidualOperator;
 use crate::pair::intersection::Distances;

@@ -9,9 +9,8 @@
 use nalgebra::DVector;
 
 use super::residual_rows::with_rows;
-use crate::linalg::Moments;
-use crate::linalg::parallel;
 use crate::linalg::simd::Real;
+use crate::linalg::{Moments, parallel};
 use crate::model::LinearModel;
 use crate::pair::ResidualOperator;
 

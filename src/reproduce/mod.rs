@@ -27,8 +27,9 @@ pub use table1::{
 };
 pub use table2::{SplitFacts, Table2, table2};
 
-use crate::model::Side;
 use serde::Serialize;
+
+use printed::{Budget, DRAWS, Printed};
 
 use crate::comparison::{Comparison, Stage};
 use crate::error::ComparisonError;
@@ -36,11 +37,10 @@ use crate::linalg::Moments;
 use crate::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, paper_distance as distance,
 };
-use crate::model::LinearModel;
+use crate::model::{LinearModel, Side};
 use crate::pair::Joint;
 use crate::report::{MeanSd, ModelReport, MomentSource, Report, Seconds};
 use crate::settings::{Sampler, Settings};
-use printed::{Budget, DRAWS, Printed};
 
 /// The world outside, as an experiment needs it.
 pub trait Observer {

@@ -1,13 +1,13 @@
 //! Diagnosing runs, evaluating models, run files: this part of the engine's bindings.
 
 use crate::model::Side;
-use crate::model::Sides;
 use js_sys::{Array, Float32Array, Uint32Array};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use super::{Engine, blobs, fault, object, parsed, plain, thrown};
 use crate::files::{self, RunFile, RunModel, Sources};
+use crate::model::Sides;
 use crate::settings::Settings;
 
 /// What the page needs of a run file.

@@ -23,8 +23,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::comparison::Comparison;
 use crate::error::ComparisonError;
-use crate::linalg::combined;
-use crate::linalg::single;
+use crate::linalg::{combined, single};
 use crate::measure::{
     chi_square_above, patterns, principal_angles, principal_vectors, relative_eigenmodes,
     scaled_modes,

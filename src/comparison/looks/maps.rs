@@ -5,7 +5,6 @@
 //! varies, along the normal of the region's mean shape and across it; no shape is formed for that.
 
 use crate::model::Side;
-use crate::model::Sides;
 use std::borrow::Cow;
 
 use nalgebra::{DMatrix, DVector};
@@ -15,10 +14,9 @@ use crate::comparison::Comparison;
 use crate::comparison::looks::exploring::Space;
 use crate::comparison::looks::regions::Region;
 use crate::error::ComparisonError;
-use crate::linalg::Moments;
-use crate::linalg::single;
+use crate::linalg::{Moments, single};
 use crate::measure::{VertexCovariances, scaled_modes, semi_axes};
-use crate::model::{Kind, LinearModel, vertex_normals};
+use crate::model::{Kind, LinearModel, Sides, vertex_normals};
 use crate::pair::{JointModel, formed, nearest_coefficients};
 
 /// What a map shows at every vertex, in the unit of A unless it says otherwise.

@@ -4,8 +4,7 @@ use crate::model::Side;
 use serde::{Deserialize, Serialize};
 
 use crate::comparison::Comparison;
-use crate::linalg::Moments;
-use crate::linalg::single;
+use crate::linalg::{Moments, single};
 use crate::measure::vertex_standard_deviations;
 use crate::sampling::{Draws, Stream, fill_normal, stream, uniform};
 

@@ -18,8 +18,7 @@ use std::sync::Arc;
 use crate::formats::containers::arrays::{Array, Data, count_of, half_to_single, trimmed};
 use crate::formats::containers::tree::Tree;
 use crate::formats::error::{Fault, shape_text};
-use crate::formats::input::largest_array;
-use crate::formats::input::{Input, Storage};
+use crate::formats::input::{Input, Storage, largest_array};
 
 /// Longest text read from an attribute or a dataset, in bytes.
 const LONGEST_TEXT: usize = 1 << 20;

@@ -15,8 +15,7 @@ use crate::formats::containers::NamedArrays;
 use crate::formats::containers::arrays::{Array, Data};
 use crate::formats::containers::npy::{self, Header};
 use crate::formats::error::Fault;
-use crate::formats::input::largest_array;
-use crate::formats::input::{Input, Reader};
+use crate::formats::input::{Input, Reader, largest_array};
 
 /// What messages call it.
 pub(crate) const CONTAINER: &str = "MATLAB file";

@@ -26,8 +26,7 @@ use crate::formats::containers::arrays::count_of;
 use crate::formats::containers::mat::{Index, MOST_VARIABLES, Place, Stream, Variable};
 use crate::formats::containers::npy::Header;
 use crate::formats::error::Fault;
-use crate::formats::input::Input;
-use crate::formats::input::largest_array;
+use crate::formats::input::{Input, largest_array};
 
 const MATRIX: u32 = 14;
 const COMPRESSED: u32 = 15;

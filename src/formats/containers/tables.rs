@@ -4,8 +4,7 @@
 
 use crate::formats::containers::arrays::{Array, Data};
 use crate::formats::error::Fault;
-use crate::formats::input::Input;
-use crate::formats::input::compressed;
+use crate::formats::input::{Input, compressed};
 
 /// The table in a file, rows × columns; the file may be compressed.
 pub(crate) fn read(input: &Input, what: &str) -> Result<Array, Fault> {

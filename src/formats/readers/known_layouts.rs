@@ -56,8 +56,7 @@ use nalgebra::DVector;
 
 use crate::formats::containers::NamedArrays;
 use crate::formats::containers::arrays::{Array, Data};
-use crate::formats::error::not_numbers;
-use crate::formats::error::{Fault, counted, shape_text};
+use crate::formats::error::{Fault, counted, not_numbers, shape_text};
 use crate::formats::readers::assemble::{Ingredients, Named, Scaling, assemble, mesh_of};
 use crate::formats::readers::cells::Habit;
 use crate::formats::{Opened, Options, Origin, Part};

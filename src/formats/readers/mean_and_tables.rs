@@ -14,9 +14,8 @@
 use crate::formats::containers::arrays::{Array, Data};
 use crate::formats::containers::tables;
 use crate::formats::error::Fault;
-use crate::formats::input::Input;
-use crate::formats::input::compressed;
 use crate::formats::input::sniffing::Content;
+use crate::formats::input::{Input, compressed};
 use crate::formats::readers::assemble::{Ingredients, Named, Scaling, assemble};
 use crate::formats::readers::cells::{self, Habit};
 use crate::formats::readers::clmtrackr::only_part;

@@ -17,9 +17,7 @@
 use nalgebra::DVector;
 
 use crate::formats::error::Fault;
-use crate::formats::input::Input;
-use crate::formats::input::compressed;
-use crate::formats::input::paths;
+use crate::formats::input::{Input, compressed, paths};
 use crate::formats::readers::cells;
 use crate::formats::readers::sampled_blendshapes::sample;
 use crate::formats::several::naming::name_of;

@@ -15,20 +15,18 @@
 //! "Statistical Shape Analysis", 2nd ed. (2016), chapter 7.
 
 use crate::formats::error::{Fault, counted};
-use crate::formats::input::Input;
-use crate::formats::input::compressed;
-use crate::formats::input::paths;
+use nalgebra::DMatrix;
+
 use crate::formats::input::sniffing::Content;
+use crate::formats::input::{Input, compressed, paths};
 use crate::formats::mesh::stl::Welding;
-use crate::formats::mesh::{self, stl};
-use crate::formats::mesh::{Mesh, tps};
+use crate::formats::mesh::{self, Mesh, stl, tps};
 use crate::formats::readers::cells;
 use crate::formats::several::naming::name_of;
 use crate::formats::{FormatError, Opened, Options, Origin, Part};
 use crate::model::{
     Alignment, BasisCheck, Cells, ModelError, generalised_procrustes, into_principal_components,
 };
-use nalgebra::DMatrix;
 
 /// Largest root mean square deviation from the mean, relative to the size of the shapes, that single
 /// precision explains.
