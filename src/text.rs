@@ -36,10 +36,16 @@ mod tests {
 
     #[test]
     fn numbers_read_as_people_write_them() {
-        assert_eq!(
-            [7, 1234, 53_490, 1_000_000].map(thousands),
-            ["7", "1,234", "53,490", "1,000,000"]
-        );
+        for (number, text) in [
+            (0, "0"),
+            (7, "7"),
+            (999, "999"),
+            (4_388, "4,388"),
+            (53_490, "53,490"),
+            (1_000_000, "1,000,000"),
+        ] {
+            assert_eq!(thousands(number), text, "{number}");
+        }
         let values = [0.0, 123.456, 12.345, 0.012_345, -1234.5, 1.24e-9];
         assert_eq!(values.map(three_digits), ["0", "123", "12.3", "0.0123", "-1234", "1.2e-9"]);
     }

@@ -19,6 +19,7 @@ use crate::formats::error::Fault;
 use crate::formats::input::Input;
 use crate::formats::readers::assemble::{Ingredients, Named, Scaling, assemble};
 use crate::formats::readers::cells::Habit;
+use crate::formats::readers::parts::only_part;
 use crate::formats::{FormatError, Opened, Options, Origin, Part};
 use crate::model::Kind;
 
@@ -75,7 +76,7 @@ fn model(input: &Input, value: Value, options: &Options) -> Result<Opened, Fault
     let mut mean = numbers("meanShape")?;
     let basis = numbers("eigenVectors")?;
     let variances = numbers("eigenValues")?.into_f64().unwrap_or_default();
-    only_part(options)?;
+    only_part(options, "shape")?;
     if mean.data.len() % 2 != 0 {
         return Err(Fault::Shape {
             first: "The points are in 2 dimensions".to_owned(),
@@ -104,12 +105,4 @@ fn model(input: &Input, value: Value, options: &Options) -> Result<Opened, Fault
     let name = "shape".to_owned();
     let part = Part { name, model, check, origin: Origin::File, map: None, notes };
     Ok(Opened { format: FORMAT.to_owned(), parts: vec!["shape".to_owned()], part })
-}
-
-/// Refuses any part but the shape, of a file that has only that.
-pub(crate) fn only_part(options: &Options) -> Result<(), Fault> {
-    match options.part.as_deref() {
-        None | Some("shape") => Ok(()),
-        Some(part) => Err(Fault::NoPart { part: part.to_owned(), parts: vec!["shape".to_owned()] }),
-    }
 }

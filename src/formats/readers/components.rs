@@ -105,33 +105,3 @@ pub(crate) fn points(name: String, values: Vec<f64>) -> Named {
     let shape = vec![values.len() / 3, 3];
     Named { name, array: Array { shape, data: Data::F64(values) } }
 }
-
-/// Reads the wanted one of several parts, or the first that can be read.
-pub(crate) fn choose(
-    names: &[&str],
-    wanted: Option<&str>,
-    read: impl Fn(usize) -> Result<Part, Fault>,
-) -> Result<Part, Fault> {
-    if let Some(part) = wanted {
-        let Some(index) = names.iter().position(|name| *name == part) else {
-            let parts = names.iter().map(|&name| name.to_owned()).collect();
-            return Err(Fault::NoPart { part: part.to_owned(), parts });
-        };
-        return read(index);
-    }
-    let mut left_out = Vec::new();
-    let mut first_fault = None;
-    for (index, name) in names.iter().enumerate() {
-        match read(index) {
-            Ok(mut part) => {
-                part.notes.extend(left_out);
-                return Ok(part);
-            }
-            Err(fault) => {
-                left_out.push(format!("The part {name} was left out: {fault}"));
-                first_fault.get_or_insert(fault);
-            }
-        }
-    }
-    Err(first_fault.unwrap_or(Fault::Empty))
-}

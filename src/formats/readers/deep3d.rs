@@ -16,8 +16,8 @@ use crate::formats::containers::tables;
 use crate::formats::error::Fault;
 use crate::formats::input::Input;
 use crate::formats::input::sniffing::{Content, sniff};
-use crate::formats::readers::clmtrackr::only_part;
 use crate::formats::readers::components::Components;
+use crate::formats::readers::parts::only_part;
 use crate::formats::{FormatError, Opened, Options};
 use crate::model::{Kind, Unit};
 
@@ -43,7 +43,7 @@ pub(crate) fn open(
     options: &Options,
 ) -> Result<Opened, FormatError> {
     let read = || -> Result<Opened, Fault> {
-        only_expression(options)?;
+        only_part(options, "expression")?;
         let found = companions(main, others).ok_or_else(alone)?;
         let deviations = others[found[0]];
         let bytes = main.bytes().map_err(|error| error.fault)?;
@@ -76,16 +76,6 @@ pub(crate) fn open(
 pub(crate) fn alone() -> Fault {
     let what = "standard deviations of its modes".to_owned();
     Fault::Companion { what, expected: "std_exp.txt".to_owned() }
-}
-
-fn only_expression(options: &Options) -> Result<(), Fault> {
-    match options.part.as_deref() {
-        Some("expression") => Ok(()),
-        Some(part) => {
-            Err(Fault::NoPart { part: part.to_owned(), parts: vec!["expression".to_owned()] })
-        }
-        None => only_part(options),
-    }
 }
 
 fn modes_of(input: &Input) -> Option<usize> {

@@ -27,7 +27,8 @@ use crate::formats::error::{Fault, counted};
 use crate::formats::input::Input;
 use crate::formats::readers::assemble::mesh_of;
 use crate::formats::readers::cells::Habit;
-use crate::formats::readers::components::{Components, choose, points};
+use crate::formats::readers::components::{Components, points};
+use crate::formats::readers::parts::choose;
 use crate::formats::readers::sampled_blendshapes::sample;
 use crate::formats::{FormatError, Opened, Options, Part};
 use crate::model::{LinearModel, Unit};
@@ -38,7 +39,7 @@ pub(crate) fn read(input: &Input, options: &Options) -> Result<Opened, FormatErr
     let read = || -> Result<Opened, Fault> {
         let file = File::of(&bytes)?;
         let names = file.parts();
-        let part = choose(&names, options.part.as_deref(), |index| {
+        let (mut part, left_out) = choose(&names, options.part.as_deref(), |index| {
             let title = title(input, &names, index);
             if let ("expression", Expression::Blendshapes(list)) = (names[index], &file.expression)
             {
@@ -55,6 +56,7 @@ pub(crate) fn read(input: &Input, options: &Options) -> Result<Opened, FormatErr
             };
             pca.components(name).into_part(shape, triangles, Unit::Millimetre, &title)
         })?;
+        part.notes.extend(left_out);
         let parts = names.into_iter().map(str::to_owned).collect();
         Ok(Opened { format: file.format, parts, part })
     };

@@ -59,6 +59,7 @@ use crate::formats::containers::arrays::{Array, Data};
 use crate::formats::error::{Fault, counted, not_numbers, shape_text};
 use crate::formats::readers::assemble::{Ingredients, Named, Scaling, assemble, mesh_of};
 use crate::formats::readers::cells::Habit;
+use crate::formats::readers::parts::choose;
 use crate::formats::{Opened, Options, Origin, Part};
 use crate::model::{Cells, Kind, Unit};
 
@@ -334,42 +335,30 @@ pub(crate) fn read(
         }
     }
     let parts: Vec<String> = places.iter().map(|(name, ..)| name.clone()).collect();
-    let wanted = match &options.part {
-        None => 0..places.len(),
-        Some(part) => match parts.iter().position(|name| name == part) {
-            Some(index) => index..index + 1,
-            None => return Err(Fault::NoPart { part: part.clone(), parts }),
-        },
-    };
-    let mut left_out = Vec::new();
-    let mut first_fault = None;
-    for (name, layout, recipe) in &places[wanted] {
-        match read_part(table, layout, recipe) {
-            Ok((mut part, own_name)) => {
-                part.name.clone_from(name);
-                part.model = part.model.with_name(match own_name {
-                    Some(own) => own,
-                    None if parts.len() > 1 => format!("{file}#{name}"),
-                    None => file.to_owned(),
-                });
-                let is_said = part.notes.iter().any(|note| note.contains("cut off"));
-                part.notes
-                    .extend(table.damage().filter(|_| !is_said).map(|fault| fault.to_string()));
-                part.notes.extend(left_out);
-                let container = table.container();
-                let format = match layout.name {
-                    "" => container.to_owned(),
-                    known => format!("{known} ({container})"),
-                };
-                return Ok(Opened { format, parts, part });
-            }
-            Err(fault) => {
-                left_out.push(format!("The part {name} was left out: {fault}"));
-                first_fault.get_or_insert(fault);
-            }
-        }
+    if places.is_empty() && options.part.is_none() {
+        return Err(no_model(table));
     }
-    Err(first_fault.unwrap_or_else(|| no_model(table)))
+    let ((index, mut part, own_name), left_out) =
+        choose(&parts, options.part.as_deref(), |index| {
+            let (_, layout, recipe) = &places[index];
+            read_part(table, layout, recipe).map(|(part, own_name)| (index, part, own_name))
+        })?;
+    let (name, layout, _) = &places[index];
+    part.name.clone_from(name);
+    part.model = part.model.with_name(match own_name {
+        Some(own) => own,
+        None if parts.len() > 1 => format!("{file}#{name}"),
+        None => file.to_owned(),
+    });
+    let is_said = part.notes.iter().any(|note| note.contains("cut off"));
+    part.notes.extend(table.damage().filter(|_| !is_said).map(|fault| fault.to_string()));
+    part.notes.extend(left_out);
+    let container = table.container();
+    let format = match layout.name {
+        "" => container.to_owned(),
+        known => format!("{known} ({container})"),
+    };
+    Ok(Opened { format, parts, part })
 }
 
 /// The models of a table: at its top, else in its groups, those nearest to the top.

@@ -18,7 +18,7 @@ use crate::formats::input::sniffing::Content;
 use crate::formats::input::{Input, compressed};
 use crate::formats::readers::assemble::{Ingredients, Named, Scaling, assemble};
 use crate::formats::readers::cells::{self, Habit};
-use crate::formats::readers::clmtrackr::only_part;
+use crate::formats::readers::parts::only_part;
 use crate::formats::{FormatError, Opened, Options, Origin, Part, mesh};
 use crate::model::Kind;
 
@@ -44,7 +44,7 @@ pub(crate) fn open(
     options: &Options,
 ) -> Result<Opened, FormatError> {
     let read = || -> Result<Opened, Fault> {
-        only_part(options)?;
+        only_part(options, "shape")?;
         let found = companions(main, others).ok_or(Fault::Alone { format: "mean shape" })?;
         let unpacked = compressed::unpacked(main).map_err(|error| error.fault)?;
         let content = compressed::content(main).map_err(|error| error.fault)?;

@@ -9,6 +9,7 @@ pub(crate) mod eos;
 pub(crate) mod known_layouts;
 pub(crate) mod mean_and_tables;
 pub(crate) mod named_arrays;
+pub(crate) mod parts;
 pub(crate) mod plain_json;
 pub(crate) mod point_pca;
 pub(crate) mod sampled_blendshapes;

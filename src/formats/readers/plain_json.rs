@@ -18,7 +18,7 @@ use crate::formats::error::Fault;
 use crate::formats::input::Input;
 use crate::formats::readers::assemble::{Ingredients, Named, Scaling, assemble};
 use crate::formats::readers::cells::Habit;
-use crate::formats::readers::clmtrackr::only_part;
+use crate::formats::readers::parts::only_part;
 use crate::formats::{Opened, Options, Origin, Part};
 use crate::model::{Kind, ModelError, Unit};
 
@@ -43,7 +43,7 @@ pub(crate) fn read(
     };
     let part = if kind == Kind::Color { "color" } else { "shape" };
     if options.part.as_deref() != Some(part) {
-        only_part(options)?;
+        only_part(options, "shape")?;
     }
     let version = number(document, "version")?.unwrap_or(0.0);
     if version != f64::from(VERSION) {

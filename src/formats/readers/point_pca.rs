@@ -9,8 +9,8 @@ use crate::formats::containers::arrays::{Array, Data};
 use crate::formats::containers::bytes::{Bytes, f64s};
 use crate::formats::error::Fault;
 use crate::formats::input::Input;
-use crate::formats::readers::clmtrackr::only_part;
 use crate::formats::readers::components::Components;
+use crate::formats::readers::parts::only_part;
 use crate::formats::{FormatError, Opened, Options};
 use crate::model::Unit;
 
@@ -18,7 +18,7 @@ use crate::model::Unit;
 pub(crate) fn read(input: &Input, options: &Options) -> Result<Opened, FormatError> {
     let bytes = input.bytes()?;
     let read = || -> Result<Opened, Fault> {
-        only_part(options)?;
+        only_part(options, "shape")?;
         let mut bytes = Bytes::new(&bytes);
         let length = u64::from(bytes.u32("the start")?);
         let modes = u64::from(bytes.u32("the start")?);

@@ -22,7 +22,7 @@ use crate::formats::input::Input;
 use crate::formats::input::sniffing::{Content, sniff};
 use crate::formats::readers::assemble::{Ingredients, Named, Scaling, assemble};
 use crate::formats::readers::cells::Habit;
-use crate::formats::readers::clmtrackr::only_part;
+use crate::formats::readers::parts::only_part;
 use crate::formats::{FormatError, Opened, Options, Origin, Part};
 use crate::model::Kind;
 
@@ -61,7 +61,7 @@ pub(crate) fn read(
     others: &[&Input],
     options: &Options,
 ) -> Result<Opened, Fault> {
-    only_part(options)?;
+    only_part(options, "shape")?;
     let mut mean = Vec::new();
     for index in means(document, others)? {
         let file = others[index];

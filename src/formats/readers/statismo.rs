@@ -38,6 +38,7 @@ use crate::formats::input::sniffing::Content;
 use crate::formats::mesh::{self, Mesh};
 use crate::formats::readers::assemble::{Ingredients, Named, Scaling, assemble, mesh_of};
 use crate::formats::readers::cells::Habit;
+use crate::formats::readers::parts::choose;
 use crate::formats::{FormatError, Opened, Options, Origin, Part};
 use crate::model::{Cells, Kind, Unit};
 
@@ -93,40 +94,18 @@ pub(crate) fn read_tree(
             return Err(tree.cut_off().unwrap_or_else(|| no_model(tree)));
         }
         let parts: Vec<String> = places.iter().map(|place| place.name.clone()).collect();
-        let wanted = match &options.part {
-            None => 0..places.len(),
-            Some(part) => match parts.iter().position(|name| name == part) {
-                Some(index) => index..index + 1,
-                None => return Err(Fault::NoPart { part: part.clone(), parts }),
-            },
-        };
-        let mut left_out = Vec::new();
-        let mut first_fault = None;
-        for index in wanted {
-            let name = &parts[index];
-            match read_part(tree, &places, index) {
-                Ok((mut part, version)) => {
-                    part.model = part.model.with_name(if parts.len() > 1 {
-                        format!("{file}#{name}")
-                    } else {
-                        file.to_owned()
-                    });
-                    part.notes.extend(tree.cut_off().map(|fault| fault.to_string()));
-                    part.notes.extend(left_out);
-                    let format = tree.format().trim_end_matches(" file");
-                    return Ok(Opened {
-                        format: format!("statismo {format} {version}"),
-                        parts,
-                        part,
-                    });
-                }
-                Err(fault) => {
-                    left_out.push(format!("The part {name} was left out: {fault}"));
-                    first_fault.get_or_insert(fault);
-                }
-            }
-        }
-        Err(first_fault.unwrap_or_else(|| no_model(tree)))
+        let ((mut part, version), left_out) =
+            choose(&parts, options.part.as_deref(), |index| read_part(tree, &places, index))?;
+        let name = &part.name;
+        part.model = part.model.with_name(if parts.len() > 1 {
+            format!("{file}#{name}")
+        } else {
+            file.to_owned()
+        });
+        part.notes.extend(tree.cut_off().map(|fault| fault.to_string()));
+        part.notes.extend(left_out);
+        let format = tree.format().trim_end_matches(" file");
+        Ok(Opened { format: format!("statismo {format} {version}"), parts, part })
     };
     read().map_err(|fault| fault.of(&input.name))
 }

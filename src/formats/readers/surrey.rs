@@ -18,8 +18,9 @@ use crate::formats::containers::arrays::{Array, Data};
 use crate::formats::containers::bytes::{Bytes, f64s, i32s};
 use crate::formats::error::Fault;
 use crate::formats::input::Input;
-use crate::formats::readers::components::{Components, choose};
+use crate::formats::readers::components::Components;
 use crate::formats::readers::eos::title;
+use crate::formats::readers::parts::choose;
 use crate::formats::{FormatError, Opened, Options};
 use crate::model::Unit;
 
@@ -38,12 +39,13 @@ pub(crate) fn read(input: &Input, options: &Options) -> Result<Opened, FormatErr
             models.extend(Some(color).filter(|color| !color.mean.is_empty()));
         }
         let names: Vec<&str> = models.iter().map(|model| model.name).collect();
-        let part = choose(&names, options.part.as_deref(), |index| {
+        let (mut part, left_out) = choose(&names, options.part.as_deref(), |index| {
             let shape = (index > 0).then(|| f64s(models[0].mean));
             let title = title(input, &names, index);
             let components = models[index].components();
             components.into_part(shape, triangles.clone(), Unit::Millimetre, &title)
         })?;
+        part.notes.extend(left_out);
         let parts = names.into_iter().map(str::to_owned).collect();
         Ok(Opened { format: "Surrey model".to_owned(), parts, part })
     };

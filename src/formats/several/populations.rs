@@ -27,6 +27,7 @@ use crate::formats::{FormatError, Opened, Options, Origin, Part};
 use crate::model::{
     Alignment, BasisCheck, Cells, ModelError, generalised_procrustes, into_principal_components,
 };
+use crate::text::thousands;
 
 /// Largest root mean square deviation from the mean, relative to the size of the shapes, that single
 /// precision explains.
@@ -213,15 +214,15 @@ impl Shapes {
         let difference = if corners.len() != welding.corner_count() {
             Some(format!(
                 "It has {} faces, {first} has {}",
-                grouped(corners.len() / 3),
-                grouped(welding.corner_count() / 3)
+                thousands(corners.len() / 3),
+                thousands(welding.corner_count() / 3)
             ))
         } else {
             welding.disagreement(corners).map(|[one, other]| {
                 format!(
                     "A corner of face {} and one of face {} are one point in {first}, but lie apart here",
-                    grouped(one / 3 + 1),
-                    grouped(other / 3 + 1)
+                    thousands(one / 3 + 1),
+                    thousands(other / 3 + 1)
                 )
             })
         };
@@ -358,7 +359,7 @@ fn difference(first: &First, mesh: &Mesh) -> Option<String> {
         return Some(format!(
             "It has {}, {name} has {}",
             points(mesh.point_count()),
-            grouped(first.points)
+            thousands(first.points)
         ));
     }
     if same_cells(&mesh.cells, &first.cells) {
@@ -368,7 +369,7 @@ fn difference(first: &First, mesh: &Mesh) -> Option<String> {
     Some(if found == expected {
         format!("Its faces join other points than those of {name}")
     } else {
-        format!("It has {} faces, {name} has {}", grouped(found), grouped(expected))
+        format!("It has {} faces, {name} has {}", thousands(found), thousands(expected))
     })
 }
 
@@ -398,32 +399,12 @@ fn same_cells(a: &Cells, b: &Cells) -> bool {
 
 /// "1 point", "4,388 points".
 fn points(count: usize) -> String {
-    format!("{} {}", grouped(count), if count == 1 { "point" } else { "points" })
-}
-
-/// A whole number with a comma before each three digits.
-fn grouped(number: usize) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (place, digit) in digits.chars().enumerate() {
-        if place > 0 && (digits.len() - place).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
+    format!("{} {}", thousands(count), if count == 1 { "point" } else { "points" })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_grouped_by_thousands() {
-        for (number, text) in [(0, "0"), (999, "999"), (4_388, "4,388"), (1_000_000, "1,000,000")] {
-            assert_eq!(grouped(number), text, "{number}");
-        }
-    }
 
     #[test]
     fn faces_in_another_order_or_wound_the_other_way_are_the_same() {
