@@ -11,7 +11,7 @@ mod common;
 
 use nalgebra::DMatrix;
 use shapevenn::linalg::Moments;
-use shapevenn::model::{Alignment, LinearModel, Side};
+use shapevenn::model::{Alignment, LinearModel, Side, Sides};
 use shapevenn::pair::{Intersection, Joint, Pair, ResidualOperator, fit_rms, fit_variational_step};
 use shapevenn::sampling::{Draws, Gaussian, Importance, summarise};
 use shapevenn::settings::{Sampler, Settings};
@@ -44,16 +44,16 @@ fn pair(name: &str, models: &(LinearModel, LinearModel), sigmas: &[f64], sigma: 
 
 struct Fitted {
     joint: Joint,
-    sides: [ResidualOperator; 2],
-    fits: [Gaussian; 2],
+    sides: Sides<ResidualOperator>,
+    fits: Sides<Gaussian>,
     sigma: f64,
 }
 
 impl Fitted {
     fn new(a: &LinearModel, b: &LinearModel, sigma: f64) -> Self {
         let pair = Pair::new(a, b, Alignment::None, None).unwrap();
-        let sides = [pair.residual_operator(Side::A), pair.residual_operator(Side::B)];
-        let fits = [0, 1].map(|side| {
+        let sides = Sides::each(|side| pair.residual_operator(side));
+        let fits = Sides::each(|side| {
             let mut fit = fit_rms(&sides[side], sigma).unwrap();
             for _ in 0..8 {
                 fit = fit_variational_step(&sides[side], sigma, &fit).unwrap().0;
@@ -63,8 +63,8 @@ impl Fitted {
         Self { joint: pair.joint(), sides, fits, sigma }
     }
 
-    fn pooled(&self, moments: impl Fn(usize) -> Moments) -> DMatrix<f64> {
-        let [first, second] = [0, 1].map(|side| self.joint.lift(Side::BOTH[side], &moments(side)));
+    fn pooled(&self, moments: impl Fn(Side) -> Moments) -> DMatrix<f64> {
+        let [first, second] = Side::BOTH.map(|side| self.joint.lift(side, &moments(side)));
         Moments::pooled(&first, &second).covariance
     }
 
@@ -72,7 +72,7 @@ impl Fitted {
         self.pooled(|side| {
             let fit = &self.fits[side];
             let target = Intersection::new(&self.sides[side], self.sigma, fit.mean());
-            let mut run = Importance::new(fit.clone(), draws, seed, side);
+            let mut run = Importance::new(fit.clone(), draws, seed, side.index());
             while run.remaining() > 0 {
                 run.advance(&target, 8192);
             }
@@ -123,7 +123,8 @@ fn effective(a: &LinearModel, b: &LinearModel, sigma: f64) {
         let rates = run
             .results()
             .intersection
-            .map(|draws| worst(&draws).map(|effective| effective / draws.evaluations as f64));
+            .map(|draws| worst(&draws).map(|effective| effective / draws.evaluations as f64))
+            .into_array();
         let r_hat = common::report(&run).intersection.diagnostics.r_hat_max.unwrap();
         ([0, 1].map(|kind| rates[0][kind].min(rates[1][kind])), r_hat)
     };

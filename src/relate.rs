@@ -17,13 +17,9 @@ use crate::pair::{Joint, Pair, ResidualOperator, recommended_tolerance};
 use crate::report::{KullbackLeibler, Notice, Overlap};
 use crate::settings::Settings;
 
-/// Closed-form measures of two models. Where they cannot be compared there is a problem, and the numbers are
-/// NaN.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[serde(rename_all = "camelCase")]
+/// Closed-form measures of two models.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Relation {
-    /// Why the two cannot be compared with these settings.
-    pub problem: Option<Notice>,
     /// Points that are compared.
     pub points: usize,
     /// Share of A's variance that lies in the space of B.
@@ -44,43 +40,84 @@ pub struct Relation {
     pub noise: f64,
 }
 
-/// Closed-form measures of `a` and `b`, after the steps that the settings ask for.
-pub fn relate(a: &LinearModel, b: &LinearModel, settings: &Settings) -> Relation {
-    let pair = settings.check().map_err(ComparisonError::from).and_then(|()| {
-        let Settings { prepare, align, modes, .. } = settings;
-        Ok(Pair::prepared(a, b, prepare, *align, *modes)?)
-    });
-    match pair {
-        Ok(pair) => of_pair(&pair, settings),
-        Err(error) => Relation {
-            problem: Some(Notice::new(error.code(), &error, error.hint())),
-            points: 0,
-            variance_of_a_in_b: f64::NAN,
-            variance_of_b_in_a: f64::NAN,
-            grassmann: f64::NAN,
-            grassmann_affine: f64::NAN,
-            angles_degrees: Vec::new(),
-            mean_to_mean: f64::NAN,
-            bhattacharyya: None,
-            noise: f64::NAN,
-        },
+/// A relation as the page and `shapevenn matrix --json` have it: the reason instead of numbers where two models
+/// cannot be compared.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[serde(rename_all = "camelCase")]
+pub struct RelationReport {
+    /// Why the two cannot be compared with these settings.
+    pub problem: Option<Notice>,
+    /// Points that are compared.
+    pub points: usize,
+    /// [`Relation::variance_of_a_in_b`].
+    pub variance_of_a_in_b: Option<f64>,
+    /// [`Relation::variance_of_b_in_a`].
+    pub variance_of_b_in_a: Option<f64>,
+    /// [`Relation::grassmann`].
+    pub grassmann: Option<f64>,
+    /// [`Relation::grassmann_affine`].
+    pub grassmann_affine: Option<f64>,
+    /// [`Relation::angles_degrees`].
+    pub angles_degrees: Vec<f64>,
+    /// [`Relation::mean_to_mean`].
+    pub mean_to_mean: Option<f64>,
+    /// [`Relation::bhattacharyya`].
+    pub bhattacharyya: Option<f64>,
+    /// [`Relation::noise`].
+    pub noise: Option<f64>,
+}
+
+impl From<Result<Relation, ComparisonError>> for RelationReport {
+    fn from(found: Result<Relation, ComparisonError>) -> Self {
+        let (relation, problem) = match found {
+            Ok(relation) => (Some(relation), None),
+            Err(error) => (None, Some(Notice::new(error.code(), &error, error.hint()))),
+        };
+        let number = |value: fn(&Relation) -> f64| relation.as_ref().map(value);
+        Self {
+            problem,
+            points: relation.as_ref().map_or(0, |relation| relation.points),
+            variance_of_a_in_b: number(|relation| relation.variance_of_a_in_b),
+            variance_of_b_in_a: number(|relation| relation.variance_of_b_in_a),
+            grassmann: number(|relation| relation.grassmann),
+            grassmann_affine: number(|relation| relation.grassmann_affine),
+            mean_to_mean: number(|relation| relation.mean_to_mean),
+            bhattacharyya: relation.as_ref().and_then(|relation| relation.bhattacharyya),
+            noise: number(|relation| relation.noise),
+            angles_degrees: relation.map_or_else(Vec::new, |relation| relation.angles_degrees),
+        }
     }
 }
 
+/// Closed-form measures of `a` and `b`, after the steps that the settings ask for.
+///
+/// # Errors
+/// [`ComparisonError::Settings`] and [`ComparisonError::Pair`].
+pub fn relate(
+    a: &LinearModel,
+    b: &LinearModel,
+    settings: &Settings,
+) -> Result<Relation, ComparisonError> {
+    settings.check()?;
+    let pair = Pair::prepared(a, b, &settings.prepare, settings.align, settings.modes)?;
+    Ok(of_pair(&pair, settings))
+}
+
 fn of_pair(pair: &Pair, settings: &Settings) -> Relation {
-    let sides = [pair.residual_operator(Side::A), pair.residual_operator(Side::B)]
-        .map(|side| side.with_plausibility(settings.plausibility.share()));
-    let sides = [&sides[0], &sides[1]];
+    let operators = Sides::each(|side| {
+        pair.residual_operator(side).with_plausibility(settings.plausibility.share())
+    });
+    let operators = operators.as_ref();
     let joint = pair.joint();
-    let noise =
-        settings.sigma.unwrap_or_else(|| recommended_tolerance(pair, sides, settings.noise).sigma);
-    let overlap = overlap(pair, sides, &joint, noise);
+    let noise = settings
+        .sigma
+        .unwrap_or_else(|| recommended_tolerance(pair, operators, settings.noise).sigma);
+    let overlap = overlap(pair, operators, &joint, noise);
     let away = joint.coordinates_of(joint.origin());
     let spaces = Side::BOTH.map(|side| affine_space(&away, joint.mean(side), joint.modes(side)));
     let [grassmann, grassmann_affine] = [Displacement::Unit, Displacement::Full]
         .map(|displacement| affine_grassmann_distance(&spaces[0], &spaces[1], displacement));
     Relation {
-        problem: None,
         points: pair.a().point_count(),
         variance_of_a_in_b: overlap.variance_of_a_in_b,
         variance_of_b_in_a: overlap.variance_of_b_in_a,
@@ -96,30 +133,30 @@ fn of_pair(pair: &Pair, settings: &Settings) -> Relation {
 /// What the report says of two models' spaces and variances.
 pub(crate) fn overlap(
     pair: &Pair,
-    sides: [&ResidualOperator; 2],
+    operators: Sides<&ResidualOperator>,
     joint: &Joint,
     noise: f64,
 ) -> Overlap {
     let Sides { a, b } = pair.models();
-    let share = |side: &ResidualOperator, model: &LinearModel| {
-        (1.0 - side.gram().trace() / model.total_variance()).clamp(0.0, 1.0)
+    let share = |operator: &ResidualOperator, model: &LinearModel| {
+        (1.0 - operator.gram().trace() / model.total_variance()).clamp(0.0, 1.0)
     };
-    let laws = [joint.prior(Side::A), joint.prior(Side::B)];
-    let divergence = |from: usize, to: usize| {
-        kullback_leibler(&laws[from], &laws[to], noise).unwrap_or(f64::MAX)
+    let priors = Sides::each(|side| joint.prior(side));
+    let divergence = |from: Side| {
+        kullback_leibler(&priors[from], &priors[from.other()], noise).unwrap_or(f64::MAX)
     };
     Overlap {
         principal_angles_degrees: principal_angles(&joint.modes(Side::A), &joint.modes(Side::B))
             .into_iter()
             .map(f64::to_degrees)
             .collect(),
-        variance_of_a_in_b: share(sides[0], a),
-        variance_of_b_in_a: share(sides[1], b),
-        bhattacharyya: bhattacharyya_distance(&laws[0], &laws[1], noise).unwrap_or(f64::MAX),
+        variance_of_a_in_b: share(operators.a, a),
+        variance_of_b_in_a: share(operators.b, b),
+        bhattacharyya: bhattacharyya_distance(&priors.a, &priors.b, noise).unwrap_or(f64::MAX),
         bhattacharyya_noise: noise,
         kullback_leibler: Some(KullbackLeibler {
-            a_from_b: divergence(0, 1),
-            b_from_a: divergence(1, 0),
+            a_from_b: divergence(Side::A),
+            b_from_a: divergence(Side::B),
         }),
         mean_to_mean: mean_vertex_distance(a.mean(), b.mean(), a.dimension()),
     }

@@ -4,7 +4,7 @@ use core::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use crate::model::Alignment;
+use crate::model::{Alignment, Side};
 use crate::pair::{DifferenceDefinition, Preparation};
 
 /// How the intersection is sampled.
@@ -74,6 +74,17 @@ pub enum Pooling {
     B,
 }
 
+impl Pooling {
+    /// The sides that make the model.
+    pub(crate) fn sides(self) -> &'static [Side] {
+        match self {
+            Self::Both => &Side::BOTH,
+            Self::A => &[Side::A],
+            Self::B => &[Side::B],
+        }
+    }
+}
+
 /// How the plausibility under A and that under B are put together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -103,7 +114,7 @@ pub struct Settings {
     /// Tolerance σ of the distance likelihood, in the unit of model A; `null` asks for the
     /// recommended value. A report holds the value that was used.
     pub sigma: Option<f64>,
-    /// Whether `sigma` is the recommended value (set by the run).
+    /// Whether `sigma` is the recommended value, in the settings of a report or run file.
     pub sigma_recommended: bool,
     /// How far a true member of either population may lie from its own model, in the unit of A; `null`
     /// where that is not known. The recommended σ and the question whether the models meet heed it.
@@ -189,7 +200,55 @@ impl Settings {
     }
 }
 
+/// Where the σ of a run comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SigmaSource {
+    /// The settings.
+    Given,
+    /// [`crate::pair::recommended_tolerance`].
+    Recommended,
+}
+
+/// The tolerance σ of a run, in the unit of A.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sigma {
+    /// σ.
+    pub value: f64,
+    /// Where it comes from.
+    pub source: SigmaSource,
+}
+
 impl Settings {
+    /// The σ of a run, where `recommended` would be chosen if nothing were given. A run file gives the
+    /// recommended value along; it is called recommended as long as it still is.
+    pub fn sigma_beside(&self, recommended: f64) -> Sigma {
+        let value = self.sigma.unwrap_or(recommended);
+        let claimed = self.sigma.is_none() || self.sigma_recommended;
+        let source = if claimed && value == recommended {
+            SigmaSource::Recommended
+        } else {
+            SigmaSource::Given
+        };
+        Sigma { value, source }
+    }
+
+    /// The settings as a run with `sigma` used them: with them it can be run again.
+    #[must_use]
+    pub fn with_sigma(&self, sigma: Sigma) -> Self {
+        Self {
+            sigma: Some(sigma.value),
+            sigma_recommended: sigma.source == SigmaSource::Recommended,
+            ..self.clone()
+        }
+    }
+
+    /// The σ that these settings give, if they give one.
+    pub fn given_sigma(&self) -> Option<Sigma> {
+        let source =
+            if self.sigma_recommended { SigmaSource::Recommended } else { SigmaSource::Given };
+        self.sigma.map(|value| Sigma { value, source })
+    }
+
     /// From JSON; what is left out has the default of the sampler that it names.
     ///
     /// # Errors

@@ -73,7 +73,7 @@ fn draws_of_lines_and_planes_have_the_exact_mean_and_covariance() {
     for (name, a, b) in lines_and_planes() {
         for sigma in [0.05, 0.5] {
             let run = compared(&a, &b, Settings { sigma: Some(sigma), ..Settings::default() });
-            let draws = run.results().intersection;
+            let draws = run.results().intersection.into_array();
             for (side, (from, to)) in [(&a, &b), (&b, &a)].into_iter().enumerate() {
                 let off = standard_errors_from(&draws[side], &exact(from, to, sigma));
                 assert!(off < 5.0, "{name}, σ = {sigma}, side {side}: {off} standard errors");
@@ -223,7 +223,7 @@ fn shared_modes_multiply_and_own_modes_shrink_to_the_tolerance() {
         let off = standard_errors_from(draws, law);
         assert!(off < 5.0, "draws: {off} standard errors");
     }
-    let swapped = standard_errors_from(&run.results().intersection[0], &laws[1]);
+    let swapped = standard_errors_from(&run.results().intersection.a, &laws[1]);
     assert!(swapped > 5.0, "the other side's law passes with {swapped}");
     // In shapes, a shared mode of both sides has the product's variance 1/(1/λ_A + 1/λ_B).
     let found = report(&run).intersection.standard_deviations;
@@ -274,7 +274,7 @@ fn a_model_inside_another_has_an_empty_difference_and_the_other_has_not() {
     let run = compared(&inner, &outer, Settings { sigma: Some(0.05), ..Settings::default() });
     let diagonal = DVector::from_vec(vec![1.0 + 4.0 / 9.0, 1.0 + 1.0 / 6.25]);
     let law = Gaussian::from_precision(DVector::zeros(2), DMatrix::from_diagonal(&diagonal));
-    let off = standard_errors_from(&run.results().intersection[0], &law.unwrap());
+    let off = standard_errors_from(&run.results().intersection.a, &law.unwrap());
     assert!(off < 5.0, "the inner side has no distance term: {off} standard errors");
     let found = report(&run);
     assert_eq!(found.differences.a_without_b.probability, 0.0, "inner without outer");

@@ -156,8 +156,8 @@ fn the_variational_sampler_is_the_closed_form_and_its_draws_are_the_fits() {
     assert_eq!(inference.a.moments, MomentSource::ClosedForm, "{inference:?}");
     assert_eq!(inference.a.sampler, Sampler::Variational, "{inference:?}");
     assert_eq!(found.diagnostics.acceptance, 1.0, "nothing is rejected");
-    let [fit, _] = run.fits().unwrap();
-    let off = crate::common::standard_errors_from(&run.results().intersection[0], fit);
+    let fit = run.fits().unwrap().a;
+    let off = crate::common::standard_errors_from(&run.results().intersection.a, fit);
     assert!(off < 5.0, "{off} standard errors from the fit");
 }
 
@@ -207,7 +207,7 @@ fn either_side_alone_makes_the_model_when_asked_and_both_their_mixture() {
 fn a_preview_is_near_the_run_and_works_on_one_that_was_put_back() {
     let (a, b) = pair();
     let settings = Settings { sigma: Some(0.3), ..few() };
-    let mut run = compared(&a, &b, settings.clone());
+    let run = compared(&a, &b, settings.clone());
     let found = report(&run);
     let (prediction, shapes) = run.preview(0.3, 4, 1).unwrap();
     assert_eq!((shapes.count, shapes.source), (4, ShapeSource::Fit), "shapes of the fit");
@@ -218,7 +218,7 @@ fn a_preview_is_near_the_run_and_works_on_one_that_was_put_back() {
     let ratio = spread(&shapes.vertex_sd) / spread(&drawn.vertex_sd);
     assert!((ratio - 1.0).abs() < 0.02, "variation of the preview over the run's: {ratio}");
 
-    let mut back = Comparison::restored(&a, &b, found, &run.results().to_arrays()).unwrap();
+    let back = Comparison::restored(&a, &b, found, &run.results().to_arrays()).unwrap();
     let (again, _) = back.preview(0.3, 1, 1).unwrap();
     assert_eq!(again, prediction, "put back from its draws");
     let points = back.sweep(&[0.03, 0.3, 3.0]);

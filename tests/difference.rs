@@ -140,7 +140,7 @@ fn the_share_of_a_that_b_cannot_make_and_its_draws_have_their_closed_form() {
             let found = report(&run).differences.a_without_b;
             let off = (found.probability - law.probability()).abs();
             assert!(off < 5.0 * found.standard_error, "{name}: {} ± {}", found.probability, off);
-            let distances = &run.results().differences[0].statistics[0];
+            let distances = &run.results().differences.a.statistics[0];
             let squares: Vec<f64> = distances.iter().map(|d| d * d).collect();
             let (mean, error) = crate::common::mean_and_error(&[squares]);
             assert!(
@@ -264,12 +264,12 @@ fn sides_with_different_numbers_of_modes_have_draws_of_their_own_size() {
     let settings = Settings { draws: 200, difference_draws: 150, chains: 3, ..Settings::default() };
     let run = compared(&a, &b, settings);
     let results = run.results();
-    for (side, modes) in [5, 2].into_iter().enumerate() {
-        assert_eq!(results.differences[side].dimension, modes, "side {side}");
-        assert_eq!(results.differences[side].len(), 150, "side {side}");
-        assert_eq!(results.intersection[side].dimension, modes, "side {side}");
+    for (side, modes) in Side::BOTH.into_iter().zip([5, 2]) {
+        assert_eq!(results.differences[side].dimension, modes, "{side:?}");
+        assert_eq!(results.differences[side].len(), 150, "{side:?}");
+        assert_eq!(results.intersection[side].dimension, modes, "{side:?}");
         // 200 draws do not divide by 3 chains: 67 of each.
-        assert_eq!(results.intersection[side].len(), 201, "side {side}");
+        assert_eq!(results.intersection[side].len(), 201, "{side:?}");
     }
     assert_eq!(run.intersection().unwrap().mode_count(), 2, "no more than the smaller model");
 }

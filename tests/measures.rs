@@ -153,7 +153,7 @@ fn the_overlap_of_constructed_models_is_what_they_were_built_with() {
 /// All shapes of the intersection's draws of one side, one a column.
 fn lifted(run: &shapevenn::comparison::Comparison, side: Side) -> DMatrix<f64> {
     let from = run.pair().models()[side];
-    let draws = &run.results().intersection[side.index()];
+    let draws = &run.results().intersection[side];
     let shapes: Vec<DVector<f64>> = draws.iter_slices().map(|point| from.shape(point)).collect();
     DMatrix::from_columns(&shapes)
 }
@@ -232,7 +232,7 @@ fn components_in_the_joint_basis_are_those_of_all_coordinates() {
 fn vertex_maps_are_those_of_the_drawn_shapes() {
     let (a, b) = face_like_pair(20, 4);
     let run = compared(&a, &b, Settings { draws: 256, ..Settings::default() });
-    let draws = &run.results().differences[0];
+    let draws = &run.results().differences.a;
     let moments = Moments::of(draws.iter_slices(), draws.dimension);
     let map = vertex_standard_deviations(run.pair().a(), &moments.factor());
     let shapes: Vec<DVector<f64>> =

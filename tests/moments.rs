@@ -64,7 +64,7 @@ fn the_moments_are_those_of_the_target_and_not_those_of_the_fit() {
     let (a, b) = pair();
     let settings = Settings { sigma: Some(SIGMA), draws: 96_000, ..Settings::of(Sampler::Hmc) };
     let run = compared(&a, &b, settings);
-    let draws = &run.results().intersection[0];
+    let draws = &run.results().intersection.a;
     let law = Gaussian::from_precision(
         long.total.mean.clone(),
         long.total.covariance.clone().try_inverse().unwrap(),

@@ -7,7 +7,7 @@ use serde_json::json;
 use shapevenn::comparison::{Comparison, Region, ShapeSource, Stage};
 use shapevenn::demos;
 use shapevenn::error::ComparisonError;
-use shapevenn::model::{Alignment, Kind, LinearModel};
+use shapevenn::model::{Alignment, Kind, LinearModel, Side};
 use shapevenn::report::{ModelReport, Report, Seconds};
 use shapevenn::settings::{Sampler, Settings};
 
@@ -70,7 +70,7 @@ fn seeds_change_the_draws_and_sides_do_not_share_them() {
     let with = |seed: u64| compared(&a, &b, Settings { seed, ..few() }).results();
     let [first, again, other] = [1, 1, 2].map(with);
     assert_eq!(first, again, "the same seed");
-    for side in 0..2 {
+    for side in Side::BOTH {
         let differs = |x: &shapevenn::sampling::Draws, y: &shapevenn::sampling::Draws| {
             x.iter_slices().zip(y.iter_slices()).all(|(x, y)| x != y)
         };
@@ -78,7 +78,7 @@ fn seeds_change_the_draws_and_sides_do_not_share_them() {
         assert!(differs(&first.differences[side], &other.differences[side]), "difference");
     }
     let mirrored = compared(&a, &a, Settings { sigma: Some(1.0), ..few() }).results();
-    assert_ne!(mirrored.intersection[0], mirrored.intersection[1], "A with itself, two sides");
+    assert_ne!(mirrored.intersection.a, mirrored.intersection.b, "A with itself, two sides");
 }
 
 #[test]

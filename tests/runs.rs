@@ -31,7 +31,7 @@ fn figures_of_chains_are_those_behind_the_reports_r_hat() {
     let coefficients = report(&run).intersection.coefficients.unwrap();
     for side in Side::BOTH {
         let stated = &coefficients[side];
-        let draws = &run.results().intersection[side.index()];
+        let draws = &run.results().intersection[side];
         for mode in 0..4 {
             let chains = along(draws, |point| point[mode]);
             let found = run.diagnose(side, mode).unwrap();
@@ -78,14 +78,14 @@ fn pairs_are_draws_of_all_chains_beside_the_moments_and_the_fit() {
     let run = finished(Settings { draws: 800, ..Settings::default() });
     let found = run.pairs(Side::B, 3, 200).unwrap();
     assert_eq!((found.modes.as_slice(), found.count), (&[0, 1, 2][..], 200), "as asked for");
-    let draws = &run.results().intersection[1];
+    let draws = &run.results().intersection.b;
     let expected: Vec<f64> =
         draws.iter_slices().step_by(4).flat_map(|point| point[..3].to_vec()).collect();
     assert_eq!(found.draws, single(&expected), "each fourth draw");
     let moments = run.moments(Side::B).unwrap();
     assert_eq!(found.moments.mean, moments.mean.as_slice()[..3], "mean");
     assert_eq!(found.moments.covariance[1], moments.covariance[(0, 1)], "covariance");
-    let fit = run.fits().unwrap()[1];
+    let fit = run.fits().unwrap().b;
     let marginal = found.fit.unwrap();
     assert_eq!(marginal.mean, fit.mean().as_slice()[..3], "mean of the fit");
     assert_eq!(marginal.covariance[8], fit.covariance()[(2, 2)], "variance of the fit");

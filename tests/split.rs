@@ -113,7 +113,7 @@ fn of_draws(split: &Split, run: &Comparison) -> LinearModel {
     let joint = Pair::new(&split.a, &split.b, Alignment::None, None).unwrap().joint();
     let results = run.results();
     let [first, second] = Side::BOTH.map(|side| {
-        let draws = &results.intersection[side.index()];
+        let draws = &results.intersection[side];
         joint.lift(side, &Moments::of(draws.iter_slices(), draws.dimension))
     });
     joint.model(&Moments::pooled(&first, &second), SHARED).unwrap()

@@ -5,10 +5,12 @@
 //! sampler `auto` these decide: independence Metropolis–Hastings where the fit is good, else split
 //! Hamiltonian Monte Carlo, which does not freeze where the fit misses a tail.
 
+use std::sync::Arc;
+
 use super::fitting::Fitting;
 use crate::linalg::Moments;
 use crate::model::Side;
-use crate::pair::{Fit, Intersection, ResidualOperator, without_distance};
+use crate::pair::{Centre, Fit, Intersection, ResidualOperator, without_distance};
 use crate::report::{InferenceReport, MomentSource};
 use crate::sampling::{
     Chains, Draws, EndedChains, FitChains, Gaussian, Importance, ImportanceEstimate,
@@ -38,15 +40,50 @@ pub(super) struct Estimate {
 #[derive(Debug)]
 pub(super) struct Inference {
     side: Side,
-    fitting: Option<Fitting>,
-    fit: Option<Fit>,
-    importance: Option<Importance>,
-    weighted: Option<ImportanceEstimate>,
-    chosen: Option<(Sampler, String)>,
-    /// Moments of a run that was put back.
-    stored: Option<Moments>,
+    phase: Phase,
+    /// Without draws until the sampler is chosen.
     chains: Box<dyn Chains>,
-    ended: bool,
+}
+
+/// How far the inference of a side is.
+#[derive(Debug)]
+enum Phase {
+    /// The Gaussian fit is iterated.
+    Fitting(Fitting),
+    /// The fit is decided, and nothing drawn.
+    Fitted(Fitted),
+    /// Weighted draws of the fit correct its moments.
+    Weighing(Fitted, Importance),
+    /// The chosen sampler draws, or has drawn all.
+    Sampling(Sampling),
+    /// Draws were put back, with the moments that were kept beside them.
+    Stored(Option<Moments>),
+}
+
+impl Default for Phase {
+    fn default() -> Self {
+        Self::Stored(None)
+    }
+}
+
+#[derive(Debug)]
+struct Fitted {
+    fit: Fit,
+    /// The mean of the fit and its residual, about which single precision is accurate.
+    centre: Arc<Centre>,
+    /// Evaluations that the pilots of the fit have cost.
+    evaluations: u64,
+}
+
+#[derive(Debug)]
+struct Sampling {
+    fitted: Fitted,
+    weighted: Option<ImportanceEstimate>,
+    /// Evaluations that the weights have cost.
+    evaluations: u64,
+    sampler: Sampler,
+    /// Why this sampler, in a sentence.
+    reason: String,
 }
 
 impl Inference {
@@ -57,36 +94,36 @@ impl Inference {
         sigma: f64,
         settings: &Settings,
     ) -> Option<Self> {
+        let none = Draws::new(operator.mode_count(), settings.chains);
         Some(Self {
             side,
-            fitting: Some(Fitting::new(operator, sigma, settings, side)?),
-            fit: None,
-            importance: None,
-            weighted: None,
-            chosen: None,
-            stored: None,
-            chains: Box::new(EndedChains(Draws::new(operator.mode_count(), settings.chains))),
-            ended: false,
+            phase: Phase::Fitting(Fitting::new(operator, sigma, settings, side)?),
+            chains: Box::new(EndedChains(none)),
         })
     }
 
     /// A side that has ended, known by its draws and, where they were kept, its moments.
-    pub(super) fn ended(draws: Draws, moments: Option<Moments>) -> Self {
-        Self {
-            side: Side::A,
-            fitting: None,
-            fit: None,
-            importance: None,
-            weighted: None,
-            chosen: None,
-            stored: moments,
-            chains: Box::new(EndedChains(draws)),
-            ended: true,
+    pub(super) fn stored(side: Side, draws: Draws, moments: Option<Moments>) -> Self {
+        Self { side, phase: Phase::Stored(moments), chains: Box::new(EndedChains(draws)) }
+    }
+
+    fn fitted(&self) -> Option<&Fitted> {
+        match &self.phase {
+            Phase::Fitting(_) | Phase::Stored(_) => None,
+            Phase::Fitted(fitted) | Phase::Weighing(fitted, _) => Some(fitted),
+            Phase::Sampling(sampling) => Some(&sampling.fitted),
+        }
+    }
+
+    fn sampling(&self) -> Option<&Sampling> {
+        match &self.phase {
+            Phase::Sampling(sampling) => Some(sampling),
+            Phase::Fitting(_) | Phase::Fitted(_) | Phase::Weighing(..) | Phase::Stored(_) => None,
         }
     }
 
     pub(super) fn fit(&self) -> Option<&Fit> {
-        self.fit.as_ref()
+        self.fitted().map(|fitted| &fitted.fit)
     }
 
     pub(super) fn draws(&self) -> &Draws {
@@ -94,22 +131,29 @@ impl Inference {
     }
 
     pub(super) fn weighted(&self) -> Option<&ImportanceEstimate> {
-        self.weighted.as_ref()
+        self.sampling()?.weighted.as_ref()
     }
 
     /// Evaluations of the density so far; a gradient counts as two.
     pub(super) fn evaluations(&self) -> u64 {
-        let weighted = self.importance.as_ref().map_or(0, Importance::evaluations);
-        let pilots = self.fitting.as_ref().map_or(0, Fitting::evaluations);
-        pilots + weighted + self.chains.draws().evaluations
+        let before = match &self.phase {
+            Phase::Fitting(fitting) => fitting.evaluations(),
+            Phase::Fitted(fitted) => fitted.evaluations,
+            Phase::Weighing(fitted, importance) => fitted.evaluations + importance.evaluations(),
+            Phase::Sampling(sampling) => sampling.fitted.evaluations + sampling.evaluations,
+            Phase::Stored(_) => 0,
+        };
+        before + self.draws().evaluations
     }
 
-    /// One iteration of the fit; whether it is decided.
-    pub(super) fn advance_fit(&mut self, operator: &ResidualOperator) -> bool {
-        if self.fit.is_none() {
-            self.fit = self.fitting.as_mut().and_then(|fitting| fitting.advance(operator));
+    /// One iteration of the fit, if it is not decided yet.
+    pub(super) fn advance_fit(&mut self, operator: &ResidualOperator) {
+        let Phase::Fitting(fitting) = &mut self.phase else { return };
+        if let Some(fit) = fitting.advance(operator) {
+            let centre = Arc::new(Centre::new(operator, fit.gaussian.mean()));
+            let evaluations = fitting.evaluations();
+            self.phase = Phase::Fitted(Fitted { fit, centre, evaluations });
         }
-        self.fit.is_some()
     }
 
     /// About `evaluations` evaluations' worth of drawing. `None` when a sampler cannot start.
@@ -120,79 +164,80 @@ impl Inference {
         settings: &Settings,
         evaluations: usize,
     ) -> Option<()> {
-        let fit = self.fit.as_ref()?;
-        let target = Intersection::new(operator, sigma, fit.gaussian.mean());
-        if wants_weights(settings.sampler) && self.weighted.is_none() {
-            let importance = self.importance.get_or_insert_with(|| {
-                let gaussian = fit.gaussian.clone();
-                Importance::new(gaussian, settings.weighted, settings.seed, self.side.index())
-            });
-            importance.advance(&target, evaluations.div_ceil(2));
-            self.weighted = importance.estimate();
-        } else if self.chosen.is_none() {
-            let (sampler, why) = self.choose(settings.sampler);
-            self.chains = start(sampler, &fit.gaussian, operator, self.side, settings)?;
-            self.chosen = Some((sampler, why));
-        } else {
-            let a_step = self.chains.draws().values.len() * self.chains.evaluations_per_step();
-            self.chains.advance(&target, evaluations.div_ceil(a_step).max(1));
-            self.ended = self.chains.remaining() == 0;
-        }
+        let centre = self.fitted()?.centre.clone();
+        let target = Intersection::about(operator, sigma, centre);
+        self.phase = match std::mem::take(&mut self.phase) {
+            Phase::Fitted(fitted) if wants_weights(settings.sampler) => {
+                let gaussian = fitted.fit.gaussian.clone();
+                let importance =
+                    Importance::new(gaussian, settings.weighted, settings.seed, self.side.index());
+                Phase::Weighing(fitted, importance)
+            }
+            Phase::Fitted(fitted) => self.start(fitted, None, 0, operator, settings)?,
+            Phase::Weighing(fitted, mut importance) => {
+                importance.advance(&target, evaluations.div_ceil(2));
+                match importance.estimate() {
+                    Some(found) => {
+                        let spent = importance.evaluations();
+                        self.start(fitted, Some(found), spent, operator, settings)?
+                    }
+                    None => Phase::Weighing(fitted, importance),
+                }
+            }
+            Phase::Sampling(sampling) => {
+                let a_step = self.chains.draws().values.len() * self.chains.evaluations_per_step();
+                self.chains.advance(&target, evaluations.div_ceil(a_step).max(1));
+                Phase::Sampling(sampling)
+            }
+            phase @ (Phase::Fitting(_) | Phase::Stored(_)) => phase,
+        };
         Some(())
     }
 
+    /// Chooses the sampler and starts its chains.
+    fn start(
+        &mut self,
+        fitted: Fitted,
+        weighted: Option<ImportanceEstimate>,
+        evaluations: u64,
+        operator: &ResidualOperator,
+        settings: &Settings,
+    ) -> Option<Phase> {
+        let (sampler, reason) = choose(settings.sampler, weighted.as_ref());
+        self.chains = start(sampler, &fitted.fit.gaussian, operator, self.side, settings)?;
+        Some(Phase::Sampling(Sampling { fitted, weighted, evaluations, sampler, reason }))
+    }
+
     pub(super) fn is_done(&self) -> bool {
-        self.ended
+        match self.phase {
+            Phase::Fitting(_) | Phase::Fitted(_) | Phase::Weighing(..) => false,
+            Phase::Sampling(_) => self.chains.remaining() == 0,
+            Phase::Stored(_) => true,
+        }
     }
 
     /// Share of the drawing that is done, 0 to 1.
     pub(super) fn fraction(&self, settings: &Settings) -> f64 {
-        let steps = self.steps(settings) as f64;
-        if self.chosen.is_some() { 1.0 - self.chains.remaining() as f64 / steps } else { 0.0 }
+        self.sampling().map_or(0.0, |sampling| {
+            let steps = schedule(sampling.sampler, settings).steps();
+            1.0 - self.chains.remaining() as f64 / steps as f64
+        })
     }
 
-    fn steps(&self, settings: &Settings) -> usize {
-        self.chosen.as_ref().map_or(1, |(sampler, _)| schedule(*sampler, settings).steps())
-    }
-
-    /// The sampler that runs, and a sentence that says why.
-    fn choose(&self, asked: Sampler) -> (Sampler, String) {
-        if asked != Sampler::Auto {
-            return (asked, "It was asked for.".to_owned());
-        }
-        let Some(found) = &self.weighted else {
-            return (Sampler::Independence, "There are no weights to judge the fit by.".to_owned());
-        };
-        let k = found.pareto_k.unwrap_or(0.0);
-        let acceptance = 100.0 * found.acceptance;
-        if k < LARGEST_PARETO_K && found.acceptance >= LEAST_ACCEPTANCE {
-            let why = format!(
-                "The Gaussian fit is close: its weights have Pareto k {k:.2}, and {acceptance:.0} % of its draws would be accepted."
-            );
-            (Sampler::Independence, why)
-        } else {
-            let why = format!(
-                "The Gaussian fit is not close enough for independent proposals: its weights have Pareto k {k:.2}, and {acceptance:.0} % of its draws would be accepted."
-            );
-            (Sampler::Hmc, why)
-        }
-    }
-
-    /// Moments of the coefficients from what there is.
+    /// Moments of the coefficients from the draws so far, or from the fit.
     pub(super) fn estimate(&self, asked: Sampler) -> Option<Estimate> {
         let closed = |groups: Vec<Moments>| {
-            let gaussian = &self.fit.as_ref()?.gaussian;
-            let total =
-                Moments { mean: gaussian.mean().clone(), covariance: gaussian.covariance() };
+            let total = self.fit()?.gaussian.moments();
             Some(Estimate { source: MomentSource::ClosedForm, total, groups })
         };
-        if let Some(total) = self.stored.clone() {
+        if let Phase::Stored(Some(total)) = &self.phase {
+            let total = total.clone();
             return Some(Estimate { source: MomentSource::Draws, total, groups: Vec::new() });
         }
         if asked == Sampler::Variational {
             return closed(Vec::new());
         }
-        if let Some(found) = &self.weighted
+        if let Some(found) = self.weighted()
             && found.pareto_k.is_none_or(|k| k < LARGEST_PARETO_K)
             && found.total.covariance.clone().cholesky().is_some()
         {
@@ -218,8 +263,36 @@ impl Inference {
 
     /// What the report says of it.
     pub(super) fn report(&self, source: MomentSource) -> Option<InferenceReport> {
-        let (sampler, reason) = self.chosen.clone()?;
-        Some(InferenceReport { sampler, reason, fit: self.fit.as_ref()?.method, moments: source })
+        let Sampling { fitted, sampler, reason, .. } = self.sampling()?;
+        Some(InferenceReport {
+            sampler: *sampler,
+            reason: reason.clone(),
+            fit: fitted.fit.method,
+            moments: source,
+        })
+    }
+}
+
+/// The sampler that runs where `asked` was asked for, and a sentence that says why.
+fn choose(asked: Sampler, weighted: Option<&ImportanceEstimate>) -> (Sampler, String) {
+    if asked != Sampler::Auto {
+        return (asked, "It was asked for.".to_owned());
+    }
+    let Some(found) = weighted else {
+        return (Sampler::Independence, "There are no weights to judge the fit by.".to_owned());
+    };
+    let k = found.pareto_k.unwrap_or(0.0);
+    let acceptance = 100.0 * found.acceptance;
+    if k < LARGEST_PARETO_K && found.acceptance >= LEAST_ACCEPTANCE {
+        let why = format!(
+            "The Gaussian fit is close: its weights have Pareto k {k:.2}, and {acceptance:.0} % of its draws would be accepted."
+        );
+        (Sampler::Independence, why)
+    } else {
+        let why = format!(
+            "The Gaussian fit is not close enough for independent proposals: its weights have Pareto k {k:.2}, and {acceptance:.0} % of its draws would be accepted."
+        );
+        (Sampler::Hmc, why)
     }
 }
 

@@ -2,10 +2,11 @@
 
 use super::Comparison;
 use super::inference::LARGEST_PARETO_K;
+use super::run::Drawing;
 use crate::inspect::canonical;
 use crate::measure::mean_vertex_distance;
 use crate::model::{Alignment, Cells, Side, Sides, procrustes};
-use crate::report::{Notice, Report};
+use crate::report::{Notice, Report, ToleranceReport};
 use crate::settings::{Plausibility, Sampler};
 use crate::text::three_digits;
 
@@ -27,16 +28,16 @@ const LEADING_MODES: usize = 5;
 const WORTH_ALIGNING: f64 = 0.3;
 
 impl Comparison {
-    pub(super) fn warnings(&self, report: &Report) -> Vec<Notice> {
+    pub(super) fn warnings(&self, drawing: &Drawing, report: &Report) -> Vec<Notice> {
         let mut warnings = Vec::new();
         self.about_the_models(report, &mut warnings);
-        self.about_the_intersection(report, &mut warnings);
+        self.about_the_intersection(drawing, report, &mut warnings);
         self.about_the_differences(report, &mut warnings);
         warnings
     }
 
     fn about_the_models(&self, report: &Report, warnings: &mut Vec<Notice>) {
-        let Sides { a, b } = self.pair.models();
+        let Sides { a, b } = self.prepared.models();
         if let (Cells::Triangles(first), Cells::Triangles(second)) = (a.cells(), b.cells())
             && canonical(first) != canonical(second)
         {
@@ -76,7 +77,12 @@ impl Comparison {
         }
     }
 
-    fn about_the_intersection(&self, report: &Report, warnings: &mut Vec<Notice>) {
+    fn about_the_intersection(
+        &self,
+        drawing: &Drawing,
+        report: &Report,
+        warnings: &mut Vec<Notice>,
+    ) {
         let intersection = &report.intersection;
         if self.cancelled {
             warnings.push(Notice::new(
@@ -86,13 +92,15 @@ impl Comparison {
             ));
         }
         let diagnostics = &intersection.diagnostics;
-        let unsafe_weights = diagnostics.pareto_k.is_some_and(|k| k >= LARGEST_PARETO_K);
-        if unsafe_weights && self.settings.sampler != Sampler::Auto {
+        if let Some(k) = diagnostics.pareto_k
+            && k >= LARGEST_PARETO_K
+            && self.settings.sampler != Sampler::Auto
+        {
             warnings.push(Notice::new(
                 "pareto-k",
                 format!(
                     "The Gaussian fit misses a part of the intersection: Pareto k is {}, above 0.7.",
-                    three_digits(diagnostics.pareto_k.unwrap_or(f64::NAN))
+                    three_digits(k)
                 ),
                 "Choose the sampler “auto” or “hmc”, which do not depend on the fit.",
             ));
@@ -120,17 +128,17 @@ impl Comparison {
                 "Use it to compare with the paper only.",
             ));
         }
-        self.about_sigma(report, warnings);
+        self.about_sigma(drawing, report, warnings);
     }
 
     /// Whether the models meet at all, and whether σ says anything.
-    fn about_sigma(&self, report: &Report, warnings: &mut Vec<Notice>) {
+    fn about_sigma(&self, drawing: &Drawing, report: &Report, warnings: &mut Vec<Notice>) {
         let symbol = report.models.a.unit.symbol();
-        let Some(tolerance) = self.tolerance else { return };
-        let closest = self.closest_approach();
-        let meeting = self.meeting.as_ref().map_or(0.0, |meeting| meeting.distance);
+        let (tolerance, sigma) = (drawing.tolerance, drawing.drawn.sigma.value);
+        let closest = self.closest_approach(drawing);
+        let meeting = drawing.meeting.as_ref().map_or(0.0, |meeting| meeting.distance);
         let range = tolerance.farthest - tolerance.nearest;
-        let apart = tolerance.farthest > 1e-9 * self.pair.scale();
+        let apart = tolerance.farthest > 1e-9 * self.pair().scale();
         if apart && range <= 1e-3 * tolerance.farthest {
             warnings.push(Notice::new(
                 "parallel",
@@ -154,38 +162,39 @@ impl Comparison {
                 ),
                 "What is shown is their closest approach, not shapes that both can make.",
             ));
-        } else if closest > APART * self.sigma() {
+        } else if closest > APART * sigma {
             warnings.push(Notice::new(
                 "beyond-tolerance",
                 format!(
                     "Within σ = {} {symbol} the two models do not meet: the nearest shapes are {} {symbol} apart, and the intersection shows that closest approach.",
-                    three_digits(self.sigma()),
+                    three_digits(sigma),
                     three_digits(closest)
                 ),
                 "Read it as “as near as the two come”, choose a larger σ, or use more modes.",
             ));
         }
-        let predicted =
-            report.intersection.tolerance.as_ref().map_or(f64::NAN, |found| found.predicted);
-        if apart && predicted > tolerance.nearest + IDLE * range {
+        if let Some(ToleranceReport { predicted, .. }) = report.intersection.tolerance
+            && apart
+            && predicted > tolerance.nearest + IDLE * range
+        {
             warnings.push(Notice::new(
                 "sigma-large",
                 format!(
                     "σ = {} {symbol} is so large that the distance hardly acts: the shapes lie {} {symbol} from the other model, and would lie {} {symbol} from it without any tolerance.",
-                    three_digits(self.sigma()),
+                    three_digits(sigma),
                     three_digits(predicted),
                     three_digits(tolerance.farthest)
                 ),
                 "Choose a smaller σ; the recommended one uses a quarter of what there is.",
             ));
         }
-        let error = self.density_error();
+        let error = self.density_error(drawing);
         if error > LARGEST_DENSITY_ERROR {
             warnings.push(Notice::new(
                 "sigma-small",
                 format!(
                     "σ = {} {symbol} is so small beside the models that single precision blurs the density (by {} in its logarithm).",
-                    three_digits(self.sigma()),
+                    three_digits(sigma),
                     three_digits(error)
                 ),
                 "Choose a larger σ.",
@@ -194,17 +203,18 @@ impl Comparison {
     }
 
     /// Largest |Δ log p| between single and double precision over a few draws of each side.
-    fn density_error(&self) -> f64 {
+    fn density_error(&self, drawing: &Drawing) -> f64 {
         const DRAWS: usize = 4;
-        let sigma = self.sigma();
+        let sigma = drawing.drawn.sigma.value;
         let mut largest = 0.0_f64;
-        for (inference, side) in self.inferences.iter().zip(&self.sides) {
-            let draws = inference.draws();
+        for side in Side::BOTH {
+            let operator = self.prepared.operator(side);
+            let draws = drawing.drawn.inferences[side].draws();
             let stride = (draws.len() / DRAWS).max(1);
             let distances = draws.statistics.iter().flatten();
             for (point, distance) in draws.iter_slices().zip(distances).step_by(stride).take(DRAWS)
             {
-                let exact = side.mean_vertex_distance(point);
+                let exact = operator.mean_vertex_distance(point);
                 let error = 0.5 * (exact - distance) * (exact + distance) / (sigma * sigma);
                 largest = largest.max(error.abs());
             }
@@ -237,11 +247,11 @@ impl Comparison {
     }
 
     /// d at the means of the fits, averaged over the sides.
-    fn closest_approach(&self) -> f64 {
-        let fits = self.inferences.iter().filter_map(|one| one.fit());
-        let at_mean = fits
-            .zip(&self.sides)
-            .map(|(fit, side)| 0.5 * side.mean_vertex_distance(fit.gaussian.mean().as_slice()));
+    fn closest_approach(&self, drawing: &Drawing) -> f64 {
+        let at_mean = Side::BOTH.into_iter().filter_map(|side| {
+            let mean = drawing.drawn.inferences[side].fit()?.gaussian.mean();
+            Some(0.5 * self.prepared.operator(side).mean_vertex_distance(mean.as_slice()))
+        });
         at_mean.sum()
     }
 
@@ -251,13 +261,16 @@ impl Comparison {
             (Side::A, "A", "B", &differences.a_without_b),
             (Side::B, "B", "A", &differences.b_without_a),
         ];
+        let scale = self.pair().scale();
+        let is_empty =
+            |side: Side| self.settings.difference.is_empty(self.prepared.operator(side), scale);
         let nearly_all = |side: Side| {
             let difference = both[side.index()].3;
-            !self.is_empty(side)
+            !is_empty(side)
                 && difference.diagnostics.draws > 0
                 && difference.probability > NEARLY_ALL
         };
-        if self.is_empty(Side::A) && self.is_empty(Side::B) {
+        if is_empty(Side::A) && is_empty(Side::B) {
             let half = match self.settings.plausibility {
                 Plausibility::Product => {
                     " Their intersection has less variance than either, half where the two are the same, because the paper's posterior counts plausibility twice."
@@ -280,7 +293,7 @@ impl Comparison {
             return;
         }
         for (side, this, other, difference) in both {
-            if self.is_empty(side) {
+            if is_empty(side) {
                 warnings.push(Notice::new(
                     "empty-difference",
                     format!(

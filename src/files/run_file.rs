@@ -73,7 +73,7 @@ pub struct Sources {
 impl RunFile {
     /// That of a comparison, with the σ in use once it is known.
     pub fn of(comparison: &Comparison, sources: &Sources) -> Self {
-        let [a, b] = comparison.described();
+        let Sides { a, b } = comparison.described();
         let model = |report: &ModelReport, source: &Option<String>| RunModel {
             name: report.name.clone(),
             part: report.part.clone(),
@@ -84,7 +84,7 @@ impl RunFile {
             shapevenn: LAYOUT,
             engine: env!("CARGO_PKG_VERSION").to_owned(),
             models: Sides { a: model(a, &sources.a), b: model(b, &sources.b) },
-            settings: comparison.settings().clone(),
+            settings: comparison.settings_used(),
         }
     }
 

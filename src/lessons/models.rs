@@ -232,7 +232,7 @@ impl Opened {
             fits: Sides::each(law),
             angles: angles.into_iter().map(f64::to_degrees).collect(),
             distances: Sides::each(distance),
-            recommended: recommended_tolerance(&self.pair, sides, None).sigma,
+            recommended: recommended_tolerance(&self.pair, sides.into(), None).sigma,
         })
     }
 }

@@ -389,7 +389,7 @@ fn what_is_opened_is_what_a_comparison_would_compare() {
         }
         let mut run = Comparison::new(&a, &b, described, Settings::default()).unwrap();
         run.run().unwrap();
-        assert_eq!(models["recommended"], run.settings().sigma.unwrap(), "{pair}: σ by the rule");
+        assert_eq!(models["recommended"], run.sigma().unwrap().value, "{pair}: σ by the rule");
     }
     let turned = opened(json!({ "ask": "open", "pair": "stars-5", "turned": 8.0 })).1;
     let cut = opened(json!({ "ask": "open", "pair": "stars-5", "modes": 2 })).1;

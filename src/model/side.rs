@@ -64,6 +64,11 @@ impl<T> Sides<T> {
         Sides { a, b: to(self.b) }
     }
 
+    /// Pairs of what belongs to the same model.
+    pub fn zip<U>(self, other: Sides<U>) -> Sides<(T, U)> {
+        Sides { a: (self.a, other.a), b: (self.b, other.b) }
+    }
+
     /// References to both.
     pub fn as_ref(&self) -> Sides<&T> {
         Sides { a: &self.a, b: &self.b }

@@ -24,12 +24,15 @@
 //! probability 1 − p to within √(p(1 − p)/4096). ‖a′‖ is large wherever the other model has tiny
 //! standard deviations.
 
+use std::sync::Arc;
+
+use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use crate::linalg::{parallel, thin_svd};
 use crate::model::LinearModel;
 use crate::pair::ResidualOperator;
-use crate::pair::intersection::Distances;
+use crate::pair::intersection::{Centre, Distances};
 use crate::sampling::{
     Envelope, Evaluation, RejectionTarget, Stream, Target, Tilted, fill_normal, stream,
 };
@@ -73,11 +76,9 @@ pub enum Level {
 /// A definition in numbers, for one side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Criterion {
-    definition: DifferenceDefinition,
+    score: Score,
     /// σ, or the threshold of the score.
     level: f64,
-    /// λ/n of the model (q).
-    variances: Vec<f64>,
     envelope: Envelope,
     evaluations: u64,
 }
@@ -95,25 +96,19 @@ impl Criterion {
     ) -> Self {
         let points = side.point_count() as f64;
         let variances = model.standard_deviations().iter().map(|s| s * s / points).collect();
-        let mut criterion = Self {
-            definition,
-            level: f64::NAN,
-            variances,
-            envelope: Envelope::Prior(side.mode_count()),
-            evaluations: 0,
-        };
-        criterion.level = match level {
-            Level::Value(value) => value,
+        let score = Score { definition, variances };
+        let (level, evaluations) = match level {
+            Level::Value(value) => (value, 0),
             Level::Quantile(share) => {
-                let scores = Difference::new(side, &criterion).pilot(seed, index);
-                criterion.evaluations = scores.len() as u64;
-                quantile(scores, share)
+                let scores = score.pilot(side, seed, index);
+                let evaluations = scores.len() as u64;
+                (quantile(scores, share), evaluations)
             }
         };
-        if let Some(law) = criterion.tilted(side) {
-            criterion.envelope = Envelope::Tilted(law);
-        }
-        criterion
+        let envelope = score
+            .tilted(side, level)
+            .map_or_else(|| Envelope::Prior(side.mode_count()), Envelope::Tilted);
+        Self { score, level, envelope, evaluations }
     }
 
     /// σ for the soft difference, the threshold of the score for the others.
@@ -130,9 +125,49 @@ impl Criterion {
     pub fn evaluations(&self) -> u64 {
         self.evaluations
     }
+}
+
+/// What is compared with the level of a criterion.
+#[derive(Debug, Clone, PartialEq)]
+struct Score {
+    definition: DifferenceDefinition,
+    /// λ/n of the model (q).
+    variances: Vec<f64>,
+}
+
+impl Score {
+    /// Scores of B points (B × q, row by row) with their distances.
+    fn of(&self, distances: &Distances<'_>, points: &[f64]) -> Vec<(f64, f64)> {
+        let scored = |(distance, point): (f64, &[f64])| {
+            let score = match self.definition {
+                DifferenceDefinition::Soft | DifferenceDefinition::Distance => distance,
+                DifferenceDefinition::Relative => {
+                    let weighted = point.iter().zip(&self.variances);
+                    let square: f64 = weighted.map(|(a, variance)| a * a * variance).sum();
+                    distance / square.sqrt()
+                }
+                DifferenceDefinition::Outside => distances.side.projection_square(point).sqrt(),
+            };
+            (score, distance)
+        };
+        let modes = distances.side.mode_count();
+        distances.of(points).into_iter().zip(points.chunks_exact(modes)).map(scored).collect()
+    }
+
+    /// Scores of draws of the prior.
+    fn pilot(&self, side: &ResidualOperator, seed: u64, index: usize) -> Vec<f64> {
+        let blocks = parallel::map(PILOT_BLOCKS, |block| {
+            let mut random = stream(seed, Stream::Quantile, index, block);
+            let mut points = vec![0.0; PILOT_BLOCK * side.mode_count()];
+            fill_normal(&mut random, &mut points);
+            points
+        });
+        let scores = self.of(&about_the_mean(side), &blocks.concat());
+        scores.into_iter().map(|(score, _)| score).collect()
+    }
 
     /// The quadratic envelope, where it accepts more than the prior.
-    fn tilted(&self, side: &ResidualOperator) -> Option<Tilted> {
+    fn tilted(&self, side: &ResidualOperator, level: f64) -> Option<Tilted> {
         let points = side.point_count() as f64;
         // The bound on score², κ + 2 gᵀa + aᵀG a.
         let (constant, linear, gram) = match self.definition {
@@ -146,7 +181,7 @@ impl Criterion {
             }
         };
         let exponent = if self.definition == DifferenceDefinition::Soft { 0.5 } else { 1.0 };
-        let scale = exponent / (self.level * self.level);
+        let scale = exponent / (level * level);
         let mean = (constant + gram.trace()) * scale;
         if mean < 1.0 {
             let svd = thin_svd(&gram);
@@ -165,6 +200,12 @@ fn quantile(mut scores: Vec<f64>, share: f64) -> f64 {
     scores[place.min(scores.len() - 1)]
 }
 
+/// Distances in single precision about the mean shape.
+fn about_the_mean(side: &ResidualOperator) -> Distances<'_> {
+    let mean = DVector::zeros(side.mode_count());
+    Distances::about(side, Arc::new(Centre::new(side, &mean)))
+}
+
 /// The target of a side by a criterion. The statistic of a draw is its distance d.
 #[derive(Debug)]
 pub struct Difference<'a> {
@@ -175,7 +216,7 @@ pub struct Difference<'a> {
 impl<'a> Difference<'a> {
     /// Of the side that the criterion was made for.
     pub fn new(side: &'a ResidualOperator, criterion: &'a Criterion) -> Self {
-        Self { distances: Distances::new(side, vec![0.0; side.mode_count()]), criterion }
+        Self { distances: about_the_mean(side), criterion }
     }
 
     /// The same in double precision, one shape after the other: for models of a few points.
@@ -189,33 +230,7 @@ impl<'a> Difference<'a> {
 
     /// Scores of B points (B × q, row by row) with their distances.
     pub fn scores(&self, points: &[f64]) -> Vec<(f64, f64)> {
-        let scored = |(distance, point): (f64, &[f64])| {
-            let score = match self.criterion.definition {
-                DifferenceDefinition::Soft | DifferenceDefinition::Distance => distance,
-                DifferenceDefinition::Relative => {
-                    let weighted = point.iter().zip(&self.criterion.variances);
-                    let square: f64 = weighted.map(|(a, variance)| a * a * variance).sum();
-                    distance / square.sqrt()
-                }
-                DifferenceDefinition::Outside => {
-                    self.distances.side.projection_square(point).sqrt()
-                }
-            };
-            (score, distance)
-        };
-        let distances = self.distances.of(points).into_iter();
-        distances.zip(points.chunks_exact(self.modes())).map(scored).collect()
-    }
-
-    /// Scores of draws of the prior.
-    fn pilot(&self, seed: u64, index: usize) -> Vec<f64> {
-        let blocks = parallel::map(PILOT_BLOCKS, |block| {
-            let mut random = stream(seed, Stream::Quantile, index, block);
-            let mut points = vec![0.0; PILOT_BLOCK * self.modes()];
-            fill_normal(&mut random, &mut points);
-            points
-        });
-        self.scores(&blocks.concat()).into_iter().map(|(score, _)| score).collect()
+        self.criterion.score.of(&self.distances, points)
     }
 }
 
@@ -226,7 +241,7 @@ impl RejectionTarget for Difference<'_> {
 
     fn acceptance(&self, points: &[f64]) -> Vec<(f64, f64)> {
         let level = self.criterion.level;
-        let share = |score: f64| match self.criterion.definition {
+        let share = |score: f64| match self.criterion.score.definition {
             DifferenceDefinition::Soft => -libm::expm1(-0.5 * (score / level) * (score / level)),
             _ => f64::from(score >= level),
         };
@@ -252,7 +267,7 @@ impl Target for Difference<'_> {
 
     fn differentiate(&self, points: &[f64]) -> (Vec<Evaluation>, Vec<f64>) {
         let mut gradients: Vec<f64> = points.iter().map(|value| -value).collect();
-        if self.criterion.definition == DifferenceDefinition::Soft {
+        if self.criterion.score.definition == DifferenceDefinition::Soft {
             let (distances, slopes) = self.distances.with_gradients(points);
             let rows = gradients.chunks_exact_mut(self.modes());
             let slopes = slopes.chunks_exact(self.modes());
@@ -273,7 +288,7 @@ impl Target for Difference<'_> {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{DMatrix, DVector};
+    use nalgebra::DMatrix;
 
     use super::*;
     use crate::measure::mean_vertex_distance;

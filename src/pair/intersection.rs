@@ -1,7 +1,10 @@
 //! The intersection posterior, ready for a sampler.
 
+use std::sync::Arc;
+
 use nalgebra::DVector;
 
+use crate::linalg::single;
 use crate::pair::ResidualOperator;
 use crate::sampling::{Evaluation, Target};
 
@@ -15,22 +18,20 @@ pub fn distance_likelihood(distance: f64, sigma: f64) -> f64 {
 #[derive(Debug)]
 pub(crate) struct Distances<'a> {
     pub(crate) side: &'a ResidualOperator,
-    centre: Option<Centre>,
+    centre: Option<Arc<Centre>>,
 }
 
-/// A point about which steps are taken in single precision, and its residual, which is not.
+/// A point about which steps are taken in single precision, and its residual, which is computed in double.
 #[derive(Debug)]
-struct Centre {
+pub(crate) struct Centre {
     point: Vec<f64>,
     residual: Vec<f32>,
 }
 
 impl<'a> Distances<'a> {
     /// In single precision about a centre, many at once.
-    #[allow(clippy::cast_possible_truncation, reason = "single precision is the point")]
-    pub(crate) fn new(side: &'a ResidualOperator, centre: Vec<f64>) -> Self {
-        let residual = side.residual_at(&centre).into_iter().map(|value| value as f32).collect();
-        Self { side, centre: Some(Centre { point: centre, residual }) }
+    pub(crate) fn about(side: &'a ResidualOperator, centre: Arc<Centre>) -> Self {
+        Self { side, centre: Some(centre) }
     }
 
     /// In double precision, one by one: for models of a few points.
@@ -62,6 +63,11 @@ impl<'a> Distances<'a> {
 }
 
 impl Centre {
+    pub(crate) fn new(side: &ResidualOperator, point: &DVector<f64>) -> Self {
+        let residual = single(&side.residual_at(point.as_slice()));
+        Self { point: point.as_slice().to_vec(), residual }
+    }
+
     fn steps(&self, points: &[f64]) -> Vec<f64> {
         points
             .chunks_exact(self.point.len())
@@ -81,7 +87,12 @@ pub struct Intersection<'a> {
 impl<'a> Intersection<'a> {
     /// With tolerance σ, accurate to single precision about `centre` (the mean of a fit).
     pub fn new(side: &'a ResidualOperator, sigma: f64, centre: &DVector<f64>) -> Self {
-        Self { distances: Distances::new(side, centre.as_slice().to_vec()), sigma }
+        Self::about(side, sigma, Arc::new(Centre::new(side, centre)))
+    }
+
+    /// The same about a centre whose residual is known already.
+    pub(crate) fn about(side: &'a ResidualOperator, sigma: f64, centre: Arc<Centre>) -> Self {
+        Self { distances: Distances::about(side, centre), sigma }
     }
 
     /// The same in double precision throughout, one shape after the other: for models of a few points.

@@ -24,6 +24,7 @@ pub use fit::{
     Fit, FitMethod, effective_dimensions, expected_distance, fit_laplace, fit_quickly,
     fit_reweighted, fit_rms, fit_variational_step, fit_variational_step_every, without_distance,
 };
+pub(crate) use intersection::Centre;
 pub use intersection::{Intersection, distance_likelihood};
 pub use joint::{Joint, JointModel};
 pub use kernel::DistanceKernel;

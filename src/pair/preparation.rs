@@ -251,7 +251,7 @@ fn ranges_of_points(points: &[u32]) -> String {
 
 /// Two models made ready, and what became of them.
 #[derive(Debug, Clone)]
-pub(crate) struct Prepared {
+pub(crate) struct PreparedModels {
     pub(crate) models: [LinearModel; 2],
     pub(crate) moved: Similarity,
     /// Variance of the modes that were cut off, of both models together.
@@ -327,7 +327,7 @@ impl Preparation {
         b: &LinearModel,
         alignment: Alignment,
         modes: Option<usize>,
-    ) -> Result<Prepared, PairError> {
+    ) -> Result<PreparedModels, PairError> {
         if a.dimension() != b.dimension() {
             return Err(PairError::Dimension { a: a.dimension(), b: b.dimension() });
         }
@@ -371,7 +371,7 @@ impl Preparation {
         };
         let count = models[0].point_count();
         let Some(kept) = self.subsample.filter(|&kept| kept < count) else {
-            return Ok(Prepared { models, moved, cut_variance });
+            return Ok(PreparedModels { models, moved, cut_variance });
         };
         let points = evenly_spread(models[0].mean().as_slice(), models[0].dimension(), kept.max(1));
         let [a, b] = &models;
@@ -381,7 +381,7 @@ impl Preparation {
         let models = [thinned(a, "A")?, thinned(b, "B")?];
         // The noise of cut modes is per point: fewer points hold less of it.
         let cut_variance = cut_variance * kept as f64 / count as f64;
-        Ok(Prepared { models, moved, cut_variance })
+        Ok(PreparedModels { models, moved, cut_variance })
     }
 }
 

@@ -16,6 +16,7 @@
 
 use nalgebra::DVector;
 
+use crate::model::Sides;
 use crate::pair::fit::{expected_distance, without_distance};
 use crate::pair::{Pair, ResidualOperator};
 
@@ -43,7 +44,7 @@ pub struct Tolerance {
 /// model, where somebody knows; otherwise it is taken from the modes that were cut off, if any.
 pub fn recommended_tolerance(
     pair: &Pair,
-    sides: [&ResidualOperator; 2],
+    sides: Sides<&ResidualOperator>,
     noise: Option<f64>,
 ) -> Tolerance {
     let noise = noise.or_else(|| pair.noise_of_cut_modes());

@@ -4,7 +4,7 @@
 //! ([`Preparation`]). Different meshes need a correspondence first, which is part of that.
 
 use super::error::PairError;
-use super::preparation::{Preparation, Prepared};
+use super::preparation::{Preparation, PreparedModels};
 use super::{Joint, ResidualOperator};
 use crate::model::{Alignment, LinearModel, Side, Sides, Similarity};
 
@@ -44,7 +44,7 @@ impl Pair {
         alignment: Alignment,
         modes: Option<usize>,
     ) -> Result<Self, PairError> {
-        let Prepared { models: [a, b], moved, cut_variance } =
+        let PreparedModels { models: [a, b], moved, cut_variance } =
             preparation.apply(a, b, alignment, modes)?;
         Ok(Self { a, b, moved, cut_variance })
     }

@@ -37,9 +37,10 @@ use crate::linalg::Moments;
 use crate::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, paper_distance as distance,
 };
-use crate::model::{LinearModel, Side};
+use crate::model::{LinearModel, Side, Sides};
 use crate::pair::Joint;
 use crate::report::{MeanSd, ModelReport, MomentSource, Report, Seconds};
+use crate::sampling::Gaussian;
 use crate::settings::{Sampler, Settings};
 
 /// The world outside, as an experiment needs it.
@@ -293,10 +294,7 @@ impl Trial {
     /// The law of the intersection by the Gaussian fits alone, in the joint basis.
     fn closed_form(&self) -> Option<(Joint, Moments)> {
         let joint = self.run.pair().joint();
-        let [a, b] = self.run.fits()?.map(|fit| {
-            let (mean, covariance) = (fit.mean().clone(), fit.covariance());
-            Moments { mean, covariance }
-        });
+        let Sides { a, b } = self.run.fits()?.map(Gaussian::moments);
         let pooled = Moments::pooled(&joint.lift(Side::A, &a), &joint.lift(Side::B, &b));
         Some((joint, pooled))
     }

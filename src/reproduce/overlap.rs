@@ -157,7 +157,7 @@ fn row(pair: &PairOfModels) -> Result<OverlapRow, ComparisonError> {
     let report = run.report(Seconds::default()).ok_or(ComparisonError::NothingYet)?;
     let scale = run.pair().scale();
     let fixed = Settings { sigma: Some(RELATIVE_NOISE * scale), ..Settings::default() };
-    let (related, fixed) = (relate(a, b, &Settings::default()), relate(a, b, &fixed));
+    let (related, fixed) = (relate(a, b, &Settings::default())?, relate(a, b, &fixed)?);
     let sigma = related.noise;
     let joint = run.pair().joint();
     let law_a = joint.prior(Side::A);

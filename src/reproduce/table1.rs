@@ -155,7 +155,7 @@ fn rows(
 fn reconstruction_errors(trial: &Trial, side: Side, known: &LinearModel) -> Vec<f64> {
     let model = trial.run.pair().models()[side];
     let results = trial.run.results();
-    let draws = results.differences[side.index()].iter_slices();
+    let draws = results.differences[side].iter_slices();
     draws.map(|draw| reconstruction_error(known, &model.shape(draw))).collect()
 }
 

@@ -2,6 +2,8 @@
 
 use nalgebra::{DMatrix, DVector, DVectorView};
 
+use crate::linalg::Moments;
+
 /// N(μ, Λ⁻¹), with Λ = L Lᵀ and T = L⁻ᵀ, so that μ + T z has this law for z ~ N(0, I).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gaussian {
@@ -33,6 +35,11 @@ impl Gaussian {
     /// μ.
     pub fn mean(&self) -> &DVector<f64> {
         &self.mean
+    }
+
+    /// μ and Λ⁻¹.
+    pub fn moments(&self) -> Moments {
+        Moments { mean: self.mean.clone(), covariance: self.covariance() }
     }
 
     /// Λ.

@@ -7,6 +7,7 @@ use wasm_bindgen::prelude::*;
 use super::{Engine, object, parsed, plain, settings_of, thrown};
 use crate::comparison::{AxesKind, Comparison, Explored, MapName, Nearest, Region, Space};
 use crate::files::Error;
+use crate::relate::{RelationReport, relate};
 
 fn array(values: &[f32]) -> JsValue {
     Float32Array::from(values).into()
@@ -141,6 +142,6 @@ impl Engine {
     pub fn relate(&self, a: u32, b: u32, settings: JsValue) -> Result<JsValue, JsValue> {
         let settings = settings_of(settings)?;
         let (first, second) = (self.model(a)?, self.model(b)?);
-        Ok(plain(&crate::relate::relate(&first.model, &second.model, &settings)))
+        Ok(plain(&RelationReport::from(relate(&first.model, &second.model, &settings))))
     }
 }

@@ -422,15 +422,15 @@ fn sweep(
     while run.stage() == Stage::Prepare {
         run.advance(1).map_err(Error::from)?;
     }
-    let recommended = run.settings().sigma.unwrap_or(f64::NAN);
-    let around = (0..POINTS).map(|k| recommended * libm::pow(10.0, f64::from(k) / 4.0 - 2.0));
+    let sigma = run.sigma().ok_or_else(|| Failure::System("no σ".to_owned()))?.value;
+    let around = (0..POINTS).map(|k| sigma * libm::pow(10.0, f64::from(k) / 4.0 - 2.0));
     let sigmas = if sigmas.is_empty() { around.collect() } else { sigmas };
     let points = run.sweep(&sigmas);
     if json {
         println!("{}", to_json(&points)?);
         return Ok(());
     }
-    println!("recommended σ = {recommended:.4}");
+    println!("recommended σ = {sigma:.4}");
     println!("       σ   distance    nearest  dimensions  vertex sd  d_G to A    to B  to union");
     for point in points {
         let found = point.prediction;

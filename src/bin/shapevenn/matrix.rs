@@ -4,7 +4,7 @@ use clap::Args;
 use serde::Serialize;
 use shapevenn::error::ComparisonError;
 use shapevenn::files::Error;
-use shapevenn::relate::{Relation, relate};
+use shapevenn::relate::{RelationReport, relate};
 use shapevenn::settings::Settings;
 
 use crate::{Failure, document, prepare, sources, to_json};
@@ -32,7 +32,7 @@ struct Cell {
     a: usize,
     b: usize,
     #[serde(flatten)]
-    relation: Relation,
+    relation: RelationReport,
 }
 
 #[derive(Debug, Serialize)]
@@ -44,15 +44,11 @@ struct Matrix {
 impl Matrix {
     /// What is said of row and column; the share is of the row's variance in the space of the column.
     fn cell(&self, row: usize, column: usize) -> Option<(f64, f64)> {
-        let of = |a: usize, b: usize| {
-            let cell = self.relations.iter().find(|cell| cell.a == a && cell.b == b)?;
-            cell.relation.problem.is_none().then_some(&cell.relation)
-        };
-        if row < column {
-            of(row, column).map(|found| (found.variance_of_a_in_b, found.grassmann))
-        } else {
-            of(column, row).map(|found| (found.variance_of_b_in_a, found.grassmann))
-        }
+        let (first, second) = (row.min(column), row.max(column));
+        let cell = self.relations.iter().find(|cell| cell.a == first && cell.b == second)?;
+        let found = &cell.relation;
+        let share = if row < column { found.variance_of_a_in_b } else { found.variance_of_b_in_a };
+        Some((share?, found.grassmann?))
     }
 
     fn table(&self, value: impl Fn((f64, f64)) -> String) -> String {
@@ -91,7 +87,7 @@ pub(crate) fn matrix(arguments: &Arguments) -> Result<(), Failure> {
     };
     for a in 0..models.len() {
         for b in a + 1..models.len() {
-            let relation = relate(&models[a].model, &models[b].model, &settings);
+            let relation = relate(&models[a].model, &models[b].model, &settings).into();
             found.relations.push(Cell { a, b, relation });
         }
     }

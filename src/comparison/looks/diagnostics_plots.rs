@@ -114,9 +114,8 @@ impl Comparison {
         let count = most.min(total);
         let chosen = (0..count).map(|index| states[index * total / count]);
         let moments = self.moments(side).ok_or_else(|| no_draws(side))?;
-        let fit = self.inferences[side.index()]
-            .fit()
-            .map(|fit| marginal(fit.gaussian.mean(), &fit.gaussian.covariance(), modes));
+        let fit =
+            self.fits().map(|fits| marginal(fits[side].mean(), &fits[side].covariance(), modes));
         Ok(PairFigures {
             modes: (0..modes).collect(),
             count,
@@ -128,7 +127,7 @@ impl Comparison {
 
     /// The draws of a side and how many each chain has, if they are enough.
     fn drawn(&self, side: Side) -> Result<(&Draws, usize), ComparisonError> {
-        let draws = self.inferences.get(side.index()).map(crate::comparison::Inference::draws);
+        let draws = self.run.drawn().map(|drawn| drawn.inferences[side].draws());
         let found = draws.and_then(|draws| Some((draws, summary::common_length(draws)?)));
         found.ok_or_else(|| no_draws(side))
     }

@@ -21,9 +21,9 @@ use crate::model::{Side, Sides};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use crate::comparison::Comparison;
+use crate::comparison::{Comparison, overflow};
 use crate::error::ComparisonError;
-use crate::linalg::{combined, single};
+use crate::linalg::{Sum, combined, single};
 use crate::measure::{
     chi_square_above, patterns, principal_angles, principal_vectors, relative_eigenmodes,
     scaled_modes,
@@ -101,8 +101,8 @@ pub struct Nearest {
     pub norm: f64,
     /// P(χ²_q ≥ ‖a′‖²): the share of the model's own shapes that are less plausible.
     pub plausibility: f64,
-    /// L_D = exp(−½(d/σ)²) at the σ in use; NaN before there is one.
-    pub likelihood: f64,
+    /// L_D = exp(−½(d/σ)²) at the σ in use; `None` before there is one.
+    pub likelihood: Option<f64>,
 }
 
 /// A shape of a space, and what both models make of it.
@@ -131,7 +131,6 @@ impl Comparison {
     /// [`ComparisonError::NothingYet`] while there is no intersection or σ; [`ComparisonError::Asked`] for axes of the
     /// intersection that are between two models.
     pub fn axes(&mut self, space: Space, kind: AxesKind) -> Result<Axes, ComparisonError> {
-        self.prepare_sides();
         let Some(side) = space.side() else { return self.intersection_axes(kind) };
         if let Some(found) = self.axes.get(&(space, kind)) {
             return Ok(found.clone());
@@ -161,7 +160,7 @@ impl Comparison {
 
     /// Norms of displacements as root mean squares over the points.
     fn over_points(&self, norms: impl Iterator<Item = f64>) -> Vec<f64> {
-        let root = (self.pair.a().point_count() as f64).sqrt();
+        let root = (self.pair().a().point_count() as f64).sqrt();
         norms.map(|norm| norm / root).collect()
     }
 
@@ -171,24 +170,24 @@ impl Comparison {
         side: Side,
         kind: AxesKind,
     ) -> Result<Axes, ComparisonError> {
-        let joint = self.joint.as_ref().ok_or(ComparisonError::NothingYet)?;
-        let model = self.pair.models()[side];
+        let joint = self.prepared.joint();
+        let model = self.prepared.model(side);
         let modes = model.mode_count();
-        let noise = self.settings.sigma.filter(|_| kind == AxesKind::Relative);
+        let noise = self.sigma().filter(|_| kind == AxesKind::Relative);
         let (directions, values) = match kind {
             AxesKind::Modes => {
                 let values = self.over_points(model.standard_deviations().iter().copied());
                 (DMatrix::identity(modes, modes), values)
             }
             AxesKind::Exclusive => {
-                let found = self.exclusive(side);
+                let found = self.prepared.exclusive(side);
                 (found.directions, found.values.as_slice().to_vec())
             }
             AxesKind::Relative => {
-                let noise = noise.ok_or(ComparisonError::NothingYet)?;
+                let sigma = noise.ok_or(ComparisonError::NothingYet)?;
                 let (own, other) = (joint.prior(side), joint.prior(side.other()));
-                let found = relative_eigenmodes(&own, &other, noise);
-                let found = found.ok_or_else(|| self.overflow(side))?;
+                let found = relative_eigenmodes(&own, &other, sigma.value);
+                let found = found.ok_or_else(|| overflow(side, sigma))?;
                 let (steps, places) = patterns(&found.scores, joint.scaled_modes(side));
                 (steps, places.into_iter().map(|place| found.ratios[place]).collect())
             }
@@ -205,7 +204,7 @@ impl Comparison {
             values,
             reach: norms(&steps),
             residual: norms(&outside),
-            noise,
+            noise: noise.map(|sigma| sigma.value),
             directions,
         })
     }
@@ -222,7 +221,6 @@ impl Comparison {
         coefficients: &[f64],
         follow: bool,
     ) -> Result<Explored, ComparisonError> {
-        self.prepare_sides();
         let modes = self.modes_of(space)?;
         let moved = if kind == AxesKind::Modes {
             padded(coefficients, modes)?
@@ -240,17 +238,16 @@ impl Comparison {
     /// # Errors
     /// As [`Comparison::explore`], and [`ComparisonError::Asked`] when there is no such point.
     pub fn drag(
-        &mut self,
+        &self,
         space: Space,
         coefficients: &[f64],
         vertex: usize,
         target: &[f64],
         follow: bool,
     ) -> Result<Explored, ComparisonError> {
-        self.prepare_sides();
         let before = padded(coefficients, self.modes_of(space)?)?;
-        let dimension = self.pair.a().dimension();
-        if vertex >= self.pair.a().point_count() {
+        let dimension = self.pair().a().dimension();
+        if vertex >= self.pair().a().point_count() {
             return Err(asked(format!("There is no point {vertex}.")));
         }
         let target = padded(target, dimension)?;
@@ -263,15 +260,15 @@ impl Comparison {
     ///
     /// # Errors
     /// [`ComparisonError::Asked`] when it has another number of points, or values that are not finite.
-    pub fn place(&mut self, shape: &[f32]) -> Result<Sides<Nearest>, ComparisonError> {
-        let length = self.pair.a().mean().len();
+    pub fn place(&self, shape: &[f32]) -> Result<Sides<Nearest>, ComparisonError> {
+        let length = self.pair().a().mean().len();
         if shape.len() != length || shape.iter().any(|value| !value.is_finite()) {
             let found = shape.len();
             return Err(asked(format!("{length} finite numbers make a shape, not these {found}.")));
         }
         let shape = DVector::from_iterator(length, shape.iter().map(|&value| f64::from(value)));
         let [a, b] = Side::BOTH.map(|side| {
-            let model = self.pair.models()[side];
+            let model = self.prepared.model(side);
             let coefficients = nearest_coefficients(model, &shape);
             self.nearest(shape.as_slice(), &formed(model, &coefficients), &coefficients)
         });
@@ -284,20 +281,18 @@ impl Comparison {
         space: Space,
         vertex: usize,
     ) -> Result<(DVector<f64>, DMatrix<f64>), ComparisonError> {
-        let dimension = self.pair.a().dimension();
+        let dimension = self.pair().a().dimension();
         let range = dimension * vertex;
         if let Some(side) = space.side() {
-            let model = self.pair.models()[side];
+            let model = self.prepared.model(side);
             let mut rows = model.basis().rows(range, dimension).into_owned();
             for (mut column, s) in rows.column_iter_mut().zip(model.standard_deviations().iter()) {
                 column *= *s;
             }
             return Ok((model.mean().rows(range, dimension).into_owned(), rows));
         }
-        let nothing = ComparisonError::NothingYet;
-        let (Some(joint), Some(model)) = (&self.joint, self.intersection_model()) else {
-            return Err(nothing);
-        };
+        let joint = self.prepared.joint();
+        let model = self.intersection_model().ok_or(ComparisonError::NothingYet)?;
         let rows = joint.rows_at(vertex);
         let place = joint.origin().rows(range, dimension) + &rows * &model.mean;
         Ok((place, rows * scaled_modes(&model)))
@@ -305,7 +300,7 @@ impl Comparison {
 
     fn modes_of(&self, space: Space) -> Result<usize, ComparisonError> {
         match space.side() {
-            Some(side) => Ok(self.pair.models()[side].mode_count()),
+            Some(side) => Ok(self.prepared.model(side).mode_count()),
             None => {
                 let model = self.intersection_model().ok_or(ComparisonError::NothingYet)?;
                 Ok(model.standard_deviations.len())
@@ -319,45 +314,33 @@ impl Comparison {
         coefficients: DVector<f64>,
         follow: bool,
     ) -> Result<Explored, ComparisonError> {
-        let joint = self.joint.as_ref().ok_or(ComparisonError::NothingYet)?;
-        let models = self.pair.models();
-        let coordinates = match space.side() {
-            Some(side) => joint.coordinates_of_coefficients(side, &coefficients),
+        let joint = self.prepared.joint();
+        let (coordinates, sum) = match space.side() {
+            Some(side) => (
+                joint.coordinates_of_coefficients(side, &coefficients),
+                sum_of(self.prepared.model(side), &coefficients),
+            ),
             None => {
                 let model = self.intersection_model().ok_or(ComparisonError::NothingYet)?;
                 let scaled = coefficients.component_mul(&model.standard_deviations);
-                &model.mean + &model.modes * scaled
+                let coordinates = &model.mean + &model.modes * scaled;
+                let sum = joint.sum_of(&coordinates);
+                (coordinates, sum)
             }
         };
-        let sum = match space.side() {
-            Some(side) => sum_of(models[side], &coefficients),
-            None => joint.sum_of(&coordinates),
-        };
-        let answer = |side: Side| joint.nearest_coefficients(side, &coordinates);
-        let image = |side: Side, inside: &DVector<f64>| sum_of(models[side], inside);
-        let (shape, placed) = match space.side() {
-            _ if !follow => {
+        let (shape, placed) = match (follow, space.side()) {
+            (false, _) => {
                 let [shape] = combined(&[sum]);
                 (shape, None)
             }
-            Some(own) => {
-                let inside = answer(own.other());
-                let [shape, other] = combined(&[sum, image(own.other(), &inside)]);
-                let itself = self.nearest(&shape, &shape, &coefficients);
-                let other = self.nearest(&shape, &other, &inside);
-                let placed = match own {
-                    Side::A => Sides { a: itself, b: other },
-                    Side::B => Sides { a: other, b: itself },
-                };
-                (shape, Some(placed))
+            (true, Some(own)) => {
+                let (shape, nearest) =
+                    self.followed_by_other(own, sum, &coordinates, &coefficients);
+                (shape, Some(nearest))
             }
-            None => {
-                let [of_a, of_b] = [answer(Side::A), answer(Side::B)];
-                let [shape, in_a, in_b] =
-                    combined(&[sum, image(Side::A, &of_a), image(Side::B, &of_b)]);
-                let a = self.nearest(&shape, &in_a, &of_a);
-                let b = self.nearest(&shape, &in_b, &of_b);
-                (shape, Some(Sides { a, b }))
+            (true, None) => {
+                let (shape, nearest) = self.followed_by_both(sum, &coordinates);
+                (shape, Some(nearest))
             }
         };
         let norm = coefficients.norm();
@@ -370,9 +353,45 @@ impl Comparison {
         })
     }
 
+    /// A shape of the model `own`, which is its own nearest shape there, and the nearest shape of the other model.
+    fn followed_by_other(
+        &self,
+        own: Side,
+        sum: Sum<'_>,
+        coordinates: &DVector<f64>,
+        coefficients: &DVector<f64>,
+    ) -> (Vec<f64>, Sides<Nearest>) {
+        let inside = self.prepared.joint().nearest_coefficients(own.other(), coordinates);
+        let image = sum_of(self.prepared.model(own.other()), &inside);
+        let [shape, image] = combined(&[sum, image]);
+        let nearest = Sides::each(|side| {
+            if side == own {
+                self.nearest(&shape, &shape, coefficients)
+            } else {
+                self.nearest(&shape, &image, &inside)
+            }
+        });
+        (shape, nearest)
+    }
+
+    /// A shape that need not belong to either model, and its nearest shapes in both.
+    fn followed_by_both(
+        &self,
+        sum: Sum<'_>,
+        coordinates: &DVector<f64>,
+    ) -> (Vec<f64>, Sides<Nearest>) {
+        let joint = self.prepared.joint();
+        let inside = Sides::each(|side| joint.nearest_coefficients(side, coordinates));
+        let image = |side: Side| sum_of(self.prepared.model(side), &inside[side]);
+        let [shape, a, b] = combined(&[sum, image(Side::A), image(Side::B)]);
+        let images = Sides { a, b };
+        let nearest = Sides::each(|side| self.nearest(&shape, &images[side], &inside[side]));
+        (shape, nearest)
+    }
+
     /// What is said of the nearest shape `image`, with coefficients a′, to `shape`.
     fn nearest(&self, shape: &[f64], image: &[f64], coefficients: &DVector<f64>) -> Nearest {
-        let dimension = self.pair.a().dimension();
+        let dimension = self.pair().a().dimension();
         let residuals: Vec<f64> = shape
             .chunks_exact(dimension)
             .zip(image.chunks_exact(dimension))
@@ -386,7 +405,7 @@ impl Comparison {
             distance,
             norm,
             plausibility: chi_square_above(norm * norm, coefficients.len()),
-            likelihood: distance_likelihood(distance, self.sigma()),
+            likelihood: self.sigma().map(|sigma| distance_likelihood(distance, sigma.value)),
         }
     }
 }

@@ -72,12 +72,11 @@ impl Comparison {
     /// [`ComparisonError::NothingYet`] while there is nothing of the region, [`ComparisonError::NoNormals`] where a
     /// map needs some, [`ComparisonError::Asked`] when there is no such mode.
     pub fn map(
-        &mut self,
+        &self,
         name: MapName,
         region: Region,
         mode: usize,
     ) -> Result<VertexMap, ComparisonError> {
-        self.prepare_sides();
         let unsigned = |values: Vec<f64>| VertexMap { values: single(&values), signed: false };
         let root = |variances: Vec<f64>| variances.into_iter().map(|v| v.max(0.0).sqrt()).collect();
         Ok(match name {
@@ -95,7 +94,7 @@ impl Comparison {
             }
             MapName::Distance => unsigned(self.distance_of_mean(region)?),
             MapName::Means => {
-                let from = self.pair.a().mean();
+                let from = self.pair().a().mean();
                 self.displacement(&(self.mean_shape(region)? - from), from)
             }
             MapName::Ratio => self.ratio(),
@@ -110,12 +109,8 @@ impl Comparison {
     ///
     /// # Errors
     /// [`ComparisonError::Asked`] when there is no such vertex.
-    pub fn ellipsoids(
-        &mut self,
-        vertex: usize,
-    ) -> Result<Vec<(Region, Ellipsoid)>, ComparisonError> {
-        self.prepare_sides();
-        if vertex >= self.pair.a().point_count() {
+    pub fn ellipsoids(&self, vertex: usize) -> Result<Vec<(Region, Ellipsoid)>, ComparisonError> {
+        if vertex >= self.pair().a().point_count() {
             return Err(ComparisonError::Asked { message: format!("There is no point {vertex}.") });
         }
         let of = |region: Region| {
@@ -139,7 +134,7 @@ impl Comparison {
 
     /// The intersection model as far as it is known.
     pub(crate) fn intersection_model(&self) -> Option<Cow<'_, JointModel>> {
-        match &self.finished {
+        match self.run.finished() {
             Some(finished) => Some(Cow::Borrowed(&finished.intersection)),
             None => self.intersection_so_far().map(Cow::Owned),
         }
@@ -147,24 +142,22 @@ impl Comparison {
 
     /// Moments of the coefficients of a difference, once some are drawn.
     pub(crate) fn difference_moments(&self, side: Side) -> Option<Moments> {
-        let draws = self.rejections.get(side.index())?.draws();
+        let draws = self.run.drawn()?.rejections[side].draws();
         (draws.len() >= 2).then(|| Moments::of(draws.iter_slices(), draws.dimension))
     }
 
     fn mean_shape(&self, region: Region) -> Result<DVector<f64>, ComparisonError> {
         let of_difference = |side: Side| {
             let moments = self.difference_moments(side).ok_or(ComparisonError::NothingYet)?;
-            Ok(DVector::from_vec(formed(self.pair.models()[side], &moments.mean)))
+            Ok(DVector::from_vec(formed(self.prepared.model(side), &moments.mean)))
         };
         match region {
-            Region::A => Ok(self.pair.a().mean().clone()),
-            Region::B => Ok(self.pair.b().mean().clone()),
-            Region::Intersection => match (&self.joint, self.intersection_model()) {
-                (Some(joint), Some(model)) => {
-                    Ok(DVector::from_vec(joint.formed_shape(&model.mean)))
-                }
-                _ => Err(ComparisonError::NothingYet),
-            },
+            Region::A => Ok(self.pair().a().mean().clone()),
+            Region::B => Ok(self.pair().b().mean().clone()),
+            Region::Intersection => {
+                let model = self.intersection_model().ok_or(ComparisonError::NothingYet)?;
+                Ok(DVector::from_vec(self.prepared.joint().formed_shape(&model.mean)))
+            }
             Region::AWithoutB => of_difference(Side::A),
             Region::BWithoutA => of_difference(Side::B),
         }
@@ -173,8 +166,8 @@ impl Comparison {
     /// The mean of a region; of a difference without draws that of its model, as its exclusive modes need none.
     fn mean_shape_or_model(&self, region: Region) -> Result<DVector<f64>, ComparisonError> {
         self.mean_shape(region).or_else(|error| match region {
-            Region::AWithoutB => Ok(self.pair.a().mean().clone()),
-            Region::BWithoutA => Ok(self.pair.b().mean().clone()),
+            Region::AWithoutB => Ok(self.pair().a().mean().clone()),
+            Region::BWithoutA => Ok(self.pair().b().mean().clone()),
             _ => Err(error),
         })
     }
@@ -186,18 +179,16 @@ impl Comparison {
         };
         let of_difference = |side: Side| {
             let moments = self.difference_moments(side).ok_or(ComparisonError::NothingYet)?;
-            Ok(VertexCovariances::of_model(self.pair.models()[side], &moments.factor()))
+            Ok(VertexCovariances::of_model(self.prepared.model(side), &moments.factor()))
         };
         match region {
-            Region::A => Ok(of_model(self.pair.a())),
-            Region::B => Ok(of_model(self.pair.b())),
-            Region::Intersection => match (&self.joint, self.intersection_model()) {
-                (Some(joint), Some(model)) => {
-                    let dimension = self.pair.a().dimension();
-                    Ok(VertexCovariances::of_joint(joint, &scaled_modes(&model), dimension))
-                }
-                _ => Err(ComparisonError::NothingYet),
-            },
+            Region::A => Ok(of_model(self.pair().a())),
+            Region::B => Ok(of_model(self.pair().b())),
+            Region::Intersection => {
+                let model = self.intersection_model().ok_or(ComparisonError::NothingYet)?;
+                let (joint, dimension) = (self.prepared.joint(), self.pair().a().dimension());
+                Ok(VertexCovariances::of_joint(joint, &scaled_modes(&model), dimension))
+            }
             Region::AWithoutB => of_difference(Side::A),
             Region::BWithoutA => of_difference(Side::B),
         }
@@ -207,7 +198,7 @@ impl Comparison {
     fn distance_of_mean(&self, region: Region) -> Result<Vec<f64>, ComparisonError> {
         let shape = self.mean_shape(region)?;
         let to = |side: Side| {
-            let model = self.pair.models()[side];
+            let model = self.prepared.model(side);
             let image = formed(model, &nearest_coefficients(model, &shape));
             self.lengths(&(&shape - DVector::from_vec(image)))
         };
@@ -224,7 +215,7 @@ impl Comparison {
         let variances = |model: &LinearModel| -> Vec<f64> {
             model.vertex_standard_deviations().into_iter().map(|s| s * s).collect()
         };
-        let Sides { a, b } = self.pair.models().map(variances);
+        let Sides { a, b } = self.pair().models().map(variances);
         let largest = a.iter().chain(&b).copied().fold(0.0, f64::max);
         let floor = (LEAST_VARIANCE * largest).max(f64::MIN_POSITIVE);
         let ratio = |(a, b): (f64, f64)| libm::log2(a.max(floor) / b.max(floor));
@@ -240,25 +231,23 @@ impl Comparison {
             Ok(model.basis().column(mode) * *deviation)
         };
         let exclusive = |side: Side| {
-            let found = self.exclusive(side);
+            let found = self.prepared.exclusive(side);
             if mode >= found.values.len() {
                 return Err(none());
             }
-            let model = self.pair.models()[side];
+            let model = self.prepared.model(side);
             let step = found.directions.column(mode).into_owned();
             Ok(DVector::from_vec(formed(model, &step)) - model.mean())
         };
         match region {
-            Region::A => unit(self.pair.a()),
-            Region::B => unit(self.pair.b()),
-            Region::Intersection => match (&self.joint, self.intersection_model()) {
-                (Some(joint), Some(model)) => {
-                    let deviation = model.standard_deviations.get(mode).ok_or_else(none)?;
-                    let step = model.modes.columns(mode, 1) * *deviation;
-                    Ok(joint.shapes(&step).column(0).into_owned())
-                }
-                _ => Err(ComparisonError::NothingYet),
-            },
+            Region::A => unit(self.pair().a()),
+            Region::B => unit(self.pair().b()),
+            Region::Intersection => {
+                let model = self.intersection_model().ok_or(ComparisonError::NothingYet)?;
+                let deviation = model.standard_deviations.get(mode).ok_or_else(none)?;
+                let step = model.modes.columns(mode, 1) * *deviation;
+                Ok(self.prepared.joint().shapes(&step).column(0).into_owned())
+            }
             Region::AWithoutB => exclusive(Side::A),
             Region::BWithoutA => exclusive(Side::B),
         }
@@ -266,14 +255,14 @@ impl Comparison {
 
     /// Normals of a shape on the mesh of A; colours have none.
     fn normals(&self, shape: &DVector<f64>) -> Option<Vec<f64>> {
-        let a = self.pair.a();
+        let a = self.pair().a();
         let normals = vertex_normals(shape.as_slice(), a.dimension(), a.cells());
         normals.filter(|_| a.kind() != Kind::Color)
     }
 
     /// A displacement (d·n) along the normals of a shape, signed; its size where there are none.
     fn displacement(&self, step: &DVector<f64>, shape: &DVector<f64>) -> VertexMap {
-        let dimension = self.pair.a().dimension();
+        let dimension = self.pair().a().dimension();
         let (values, signed) = match self.normals(shape) {
             Some(normals) => {
                 let points = step.as_slice().chunks_exact(dimension);
@@ -289,7 +278,7 @@ impl Comparison {
 
     /// The length of a displacement at every vertex (n).
     fn lengths(&self, step: &DVector<f64>) -> Vec<f64> {
-        let points = step.as_slice().chunks_exact(self.pair.a().dimension());
+        let points = step.as_slice().chunks_exact(self.pair().a().dimension());
         points.map(|point| point.iter().map(|x| x * x).sum::<f64>().sqrt()).collect()
     }
 }

@@ -4,16 +4,15 @@
 //! number of dimensions on which the distance acts: σ is a tolerance for each of them, so that the
 //! distance grows with their number.
 
-use crate::model::Side;
 use serde::Serialize;
 
 use crate::comparison::Comparison;
-use crate::comparison::inference::Estimate;
+use crate::comparison::finish::{grassmann, pooled};
 use crate::comparison::looks::regions::{RegionShapes, ShapeSource};
-use crate::comparison::results::{grassmann, pooled};
 use crate::linalg::{Moments, single};
-use crate::pair::{ResidualOperator, effective_dimensions, fit_quickly};
-use crate::report::{Grassmann, MomentSource};
+use crate::model::{Side, Sides};
+use crate::pair::{effective_dimensions, fit_quickly};
+use crate::report::Grassmann;
 use crate::sampling::{Gaussian, Stream, fill_normal, stream};
 
 /// What a fit predicts of the intersection at one σ, averaged over the sides.
@@ -48,12 +47,10 @@ pub struct SweepPoint {
 impl Comparison {
     /// The prediction at the σ in use; `None` before there are fits.
     pub(crate) fn prediction(&self) -> Option<Prediction> {
-        let fits: Option<Vec<&Gaussian>> =
-            self.inferences.iter().map(|one| one.fit().map(|fit| &fit.gaussian)).collect();
-        self.predicted(self.sigma(), &fits?)
+        Some(self.predicted(self.run.drawn()?.sigma.value, self.fits()?))
     }
 
-    fn predicted(&self, sigma: f64, fits: &[&Gaussian]) -> Option<Prediction> {
+    fn predicted(&self, sigma: f64, fits: Sides<&Gaussian>) -> Prediction {
         let mut sum = Prediction {
             sigma,
             distance: 0.0,
@@ -61,40 +58,39 @@ impl Comparison {
             effective_dimensions: 0.0,
             mean_norm: 0.0,
         };
-        if fits.len() < 2 || self.sides.len() < 2 {
-            return None;
-        }
-        for (fit, side) in fits.iter().zip(&self.sides) {
-            let nearest = side.mean_vertex_distance(fit.mean().as_slice());
-            let dimensions = effective_dimensions(side, fit);
+        for side in Side::BOTH {
+            let (fit, operator) = (fits[side], self.prepared.operator(side));
+            let nearest = operator.mean_vertex_distance(fit.mean().as_slice());
+            let dimensions = effective_dimensions(operator, fit);
             sum.distance += 0.5 * (nearest * nearest + dimensions * sigma * sigma).sqrt();
             sum.nearest += 0.5 * nearest;
             sum.effective_dimensions += 0.5 * dimensions;
             sum.mean_norm += 0.5 * fit.mean().norm();
         }
-        Some(sum)
+        sum
     }
 
     /// The intersection at another `sigma`, by the fit alone: what it predicts, and mean, variation and
     /// `count` shapes. `None` where the fit breaks down.
     pub fn preview(
-        &mut self,
+        &self,
         sigma: f64,
         count: usize,
         seed: u64,
     ) -> Option<(Prediction, RegionShapes)> {
         let fits = self.fits_at(sigma)?;
-        let prediction = self.predicted(sigma, &[&fits[0], &fits[1]])?;
-        let model = self.model_of(&self.moments_of(&fits)?)?;
-        let joint = self.joint.as_ref()?;
+        let prediction = self.predicted(sigma, fits.as_ref());
+        let model = self.prepared.intersection_model(&self.moments_of(&fits)?)?;
+        let joint = self.prepared.joint();
         let mut random = stream(seed, Stream::Display, 2, 0);
         let mut samples = Vec::with_capacity(count * joint.origin().len());
         for index in 0..count {
-            let from = self.pair.models()[Side::BOTH[index % 2]];
+            let side = Side::BOTH[index % 2];
+            let from = self.prepared.model(side);
             let mut z = vec![0.0; from.mode_count()];
             fill_normal(&mut random, &mut z);
             let mut point = vec![0.0; z.len()];
-            fits[index % 2].place(&z, &mut point);
+            fits[side].place(&z, &mut point);
             samples.extend(single(from.shape(&point).iter()));
         }
         let shapes = RegionShapes {
@@ -109,41 +105,32 @@ impl Comparison {
 
     /// The paper's ablation of σ, by the fit alone: one point for each `sigma` at which it does not break
     /// down.
-    pub fn sweep(&mut self, sigmas: &[f64]) -> Vec<SweepPoint> {
+    pub fn sweep(&self, sigmas: &[f64]) -> Vec<SweepPoint> {
         sigmas.iter().filter_map(|&sigma| self.sweep_point(sigma)).collect()
     }
 
-    fn sweep_point(&mut self, sigma: f64) -> Option<SweepPoint> {
+    fn sweep_point(&self, sigma: f64) -> Option<SweepPoint> {
         let fits = self.fits_at(sigma)?;
         let moments = self.moments_of(&fits)?;
-        let joint = self.joint.as_ref()?;
-        let [paper, _] = grassmann(joint, &self.model_of(&moments)?);
-        let variance = moments.covariance.trace() / self.pair.a().point_count() as f64;
+        let model = self.prepared.intersection_model(&moments)?;
+        let [paper, _] = grassmann(self.prepared.joint(), &model);
+        let variance = moments.covariance.trace() / self.pair().a().point_count() as f64;
         Some(SweepPoint {
-            prediction: self.predicted(sigma, &[&fits[0], &fits[1]])?,
+            prediction: self.predicted(sigma, fits.as_ref()),
             vertex_sd: variance.sqrt(),
             grassmann: paper,
         })
     }
 
     /// Quick fits of both sides at `sigma`.
-    fn fits_at(&mut self, sigma: f64) -> Option<[Gaussian; 2]> {
-        self.prepare_sides();
-        let fit = |side: &ResidualOperator| fit_quickly(side, sigma);
-        Some([fit(&self.sides[0])?, fit(&self.sides[1])?])
+    fn fits_at(&self, sigma: f64) -> Option<Sides<Gaussian>> {
+        let fit = |side: Side| fit_quickly(self.prepared.operator(side), sigma);
+        Some(Sides { a: fit(Side::A)?, b: fit(Side::B)? })
     }
 
-    fn moments_of(&self, fits: &[Gaussian; 2]) -> Option<Moments> {
-        let estimates: Vec<(Side, Estimate)> = self
-            .pooled_sides()
-            .iter()
-            .map(|&side| {
-                let (mean, covariance) =
-                    (fits[side.index()].mean().clone(), fits[side.index()].covariance());
-                let total = Moments { mean, covariance };
-                (side, Estimate { source: MomentSource::ClosedForm, total, groups: Vec::new() })
-            })
-            .collect();
-        pooled(self.joint.as_ref()?, &estimates)
+    fn moments_of(&self, fits: &Sides<Gaussian>) -> Option<Moments> {
+        let sides = self.settings.pooling.sides().iter();
+        let moments: Vec<_> = sides.map(|&side| (side, fits[side].moments())).collect();
+        pooled(self.prepared.joint(), moments.iter().map(|(side, moments)| (*side, moments)))
     }
 }

@@ -4,6 +4,7 @@ use crate::model::Side;
 use serde::{Deserialize, Serialize};
 
 use crate::comparison::Comparison;
+use crate::comparison::inference::Inference;
 use crate::linalg::{Moments, single};
 use crate::measure::vertex_standard_deviations;
 use crate::sampling::{Draws, Stream, fill_normal, stream, uniform};
@@ -83,7 +84,7 @@ const EXCLUSIVE_REACH: f64 = 3.0;
 impl Comparison {
     /// Shapes of a region; `picture` says how a difference is shown. `None` while there is nothing of it.
     pub fn shapes(
-        &mut self,
+        &self,
         region: Region,
         count: usize,
         seed: u64,
@@ -98,26 +99,24 @@ impl Comparison {
 
     /// Shapes of A\B (`side` 0) or B\A (1) as `picture` asks; `None` while there is nothing of it.
     pub fn difference(
-        &mut self,
+        &self,
         side: Side,
         count: usize,
         seed: u64,
         picture: Picture,
     ) -> Option<RegionShapes> {
-        self.prepare_sides();
-        let model = self.pair.models()[side];
-        let shape = |coefficients: &[f64]| {
-            self.sides[side.index()].exaggerated(model, coefficients, picture.exaggeration)
-        };
+        let (model, operator) = (self.prepared.model(side), self.prepared.operator(side));
+        let shape =
+            |coefficients: &[f64]| operator.exaggerated(model, coefficients, picture.exaggeration);
         if picture.exclusive_modes {
-            let modes = self.exclusive(side);
+            let modes = self.prepared.exclusive(side);
             let count = count.min(modes.values.len());
             let samples = (0..count).flat_map(|index| {
                 single(shape((modes.directions.column(index) * EXCLUSIVE_REACH).as_slice()).iter())
             });
             return Some(RegionShapes {
                 mean: single(shape(&vec![0.0; model.mode_count()]).iter()),
-                vertex_sd: single(&self.sides[side.index()].expected_vertex_residuals()),
+                vertex_sd: single(&operator.expected_vertex_residuals()),
                 samples: samples.collect(),
                 count,
                 source: ShapeSource::Model,
@@ -127,7 +126,7 @@ impl Comparison {
         if picture.exaggeration == 0.0 {
             return Some(plain);
         }
-        let draws = self.rejections[side.index()].draws();
+        let draws = self.run.drawn()?.rejections[side].draws();
         let mut random = stream(seed, Stream::Display, 3 + side.index(), 0);
         let samples: Vec<f32> = (0..count)
             .flat_map(|_| single(shape(pick(draws, uniform(&mut random))).iter()))
@@ -149,7 +148,7 @@ impl Comparison {
     }
 
     fn prior_shapes(&self, side: Side, count: usize, seed: u64) -> RegionShapes {
-        let model = self.pair.models()[side];
+        let model = self.prepared.model(side);
         let mut random = stream(seed, Stream::Display, side.index(), 0);
         let mut coefficients = vec![0.0; model.mode_count()];
         let mut samples = Vec::with_capacity(count * model.mean().len());
@@ -167,24 +166,25 @@ impl Comparison {
     }
 
     fn intersection_shapes(&self, count: usize, seed: u64) -> Option<RegionShapes> {
-        let joint = self.joint.as_ref()?;
+        let joint = self.prepared.joint();
         let model = self.intersection_model()?;
-        let draws: Vec<&Draws> = self.inferences.iter().map(|one| one.draws()).collect();
-        // A restored run has no fit to fall back on: it shows what draws there are.
-        let enough = if self.has_fits() { count.max(1) } else { 1 };
-        let drawn = draws.len() == 2 && draws.iter().all(|draws| draws.len() >= enough);
+        let draws = self.run.drawn()?.inferences.as_ref().map(Inference::draws);
+        let fits = self.fits();
+        // A restored run has no fit to fall back on: it shows the draws that it has.
+        let enough = if fits.is_some() { count.max(1) } else { 1 };
+        let drawn = draws.iter().all(|draws| draws.len() >= enough);
         let mut random = stream(seed, Stream::Display, 2, 0);
         let mut samples = Vec::with_capacity(count * joint.origin().len());
         for index in 0..count {
             let side = Side::BOTH[index % 2];
-            let from = self.pair.models()[side];
+            let from = self.prepared.model(side);
             let shape = if drawn {
-                from.shape(pick(draws[side.index()], uniform(&mut random)))
+                from.shape(pick(draws[side], uniform(&mut random)))
             } else {
                 let mut z = vec![0.0; from.mode_count()];
                 fill_normal(&mut random, &mut z);
                 let mut point = vec![0.0; z.len()];
-                self.inferences.get(side.index())?.fit()?.gaussian.place(&z, &mut point);
+                fits?[side].place(&z, &mut point);
                 from.shape(&point)
             };
             samples.extend(single(shape.iter()));
@@ -199,11 +199,11 @@ impl Comparison {
     }
 
     fn difference_shapes(&self, side: Side, count: usize, seed: u64) -> Option<RegionShapes> {
-        let draws = self.rejections.get(side.index())?.draws();
+        let draws = self.run.drawn()?.rejections[side].draws();
         if draws.len() < 2 {
             return None;
         }
-        let model = self.pair.models()[side];
+        let model = self.prepared.model(side);
         let moments = Moments::of(draws.iter_slices(), draws.dimension);
         let mut random = stream(seed, Stream::Display, 3 + side.index(), 0);
         let mut samples = Vec::with_capacity(count * model.mean().len());
