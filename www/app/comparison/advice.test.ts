@@ -10,7 +10,7 @@ import {
   traceAdvice,
 } from "./advice";
 import { splitRHat } from "./chains";
-import { figuresOf, independent, normals } from "./draws.fixture";
+import { diagnosticsOf, independent, normals } from "./draws.fixture";
 
 const moved = (chains: number[][], chain: number, by: (value: number, i: number) => number) =>
   chains.map((draws, c) => (c === chain ? draws.map(by) : draws));
@@ -34,12 +34,12 @@ test("split R-hat is about 1 of like chains, large of unlike and of wandering on
 });
 
 test("traces that overlap need nothing; a chain that sits apart is named", () => {
-  assert.deepEqual(traceAdvice(figuresOf(LIKE), 1.002, "auto"), {
+  assert.deepEqual(traceAdvice(diagnosticsOf(LIKE), 1.002, "auto"), {
     calm: true,
     text: "The 4 chains overlap: nothing to do.",
     chain: null,
   });
-  const apart = figuresOf(moved(LIKE, 2, (value) => value + 3));
+  const apart = diagnosticsOf(moved(LIKE, 2, (value) => value + 3));
   const found = traceAdvice(apart, 1.4, "paper");
   assert.deepEqual([found.calm, found.chain], [false, 2]);
   assert.match(
@@ -51,28 +51,28 @@ test("traces that overlap need nothing; a chain that sits apart is named", () =>
 
 test("a chain that wanders and one that spreads unlike the others are told apart", () => {
   const wandering = traceAdvice(
-    figuresOf(moved(LIKE, 1, (v, i) => v + (i < 100 ? -2 : 2))),
+    diagnosticsOf(moved(LIKE, 1, (v, i) => v + (i < 100 ? -2 : 2))),
     1.2,
     "auto",
   );
   assert.match(wandering.text, /^Chain 2 wanders: its halves differ by [\d.]+ SD\. Draw longer\.$/);
-  const spread = traceAdvice(figuresOf(moved(LIKE, 3, (v) => v / 20)), 1.2, "auto");
+  const spread = traceAdvice(diagnosticsOf(moved(LIKE, 3, (v) => v / 20)), 1.2, "auto");
   assert.match(spread.text, /^Chain 4 spreads 0\.0\d+ times as far as the others: draw longer\.$/);
 });
 
 test("where the engine's R-hat is infinite the draws themselves are looked at", () => {
-  const stuck = figuresOf([0, 1, 2, 3].map((at) => Array.from({ length: 16 }, () => at)));
+  const stuck = diagnosticsOf([0, 1, 2, 3].map((at) => Array.from({ length: 16 }, () => at)));
   assert.equal(traceAdvice(stuck, null, "paper").calm, false);
-  assert.equal(traceAdvice(figuresOf(LIKE), null, "paper").calm, true);
+  assert.equal(traceAdvice(diagnosticsOf(LIKE), null, "paper").calm, true);
 });
 
 test("even ranks need nothing; uneven ones name the chain and where its draws are", () => {
-  assert.match(rankAdvice(figuresOf(LIKE), 1.001, "auto").text, /^Every chain has its share/);
-  const low = figuresOf(moved(LIKE, 1, (value) => value - 4));
+  assert.match(rankAdvice(diagnosticsOf(LIKE), 1.001, "auto").text, /^Every chain has its share/);
+  const low = diagnosticsOf(moved(LIKE, 1, (value) => value - 4));
   const found = rankAdvice(low, 1.6, "hmc");
   assert.deepEqual([found.calm, found.chain], [false, 1]);
   assert.match(found.text, /^Chain 2 has 2\.\d times its share of the low ranks: draw longer or/);
-  const narrow = figuresOf(moved(LIKE, 0, (value) => value / 10));
+  const narrow = diagnosticsOf(moved(LIKE, 0, (value) => value / 10));
   assert.match(
     rankAdvice(narrow, 1.1, "auto").text,
     /^Chain 1 has .* of the middle ranks: draw longer\.$/,
@@ -80,23 +80,23 @@ test("even ranks need nothing; uneven ones name the chain and where its draws ar
 });
 
 test("bars that leave the band without R-hat minding are no alarm", () => {
-  const found = rankAdvice(figuresOf(moved(LIKE, 1, (value) => value - 4)), 1.005, "auto");
+  const found = rankAdvice(diagnosticsOf(moved(LIKE, 1, (value) => value - 4)), 1.005, "auto");
   assert.equal(found.calm, true);
   assert.match(found.text, /alike, not because chains differ: nothing to do\.$/);
 });
 
 test("enough effective draws need nothing; too few are counted", () => {
-  const figures = figuresOf(LIKE, [1, 0.5, 0.2, 0.01, 0]);
-  assert.deepEqual(autocorrelationAdvice(figures, 500, "auto"), {
+  const diagnostics = diagnosticsOf(LIKE, [1, 0.5, 0.2, 0.01, 0]);
+  assert.deepEqual(autocorrelationAdvice(diagnostics, 500, "auto"), {
     calm: true,
     text: "Draws 3 steps apart are unrelated, and 500 of 800 count: nothing to do.",
     chain: null,
   });
   assert.match(
-    autocorrelationAdvice(figuresOf(LIKE, [1, 0.01]), 800, "auto").text,
+    autocorrelationAdvice(diagnosticsOf(LIKE, [1, 0.01]), 800, "auto").text,
     /^Successive draws/,
   );
-  const few = autocorrelationAdvice(figuresOf(LIKE, [1, 0.9, 0.8]), 40, "paper");
+  const few = autocorrelationAdvice(diagnosticsOf(LIKE, [1, 0.9, 0.8]), 40, "paper");
   assert.equal(few.calm, false);
   assert.equal(
     few.text,
@@ -107,7 +107,7 @@ test("enough effective draws need nothing; too few are counted", () => {
 test("a distance that keeps its level needs nothing; one that falls, or a chain of its own, does", () => {
   const level = LIKE.map((draws) => draws.map((value) => 5 + 0.1 * value));
   const of = (distances: number[][]) =>
-    distanceAdvice(figuresOf(LIKE, [1, 0], distances), "mm", "paper");
+    distanceAdvice(diagnosticsOf(LIKE, [1, 0], distances), "mm", "paper");
   assert.deepEqual(of(level).calm, true);
   assert.match(
     of(level).text,
@@ -127,16 +127,16 @@ test("a distance that keeps its level needs nothing; one that falls, or a chain 
 test("short chains that differ by chance alone are left in peace", () => {
   for (const seed of [1, 2, 3, 4, 5, 6, 7, 8, 9, 10]) {
     const short = independent(8, 25, seed);
-    assert.equal(distanceAdvice(figuresOf(short), "mm", "auto").calm, true, `seed ${seed}`);
+    assert.equal(distanceAdvice(diagnosticsOf(short), "mm", "auto").calm, true, `seed ${seed}`);
   }
 });
 
 function pairs(
-  law: (u: number, v: number) => [number, number],
+  transform: (u: number, v: number) => [number, number],
   fit: PairFigures["fit"],
 ): PairFigures {
   const draw = normals(3);
-  const draws = Array.from({ length: 600 }, () => law(draw(), draw()));
+  const draws = Array.from({ length: 600 }, () => transform(draw(), draw()));
   const mean = [0, 1].map((i) => draws.reduce((sum, pair) => sum + (pair[i] ?? 0), 0) / 600);
   const covariance = [0, 1].flatMap((i) =>
     [0, 1].map(
@@ -171,7 +171,7 @@ test("draws like a Gaussian need nothing, with a fit that lies on them or withou
   assert.match(fitted.text, /and the fit lies on the moments: nothing to do\.$/);
 });
 
-test("a fit that is off, a law that is bent, and too few draws each get their own advice", () => {
+test("a fit that is off, a distribution that is bent, and too few draws each get their own advice", () => {
   const gaussian = (u: number, v: number): [number, number] => [u, 2 * v];
   const narrow = pairsAdvice(pairs(gaussian, { mean: [0, 0], covariance: [1, 0, 0, 1] }), 600);
   assert.match(

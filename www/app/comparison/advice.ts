@@ -1,7 +1,7 @@
 /**
  * What to do about draws, in one sentence under each plot, from its own numbers. Pure.
  *
- * Chains agree below an R-hat of 1.01, and figures can be quoted from 400 effective draws on, 100 for each
+ * Chains agree below an R-hat of 1.01, and diagnostics can be quoted from 400 effective draws on, 100 for each
  * of four chains: Vehtari, Gelman, Simpson, Carpenter & Bürkner, “Rank-normalization, folding, and
  * localization: an improved R-hat”, Bayesian Analysis 16 (2021). So many draws know a mean to 0.05
  * standard deviations; twice that is what is said to be off here. The other limits are ours and say so.
@@ -39,11 +39,11 @@ const capital = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 
 /** Of the traces; `rHat` as the engine has it of all draws, null where it is infinite. */
 export function traceAdvice(
-  figures: ChainFigures,
+  diagnostics: ChainFigures,
   rHat: number | null,
   sampler: SamplerName,
 ): Advice {
-  const chains = chainsOf(figures.draws, figures.chains);
+  const chains = chainsOf(diagnostics.draws, diagnostics.chains);
   if ((rHat ?? splitRHat(chains)) < R_HAT) return calm(`The ${chains.length} chains overlap`);
   const { kind, chain, size, ratio } = oddest(chains);
   const name = `Chain ${chain + 1}`;
@@ -61,15 +61,15 @@ const MANY_OUTSIDE = 0.1;
 
 /** Of the rank plots: R-hat says whether the chains differ, the bars which one and where. */
 export function rankAdvice(
-  figures: ChainFigures,
+  diagnostics: ChainFigures,
   rHat: number | null,
   sampler: SamplerName,
 ): Advice {
-  const { bins, ranks } = figures;
-  const { expected, low, high } = rankBand(figures);
-  const bars = chainsOf(ranks, figures.chains);
+  const { bins, ranks } = diagnostics;
+  const { expected, low, high } = rankBand(diagnostics);
+  const bars = chainsOf(ranks, diagnostics.chains);
   const outside = ranks.reduce((sum, bar) => sum + (bar < low || bar > high ? 1 : 0), 0);
-  const known = rHat ?? splitRHat(chainsOf(figures.draws, figures.chains));
+  const known = rHat ?? splitRHat(chainsOf(diagnostics.draws, diagnostics.chains));
   if (known < R_HAT) {
     return outside > MANY_OUTSIDE * ranks.length
       ? calm("Some bars leave the band because draws in a row are alike, not because chains differ")
@@ -94,13 +94,13 @@ export function rankAdvice(
 }
 
 export function autocorrelationAdvice(
-  figures: ChainFigures,
+  diagnostics: ChainFigures,
   essBulk: number,
   sampler: SamplerName,
 ): Advice {
-  const draws = drawsOf(figures);
-  const lag = silentLag(figures.autocorrelation, draws);
-  const last = figures.autocorrelation.length - 1;
+  const draws = drawsOf(diagnostics);
+  const lag = silentLag(diagnostics.autocorrelation, draws);
+  const last = diagnostics.autocorrelation.length - 1;
   if (essBulk >= ESS) {
     const far =
       lag === null
@@ -119,8 +119,12 @@ export function autocorrelationAdvice(
 }
 
 /** Of d over the draws: it has no R-hat in the report, so the plain one of what is shown is taken. */
-export function distanceAdvice(figures: ChainFigures, unit: string, sampler: SamplerName): Advice {
-  const chains = chainsOf(figures.distances, figures.chains);
+export function distanceAdvice(
+  diagnostics: ChainFigures,
+  unit: string,
+  sampler: SamplerName,
+): Advice {
+  const chains = chainsOf(diagnostics.distances, diagnostics.chains);
   const { mean, variance } = spreadOf(chains.flat());
   const half = Math.floor((chains[0]?.length ?? 0) / 2);
   // Halves of n independent draws have an R-hat of about 1 ± 0.3/n by chance.
@@ -155,8 +159,8 @@ export function distanceAdvice(figures: ChainFigures, unit: string, sampler: Sam
 const SHARE_ERRORS = 4;
 
 /** Of the pairs: whether the draws are like the Gaussian that stands for them, and like the fit. */
-export function pairsAdvice(figures: PairFigures, essBulk: number): Advice {
-  const { modes, fit, count: drawn } = figures;
+export function pairsAdvice(diagnostics: PairFigures, essBulk: number): Advice {
+  const { modes, fit, count: drawn } = diagnostics;
   const not = (text: string): Advice => ({ calm: false, text, chain: null });
   if (essBulk < ESS) {
     return not(
@@ -167,9 +171,9 @@ export function pairsAdvice(figures: PairFigures, essBulk: number): Advice {
   const shares = pairsOf(modes.length).map(([i, j]) => ({
     i,
     j,
-    share: shareWithin(figures, i, j, 2),
+    share: shareWithin(diagnostics, i, j, 2),
   }));
-  const off = fit === null ? null : farthest(figures, fit);
+  const off = fit === null ? null : farthest(diagnostics, fit);
   if (off !== null && off.size > OFF) return not(off.text);
   const error = Math.sqrt((wanted * (1 - wanted)) / Math.min(drawn, essBulk));
   const odd = shares.reduce<(typeof shares)[number] | null>(
@@ -189,10 +193,10 @@ export function pairsAdvice(figures: PairFigures, essBulk: number): Advice {
 }
 
 /** Where the fit is farthest from the moments, in its own standard deviations. */
-function farthest(figures: PairFigures, fit: NonNullable<PairFigures["fit"]>) {
-  const each = figures.modes.map((_, i) => {
-    const [own, theirs] = [deviation(figures, i), deviation(fit, i)];
-    const shift = Math.abs((figures.mean[i] ?? 0) - (fit.mean[i] ?? 0)) / theirs;
+function farthest(diagnostics: PairFigures, fit: NonNullable<PairFigures["fit"]>) {
+  const each = diagnostics.modes.map((_, i) => {
+    const [own, theirs] = [deviation(diagnostics, i), deviation(fit, i)];
+    const shift = Math.abs((diagnostics.mean[i] ?? 0) - (fit.mean[i] ?? 0)) / theirs;
     const ratio = own / theirs;
     const then = "Trust the moments of the draws, not the first guess.";
     return shift > Math.abs(ratio - 1)

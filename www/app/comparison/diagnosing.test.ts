@@ -15,7 +15,7 @@ import {
   silentLag,
   worstCoefficient,
 } from "./diagnosing";
-import { figuresOf, independent, normals } from "./draws.fixture";
+import { diagnosticsOf, independent, normals } from "./draws.fixture";
 
 const near = (found: number, wanted: number, within = 1e-9) =>
   assert.ok(Math.abs(found - wanted) <= within, `${found}, not ${wanted}`);
@@ -78,11 +78,13 @@ test("chains that never move, whose R-hat is infinite, are looked at first", () 
 
 test("about a twentieth of the bars of like chains leaves the band, and most of unlike ones", () => {
   const outside = (chains: number[][]) => {
-    const figures = figuresOf(chains);
-    const { low, high, expected } = rankBand(figures);
+    const diagnostics = diagnosticsOf(chains);
+    const { low, high, expected } = rankBand(diagnostics);
     near(expected, 20);
-    assert.equal(drawsOf(figures), 1600);
-    return figures.ranks.filter((bar) => bar < low || bar > high).length / figures.ranks.length;
+    assert.equal(drawsOf(diagnostics), 1600);
+    return (
+      diagnostics.ranks.filter((bar) => bar < low || bar > high).length / diagnostics.ranks.length
+    );
   };
   const shares = [1, 2, 3, 4, 5].map((seed) => outside(independent(4, 400, seed)));
   const mean = shares.reduce((sum, share) => sum + share, 0) / 5;
@@ -119,7 +121,7 @@ test("draws of a Gaussian lie within its ellipses as often as they should", () =
     draws[2 * i] = 1 + 2 * u;
     draws[2 * i + 1] = 0.6 * u + 0.8 * v;
   }
-  const figures: PairFigures = {
+  const diagnostics: PairFigures = {
     modes: [0, 1],
     count,
     draws,
@@ -127,11 +129,11 @@ test("draws of a Gaussian lie within its ellipses as often as they should", () =
     covariance: [4, 1.2, 1.2, 1],
     fit: null,
   };
-  near(correlation(figures, 0, 1), 0.6);
+  near(correlation(diagnostics, 0, 1), 0.6);
   near(gaussianShare(1), 0.3935, 1e-4);
-  near(shareWithin(figures, 0, 1, 1), gaussianShare(1), 0.015);
-  near(shareWithin(figures, 1, 0, 2), gaussianShare(2), 0.01);
-  const narrow = { ...figures, covariance: [1, 0, 0, 1] };
+  near(shareWithin(diagnostics, 0, 1, 1), gaussianShare(1), 0.015);
+  near(shareWithin(diagnostics, 1, 0, 2), gaussianShare(2), 0.01);
+  const narrow = { ...diagnostics, covariance: [1, 0, 0, 1] };
   assert.ok(shareWithin(narrow, 0, 1, 2) < 0.8);
 });
 

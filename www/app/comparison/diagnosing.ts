@@ -87,7 +87,7 @@ export function rankBand({ ranks, chains, bins }: ChainFigures): RankBand {
   return { expected, low: Math.max(0, expected - reach), high: expected + reach };
 }
 
-/** Total number of draws behind the figures. */
+/** Total number of draws behind the diagnostics. */
 export function drawsOf({ ranks }: ChainFigures): number {
   return ranks.reduce((sum, value) => sum + value, 0);
 }
@@ -137,13 +137,13 @@ export function ellipseOf({ mean, covariance }: Gaussian, i: number, j: number):
 
 /** Share of the draws that lie within so many standard deviations in two of their coordinates. */
 export function shareWithin(
-  figures: PairFigures,
+  diagnostics: PairFigures,
   i: number,
   j: number,
   deviations: number,
 ): number {
-  const { mean, covariance, draws, count } = figures;
-  const size = figures.modes.length;
+  const { mean, covariance, draws, count } = diagnostics;
+  const size = diagnostics.modes.length;
   const at = (row: number, column: number) => covariance[row * size + column] ?? 0;
   const [xx, xy, yy] = [at(i, i), at(i, j), at(j, j)];
   const determinant = xx * yy - xy * xy;
@@ -166,9 +166,9 @@ export function deviation({ mean, covariance }: Gaussian, i: number): number {
   return Math.sqrt(Math.max(0, covariance[i * mean.length + i] ?? 0));
 }
 
-export function correlation(law: Gaussian, i: number, j: number): number {
-  const shared = law.covariance[i * law.mean.length + j] ?? 0;
-  return shared / (deviation(law, i) * deviation(law, j));
+export function correlation(gaussian: Gaussian, i: number, j: number): number {
+  const shared = gaussian.covariance[i * gaussian.mean.length + j] ?? 0;
+  return shared / (deviation(gaussian, i) * deviation(gaussian, j));
 }
 
 /** Every pair of the first modes, the lower triangle row by row. */

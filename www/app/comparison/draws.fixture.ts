@@ -17,7 +17,7 @@ export function independent(chains: number, length: number, seed = 1): number[][
 }
 
 /** As the engine makes them, but for the autocorrelation, which is given. */
-export function figuresOf(
+export function diagnosticsOf(
   chains: number[][],
   autocorrelation: number[] = [1, 0],
   distances: number[][] = chains,

@@ -2,7 +2,7 @@
 import type { Evaluation, Report } from "../../worker/protocol";
 import type { Nouns } from "../state/demos";
 import { count, degrees, length, number, percent } from "../text/format";
-import { figure, type Phrase } from "../text/phrase";
+import { type Phrase, reported } from "../text/phrase";
 import type { Group } from "./numbers";
 
 /** From here on a number only says that it is beyond all bounds: the engine's largest is 1.8 × 10³⁰⁸. */
@@ -17,7 +17,7 @@ export function noiseSentence(report: Report): Phrase {
   const { bhattacharyyaNoise: noise } = report.overlap;
   return [
     "Each model has directions that the other lacks altogether, so both measures would be infinite: noise of τ = ",
-    figure("overlap.bhattacharyyaNoise", noise, length(noise, report.models.a.unit)),
+    reported("overlap.bhattacharyyaNoise", noise, length(noise, report.models.a.unit)),
     " is added to every coordinate of both, and as τ → 0 both grow without bound. Compare values at the same τ only.",
   ];
 }

@@ -2,7 +2,7 @@
 import type { BothSides, Inference, Report, SamplerName } from "../../worker/protocol";
 import { completed, preparationWords } from "../state/preparation";
 import { count, length, number, percent, plusMinus } from "../text/format";
-import { figure, type Phrase } from "../text/phrase";
+import { type Phrase, reported } from "../text/phrase";
 import { DEFINITIONS } from "./words";
 
 export function methods(report: Report): Phrase {
@@ -27,9 +27,9 @@ function models(report: Report): Phrase {
     const path = `models.${side}`;
     return [
       `${side.toUpperCase()}, “${name}” (${format}; `,
-      figure(`${path}.points`, points, count(points)),
+      reported(`${path}.points`, points, count(points)),
       ` points in ${dimension} dimensions, `,
-      figure(`${path}.modes`, modes, count(modes)),
+      reported(`${path}.modes`, modes, count(modes)),
       " modes)",
     ];
   };
@@ -54,7 +54,7 @@ function preparation(report: Report): Phrase {
   const kept: Phrase =
     modes === null
       ? []
-      : [", the first ", figure("settings.modes", modes, count(modes)), " modes of each"];
+      : [", the first ", reported("settings.modes", modes, count(modes)), " modes of each"];
   const also = steps.length === 0 ? "" : ` (preparation: ${steps.join("; ")})`;
   return [` They were compared ${ALIGNED[align]}`, ...kept, `${also}.`];
 }
@@ -65,12 +65,12 @@ function tolerance(report: Report): Phrase {
   const found = report.intersection.tolerance;
   const path = "intersection.tolerance";
   if (sigma === null) return [];
-  const used = figure("settings.sigma", sigma, length(sigma, unit));
+  const used = reported("settings.sigma", sigma, length(sigma, unit));
   if (!sigmaRecommended) {
     const other: Phrase = found
       ? [
           " (recommended would be ",
-          figure(`${path}.recommended`, found.recommended, length(found.recommended, unit)),
+          reported(`${path}.recommended`, found.recommended, length(found.recommended, unit)),
           ")",
         ]
       : [];
@@ -79,9 +79,9 @@ function tolerance(report: Report): Phrase {
   const why: Phrase = found
     ? [
         ", recommended by the program from the distances that are possible between the models, ",
-        figure(`${path}.nearest`, found.nearest, number(found.nearest)),
+        reported(`${path}.nearest`, found.nearest, number(found.nearest)),
         " to ",
-        figure(`${path}.farthest`, found.farthest, length(found.farthest, unit)),
+        reported(`${path}.farthest`, found.farthest, length(found.farthest, unit)),
       ]
     : [", recommended by the program"];
   return [" The tolerance σ of the distance likelihood was ", used, ...why, "."];
@@ -90,7 +90,7 @@ function tolerance(report: Report): Phrase {
 function sampling(report: Report): Phrase {
   const { chains, draws, burnIn, thin, seed, pooling, plausibility, weighted } = report.settings;
   const setting = (name: "chains" | "draws" | "burnIn" | "thin" | "weighted", value: number) =>
-    figure(`settings.${name}`, value, count(value));
+    reported(`settings.${name}`, value, count(value));
   const inference = report.intersection.inference;
   const both = pooling === "both" || pooling === undefined;
   const from = both ? "from both models in equal shares" : `from ${pooling.toUpperCase()} alone`;
@@ -146,21 +146,21 @@ function convergence(report: Report): Phrase {
     converged ? " The draws converged: " : " The draws did not converge: ",
     ...(rHatMax === null
       ? []
-      : ["largest split R-hat ", figure(`${path}.rHatMax`, rHatMax, rHatMax.toFixed(4)), ", "]),
+      : ["largest split R-hat ", reported(`${path}.rHatMax`, rHatMax, rHatMax.toFixed(4)), ", "]),
     "least effective sample size ",
-    figure(`${path}.essBulkMin`, essBulkMin, count(essBulkMin)),
+    reported(`${path}.essBulkMin`, essBulkMin, count(essBulkMin)),
     " (bulk) and ",
-    figure(`${path}.essTailMin`, essTailMin, count(essTailMin)),
+    reported(`${path}.essTailMin`, essTailMin, count(essTailMin)),
     " (tails), acceptance ",
-    figure(`${path}.acceptance`, acceptance, percent(acceptance)),
+    reported(`${path}.acceptance`, acceptance, percent(acceptance)),
     ...(paretoK === null
       ? []
-      : [", Pareto k ", figure(`${path}.paretoK`, paretoK, number(paretoK, 2))]),
+      : [", Pareto k ", reported(`${path}.paretoK`, paretoK, number(paretoK, 2))]),
     ...(importanceEss == null
       ? []
       : [
           ", effective size of the weights ",
-          figure(`${path}.importanceEss`, importanceEss, count(importanceEss)),
+          reported(`${path}.importanceEss`, importanceEss, count(importanceEss)),
         ]),
     ".",
   ];
@@ -173,15 +173,15 @@ function outcome(report: Report): Phrase {
   const away = plusMinus(meanDistance.mean, meanDistance.sd);
   return [
     " The intersection model has ",
-    figure("intersection.modes", modes, count(modes)),
+    reported("intersection.modes", modes, count(modes)),
     " modes; its shapes lie ",
-    figure("intersection.meanDistance.mean", meanDistance.mean, away.mean),
+    reported("intersection.meanDistance.mean", meanDistance.mean, away.mean),
     " ± ",
-    figure("intersection.meanDistance.sd", meanDistance.sd, `${away.spread}\u202f${unit}`),
+    reported("intersection.meanDistance.sd", meanDistance.sd, `${away.spread}\u202f${unit}`),
     " (mean vertex distance) from the nearest shape of the other model. B can make ",
-    figure("overlap.varianceOfAInB", varianceOfAInB, percent(varianceOfAInB)),
+    reported("overlap.varianceOfAInB", varianceOfAInB, percent(varianceOfAInB)),
     " of the variance of A, A ",
-    figure("overlap.varianceOfBInA", varianceOfBInA, percent(varianceOfBInA)),
+    reported("overlap.varianceOfBInA", varianceOfBInA, percent(varianceOfBInA)),
     " of that of B.",
   ];
 }
@@ -191,9 +191,9 @@ function differences(report: Report): Phrase {
     const { probability, standardError } = report.differences[key];
     const path = `differences.${key}`;
     return [
-      figure(`${path}.probability`, probability, percent(probability)),
+      reported(`${path}.probability`, probability, percent(probability)),
       " (standard error ",
-      figure(`${path}.standardError`, standardError, percent(standardError)),
+      reported(`${path}.standardError`, standardError, percent(standardError)),
       ")",
     ];
   };
@@ -201,7 +201,7 @@ function differences(report: Report): Phrase {
   const { label, help } = DEFINITIONS[difference ?? "soft"];
   return [
     " The differences A∖B and B∖A were sampled by rejection, ",
-    figure("settings.differenceDraws", differenceDraws, count(differenceDraws)),
+    reported("settings.differenceDraws", differenceDraws, count(differenceDraws)),
     ` draws each, by the ${label} definition (${help.replace(/\.$/, "")}): `,
     ...share("aWithoutB"),
     " of the shapes of A and ",

@@ -16,7 +16,7 @@ import type { Nouns } from "../state/demos";
 import { completed, preparationWords, UNSTATED } from "../state/preparation";
 import type { Reading } from "../state/state";
 import { bytes, count, degrees, length, number, percent, plusMinus } from "../text/format";
-import { figure, type Phrase } from "../text/phrase";
+import { type Phrase, reported } from "../text/phrase";
 
 /** The thresholds of src/report.rs. */
 export const R_HAT = 1.01;
@@ -29,9 +29,9 @@ export function headline(report: Report, nouns: Nouns): Phrase {
   const { varianceOfAInB, varianceOfBInA } = report.overlap;
   return [
     `${capital(nouns.b)} can make `,
-    figure("overlap.varianceOfAInB", varianceOfAInB, percent(varianceOfAInB)),
+    reported("overlap.varianceOfAInB", varianceOfAInB, percent(varianceOfAInB)),
     ` of the variance of ${nouns.a}; the other way round it is `,
-    figure("overlap.varianceOfBInA", varianceOfBInA, percent(varianceOfBInA)),
+    reported("overlap.varianceOfBInA", varianceOfBInA, percent(varianceOfBInA)),
     ".",
   ];
 }
@@ -47,16 +47,16 @@ export function shared(report: Report): Phrase {
   const meet = meanDistance.mean <= WITHIN * (report.settings.sigma ?? Number.POSITIVE_INFINITY);
   return [
     meet ? "A shape that both can make lies " : "The shapes that come nearest to both lie ",
-    figure("intersection.meanDistance.mean", meanDistance.mean, away.mean),
+    reported("intersection.meanDistance.mean", meanDistance.mean, away.mean),
     " ± ",
-    figure("intersection.meanDistance.sd", meanDistance.sd, `${away.spread}\u202f${unit}`),
+    reported("intersection.meanDistance.sd", meanDistance.sd, `${away.spread}\u202f${unit}`),
     meet ? " from the nearest shape of the other model. Its" : " from the other model. Their",
     " points vary by ",
-    figure("intersection.vertexSd.mean", vertexSd.mean, length(vertexSd.mean, unit)),
+    reported("intersection.vertexSd.mean", vertexSd.mean, length(vertexSd.mean, unit)),
     " on average, against ",
-    figure("models.a.vertexSd.mean", a, number(a)),
+    reported("models.a.vertexSd.mean", a, number(a)),
     " in A and ",
-    figure("models.b.vertexSd.mean", b, number(b)),
+    reported("models.b.vertexSd.mean", b, number(b)),
     " in\u202fB.",
   ];
 }
@@ -64,8 +64,8 @@ export function shared(report: Report): Phrase {
 export function differences(report: Report, nouns: Nouns): Phrase {
   const a = report.differences.aWithoutB.probability;
   const b = report.differences.bWithoutA.probability;
-  const ofA = figure("differences.aWithoutB.probability", a, percent(a));
-  const ofB = figure("differences.bWithoutA.probability", b, percent(b));
+  const ofA = reported("differences.aWithoutB.probability", a, percent(a));
+  const ofB = reported("differences.bWithoutA.probability", b, percent(b));
   const { aWithoutB, bWithoutA } = report.differences;
   // A run that is ended early has made no difference, or one of them: 0 % is no finding then.
   if (bWithoutA.diagnostics.evaluations === 0) {
@@ -132,8 +132,8 @@ export function nearlyTheModel(report: Report): Phrase | null {
   if ((report.settings.difference ?? "soft") !== "soft") return null;
   const { aWithoutB, bWithoutA } = report.differences;
   const [a, b] = [aWithoutB.overlapWithPrior ?? 0, bWithoutA.overlapWithPrior ?? 0];
-  const ofA = figure("differences.aWithoutB.overlapWithPrior", a, percent(a));
-  const ofB = figure("differences.bWithoutA.overlapWithPrior", b, percent(b));
+  const ofA = reported("differences.aWithoutB.overlapWithPrior", a, percent(a));
+  const ofB = reported("differences.bWithoutA.overlapWithPrior", b, percent(b));
   const same = (overlap: number) => overlap > SAME_AS_MODEL;
   if (!same(a) && !same(b)) return null;
   const which: Phrase =
@@ -155,7 +155,7 @@ export function exclusive(report: Report, side: "a" | "b"): Phrase | null {
   const strongest = found.residualSd.slice(0, 3);
   const sentence: Phrase = [
     `${other} misses `,
-    figure(`${path}.unexplained`, found.unexplained, percent(found.unexplained)),
+    reported(`${path}.unexplained`, found.unexplained, percent(found.unexplained)),
     ` of the variance of ${own}`,
   ];
   if (strongest.length === 0) return [...sentence, "."];
@@ -164,7 +164,7 @@ export function exclusive(report: Report, side: "a" | "b"): Phrase | null {
     ...strongest.flatMap(
       (sd, i): Phrase => [
         i === 0 ? "; its strongest exclusive modes by " : ", ",
-        figure(`${path}.residualSd.${i}`, sd, number(sd)),
+        reported(`${path}.residualSd.${i}`, sd, number(sd)),
       ],
     ),
     `\u202f${report.models.a.unit} per standard deviation.`,
@@ -191,16 +191,16 @@ export function spaces(report: Report): Phrase {
   const { meanToMean } = report.overlap;
   const sentence: Phrase = [
     "The two mean shapes are ",
-    figure("overlap.meanToMean", meanToMean, length(meanToMean, report.models.a.unit)),
+    reported("overlap.meanToMean", meanToMean, length(meanToMean, report.models.a.unit)),
     " apart per point.",
   ];
   if (first === undefined || last === undefined) return sentence;
   return [
     ...sentence,
     " The directions of change they have most in common differ by ",
-    figure("overlap.principalAnglesDegrees.0", first, degrees(first)),
+    reported("overlap.principalAnglesDegrees.0", first, degrees(first)),
     ", those least so by ",
-    figure(`overlap.principalAnglesDegrees.${angles.length - 1}`, last, degrees(last)),
+    reported(`overlap.principalAnglesDegrees.${angles.length - 1}`, last, degrees(last)),
     ".",
   ];
 }
@@ -213,9 +213,9 @@ export function belief(report: Report): { converged: boolean; phrase: Phrase } {
   const chains: Phrase = [
     ...(rHatMax === null
       ? []
-      : ["R-hat ", figure(`${path}.rHatMax`, rHatMax, rHatMax.toFixed(4)), ", "]),
+      : ["R-hat ", reported(`${path}.rHatMax`, rHatMax, rHatMax.toFixed(4)), ", "]),
     "at least ",
-    figure(`${path}.essBulkMin`, essBulkMin, count(essBulkMin)),
+    reported(`${path}.essBulkMin`, essBulkMin, count(essBulkMin)),
     " effective draws for every mode",
   ];
   const byChains = (rHatMax ?? 1) < R_HAT && essBulkMin >= ESS;
@@ -224,9 +224,9 @@ export function belief(report: Report): { converged: boolean; phrase: Phrase } {
       ? []
       : [
           "Pareto k ",
-          figure(`${path}.paretoK`, paretoK, number(paretoK, 2)),
+          reported(`${path}.paretoK`, paretoK, number(paretoK, 2)),
           ", effective size of the weights ",
-          figure(`${path}.importanceEss`, importanceEss, count(importanceEss)),
+          reported(`${path}.importanceEss`, importanceEss, count(importanceEss)),
         ];
   // What it converged by; all there is where it has not.
   let evidence = chains;
@@ -315,7 +315,7 @@ export function worstModes(report: Report): Phrase | null {
     if (!found) return [];
     const path = `intersection.coefficients.${found.side}.${which}.${found.mode - 1}`;
     return [
-      figure(path, found.value, text(found.value)),
+      reported(path, found.value, text(found.value)),
       ` for mode\u00a0${found.mode} of ${found.side.toUpperCase()}`,
     ];
   };
@@ -391,9 +391,13 @@ export function twoSides(report: Report): Phrase | null {
   const path = "intersection.disagreement";
   return [
     "The shapes of A near B and those of B near A give two models; A∩B is made of both in equal shares. Their means are ",
-    figure(`${path}.meanToMean`, found.meanToMean, length(found.meanToMean, report.models.a.unit)),
+    reported(
+      `${path}.meanToMean`,
+      found.meanToMean,
+      length(found.meanToMean, report.models.a.unit),
+    ),
     " apart, their covariances differ by ",
-    figure(`${path}.covariance`, found.covariance, percent(found.covariance)),
+    reported(`${path}.covariance`, found.covariance, percent(found.covariance)),
     sidesDisagree(report)
       ? ": the two sides describe different sets of shapes. Look at each alone before trusting what they have in common."
       : ".",

@@ -9,12 +9,12 @@ export interface Exhibit {
   see: string;
 }
 
-export interface Hall {
+export interface ExhibitGroup {
   title: string;
   exhibits: Exhibit[];
 }
 
-export const HALLS: Hall[] = [
+export const HALLS: ExhibitGroup[] = [
   {
     title: "Heads",
     exhibits: [

@@ -44,7 +44,7 @@ import {
   view,
   type Wanted,
 } from "../state/state";
-import { joins, type Place, steps } from "../state/undo";
+import { joins, type Snapshot, steps } from "../state/undo";
 import { fitsLink, type LinkState, readLink, writeLink } from "./link";
 
 const WRITE_AFTER_MS = 1000;
@@ -162,7 +162,7 @@ let applied = "";
 /** `takes` is asked whether it sees to a link that somebody typed or followed. */
 export function keepLink(takes: (link: LinkState) => boolean): void {
   applied = untracked(() => step.value);
-  steps.begin(placed());
+  steps.begin(snapshot());
   let timer: ReturnType<typeof setTimeout> | undefined;
   effect(() => {
     const fragment = `#${currentLink()}`;
@@ -173,7 +173,7 @@ export function keepLink(takes: (link: LinkState) => boolean): void {
       // What is written down of a step is nothing that another one waits for.
       // The Back button of a page with a frame in it is about that page.
       const join = joins() || embedded.peek();
-      untracked(() => (join ? steps.join(placed(), fragment) : steps.push(placed(), fragment)));
+      untracked(() => (join ? steps.join(snapshot(), fragment) : steps.push(snapshot(), fragment)));
       return;
     }
     timer = setTimeout(writeAddress, WRITE_AFTER_MS);
@@ -193,7 +193,7 @@ export function redo(): void {
 }
 
 /** Where the page is. */
-function placed(): Place {
+function snapshot(): Snapshot {
   const wanted = (side: Side): Wanted | null => {
     const slot = slots[side].peek();
     return slot && wantedOf(slot);
@@ -228,9 +228,9 @@ let journeys = 0;
 async function follow(state: unknown, takes: (link: LinkState) => boolean): Promise<void> {
   journeys += 1;
   const mine = journeys;
-  const place = steps.arrive(state);
+  const snapshot = steps.arrive(state);
   const link = readLink(location.hash);
-  if (place === null) {
+  if (snapshot === null) {
     linked.value = link;
     embedded.value = link.embed;
   }
@@ -238,20 +238,20 @@ async function follow(state: unknown, takes: (link: LinkState) => boolean): Prom
     batch(() => apply(link));
     return;
   }
-  if (place === null && takes(link)) return;
-  const wanted = place?.modelList ?? modelListOf(link);
+  if (snapshot === null && takes(link)) return;
+  const wanted = snapshot?.modelList ?? modelListOf(link);
   giveUpOpening();
   giveUpAdding();
   const complete = () => {
     if (mine !== journeys) return;
     apply(link);
     const { prepare } = settings.value;
-    if (place)
-      settings.value = { ...settings.value, prepare: { ...prepare, points: place.points } };
+    if (snapshot)
+      settings.value = { ...settings.value, prepare: { ...prepare, points: snapshot.points } };
     arrange(wanted);
     applied = step.value;
   };
-  const models = place?.models ?? modelsOf(link);
+  const models = snapshot?.models ?? modelsOf(link);
   const changed = (side: Side) => {
     const slot = slots[side].value;
     const wanted = models?.[side];

@@ -20,7 +20,7 @@ import {
   saveFigure,
 } from "./figure";
 import { LARGEST_PX, SMALLEST_PX, widthInPixels } from "./layout";
-import { closeDarkroom } from "./offscreen";
+import { closeOffscreen } from "./offscreen";
 
 const BACKGROUNDS: [Background, string][] = [
   ["white", "White"],
@@ -46,7 +46,7 @@ export function FigureDialog({ onClose }: { onClose: () => void }) {
       mapIsWanted.value = false;
     };
   }, [options.shows]);
-  useEffect(() => closeDarkroom, []);
+  useEffect(() => closeOffscreen, []);
   const kinds: [FigureKind, string][] = [
     ["shapes", "Random shapes"],
     ["variance", "Variance"],
@@ -235,5 +235,5 @@ function Preview({ options }: { options: FigureOptions }) {
 /** One click in the list of downloads: as it would first be offered. */
 export async function saveAsOffered(shows: FigureKind): Promise<void> {
   await saveFigure({ ...FIRST_OPTIONS, shows });
-  closeDarkroom();
+  closeOffscreen();
 }

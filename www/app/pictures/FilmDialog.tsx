@@ -18,7 +18,7 @@ import {
   SIZES,
   type Subject,
 } from "./film";
-import { closeDarkroom } from "./offscreen";
+import { closeOffscreen } from "./offscreen";
 import { type Reel, reelOf, stillOf } from "./reel";
 
 const SUBJECTS: [Subject, string][] = [
@@ -44,7 +44,7 @@ export function FilmDialog({ onClose }: { onClose: () => void }) {
   useEffect(
     () => () => {
       making.peek()?.controller.abort();
-      closeDarkroom();
+      closeOffscreen();
     },
     [],
   );

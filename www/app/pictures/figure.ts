@@ -41,7 +41,7 @@ import {
   wrapped,
 } from "./layout";
 import { type Bar, drawBar, FONT, INK } from "./lettering";
-import { darkroom } from "./offscreen";
+import { offscreenViewer } from "./offscreen";
 import { withResolution } from "./png";
 
 export type Background = "white" | "transparent" | "dark";
@@ -190,7 +190,7 @@ export async function drawFigure(
   if (Math.max(layout.width, layout.height) * scale > LARGEST_PX + 1) {
     throw new Error(`That is more than ${LARGEST_PX} pixels high. Choose fewer pixels.`);
   }
-  const viewer = await darkroom();
+  const viewer = await offscreenViewer();
   const canvas = document.createElement("canvas");
   canvas.width = Math.round(layout.width * scale);
   canvas.height = Math.round(layout.height * scale);

@@ -40,8 +40,8 @@ export function drawBar(pen: CanvasRenderingContext2D, bar: Bar, place: Place): 
   pen.fillText(bar.caption, left, top + em, width);
   const line = top + 2.5 * em;
   const start = left + pen.measureText(before).width + 0.6 * em;
-  const room = left + width - start - pen.measureText(after).width - 0.6 * em;
-  const length = Math.max(4 * em, Math.min(LONGEST * em, room));
+  const free = left + width - start - pen.measureText(after).width - 0.6 * em;
+  const length = Math.max(4 * em, Math.min(LONGEST * em, free));
   pen.fillText(before, left, line);
   pen.fillText(after, start + length + 0.6 * em, line);
   const ramp = pen.createLinearGradient(start, 0, start + length, 0);

@@ -7,15 +7,15 @@ import type { Viewer } from "../viewer/viewer";
 
 let open: { flat: boolean; viewer: Promise<Viewer> } | null = null;
 
-export function darkroom(): Promise<Viewer> {
+export function offscreenViewer(): Promise<Viewer> {
   const flat = dimension.peek() === 2;
-  if (open && open.flat !== flat) closeDarkroom();
+  if (open && open.flat !== flat) closeOffscreen();
   open ??= { flat, viewer: createViewer(document.createElement("canvas"), flat) };
   return open.viewer;
 }
 
 /** Lets go of its memory, and of its WebGL context, of which a page may have only a few. */
-export function closeDarkroom(): void {
+export function closeOffscreen(): void {
   open?.viewer.then(
     (viewer) => viewer.dispose(),
     () => undefined,

@@ -16,7 +16,7 @@ import {
   REACH_SD,
 } from "./film";
 import { FONT, INK } from "./lettering";
-import { darkroom } from "./offscreen";
+import { offscreenViewer } from "./offscreen";
 
 /** An animation that can be drawn at any moment. */
 export interface Reel {
@@ -28,7 +28,7 @@ export interface Reel {
 
 /** Lettering and lines are made for pictures of this width. */
 const DESIGNED_FOR = 480;
-const LABEL = { top: 22, room: 30, size: 14 };
+const LABEL = { top: 22, labelHeight: 30, size: 14 };
 
 export async function reelOf(signal: AbortSignal, options: FilmOptions): Promise<Reel> {
   const found: Scene = {
@@ -48,12 +48,12 @@ export async function reelOf(signal: AbortSignal, options: FilmOptions): Promise
   );
   const aspect = Math.min(3, Math.max(1 / 3, frame.halfWidth / frame.halfHeight));
   const scale = options.size / DESIGNED_FOR;
-  const room = options.label ? LABEL.room : 0;
+  const labelHeight = options.label ? LABEL.labelHeight : 0;
   // Codecs want even numbers.
   const even = (value: number) => 2 * Math.round(value / 2);
-  const [width, height] = [even(options.size), even(options.size / aspect + room * scale)];
-  const viewer = await darkroom();
-  const reel = { viewer, width, height, scale, room, frame, content, keys, options };
+  const [width, height] = [even(options.size), even(options.size / aspect + labelHeight * scale)];
+  const viewer = await offscreenViewer();
+  const reel = { viewer, width, height, scale, labelHeight, frame, content, keys, options };
   return { width, height, draw: (pen, moment) => drawMoment(pen, reel, moment) };
 }
 
@@ -62,7 +62,7 @@ interface Drawn {
   width: number;
   height: number;
   scale: number;
-  room: number;
+  labelHeight: number;
   frame: Frame;
   content: PaneContent;
   keys: Keyframe[];
@@ -70,7 +70,7 @@ interface Drawn {
 }
 
 function drawMoment(pen: CanvasRenderingContext2D, reel: Drawn, moment: number): void {
-  const { width, height, scale, room, content, options } = reel;
+  const { width, height, scale, labelHeight, content, options } = reel;
   const dark = options.background === "dark";
   const position = positionAt(options, moment);
   const mixed = blend(reel.keys, position);
@@ -81,7 +81,9 @@ function drawMoment(pen: CanvasRenderingContext2D, reel: Drawn, moment: number):
   const shot = reel.viewer.capture(scale, {
     width: w,
     height: h,
-    layout: new Map([[content.region, { x: 0, y: room, width: w, height: h - room }]]),
+    layout: new Map([
+      [content.region, { x: 0, y: labelHeight, width: w, height: h - labelHeight }],
+    ]),
     panes: [{ ...content, shapes: [mixed.shape], tint: mixed.tint }],
     frame: reel.frame,
     camera: camera.peek(),

@@ -28,16 +28,16 @@ export function Learn() {
   const framed = embedded.value;
   const View = SCENE_VIEWS[name];
   const { title } = titleOf(name);
-  const place = SCENES.findIndex((one) => one.name === name);
+  const index = SCENES.findIndex((one) => one.name === name);
   return (
     <main class="learn" ref={top} data-scene={name} data-framed={framed}>
       {!framed && <SceneList scenes={SCENES} teacher={TEACHER} />}
       <article class="scene" aria-labelledby="scene-title">
         <Notices place="page" />
         <header class="scene-head">
-          {place >= 0 && (
+          {index >= 0 && (
             <p class="scene-place">
-              {place + 1} of {SCENES.length}
+              {index + 1} of {SCENES.length}
             </p>
           )}
           <h2 id="scene-title">{title}</h2>

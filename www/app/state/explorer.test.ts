@@ -8,8 +8,8 @@ import {
   meterValue,
   meterWords,
   missedText,
-  placeOf,
   unusual,
+  whoCanMake,
 } from "../tabs/explore/words";
 import { blended, magnified, writeColours, writeNormals } from "../viewer/morph";
 import type { PaneContent } from "../viewer/viewer";
@@ -69,7 +69,7 @@ test("the meter goes from A only to B only, and its words with it", () => {
   assert.equal(meterValue(1, 0), -1);
   assert.equal(meterValue(0, 1), 1);
   assert.equal(meterValue(1, 1), 0);
-  assert.equal(placeOf(1, 0.7), "both");
+  assert.equal(whoCanMake(1, 0.7), "both");
   assert.equal(meterWords(1, 0.01), "Only A can make it");
   assert.equal(meterWords(0.01, 1), "Only B can make it");
   assert.equal(meterWords(1, 0.3), "A can make it, B only nearly");

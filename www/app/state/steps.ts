@@ -15,10 +15,10 @@ interface Mark {
   step: number;
 }
 
-export class Steps<Place> {
+export class Steps<Snapshot> {
   #entries: Entries;
   #life: number;
-  #places = new Map<number, Place>();
+  #snapshots = new Map<number, Snapshot>();
   #at = signal(0);
   #top = signal(0);
   /** The browser is on its way to another entry. */
@@ -41,22 +41,22 @@ export class Steps<Place> {
   }
 
   /** Makes the present entry the first step. */
-  begin(place: Place): void {
-    this.#places.set(0, place);
+  begin(snapshot: Snapshot): void {
+    this.#snapshots.set(0, snapshot);
     this.#entries.replaceState(this.#mark(0), "");
   }
 
-  push(place: Place, address: string): void {
+  push(snapshot: Snapshot, address: string): void {
     const step = this.#at.peek() + 1;
     this.#at.value = step;
     this.#top.value = step;
-    this.#places.set(step, place);
+    this.#snapshots.set(step, snapshot);
     this.#entries.pushState(this.#mark(step), "", address);
   }
 
   /** What came after a step belongs to it: they are undone together. */
-  join(place: Place, address: string): void {
-    this.#places.set(this.#at.peek(), place);
+  join(snapshot: Snapshot, address: string): void {
+    this.#snapshots.set(this.#at.peek(), snapshot);
     this.#entries.replaceState(this.#mark(this.#at.peek()), "", address);
   }
 
@@ -69,7 +69,7 @@ export class Steps<Place> {
   }
 
   /** Where the browser has come to; null where only the address says what was there. */
-  arrive(state: unknown): Place | null {
+  arrive(state: unknown): Snapshot | null {
     this.#travelling = false;
     const mark = state as Mark | null;
     if (mark?.life === this.#life) this.#at.value = mark.step;
@@ -81,11 +81,11 @@ export class Steps<Place> {
       const step = this.#at.peek() + 1;
       this.#at.value = step;
       this.#top.value = step;
-      this.#places.delete(step);
+      this.#snapshots.delete(step);
       this.#entries.replaceState(this.#mark(step), "");
     }
     if (this.#queued !== 0) this.#leap();
-    return mark?.life === this.#life ? (this.#places.get(mark.step) ?? null) : null;
+    return mark?.life === this.#life ? (this.#snapshots.get(mark.step) ?? null) : null;
   }
 
   /** One journey at a time: browsers drop all but one of several that are asked for at once. */

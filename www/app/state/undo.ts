@@ -5,13 +5,13 @@ import type { Side, Wanted } from "./state";
 import { Steps } from "./steps";
 
 /** What a step of the history holds that no address can: files, and long lists of points. */
-export interface Place {
+export interface Snapshot {
   models: Record<Side, Wanted> | null;
   modelList: Wanted[];
   points: PointSelection | null;
 }
 
-export const steps = new Steps<Place>(history, performance.timeOrigin);
+export const steps = new Steps<Snapshot>(history, performance.timeOrigin);
 
 /** What changes just now belongs to the step before. */
 let joining = false;

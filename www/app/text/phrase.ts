@@ -1,6 +1,6 @@
 /** A sentence whose numbers keep where in the report they come from. */
 
-export interface Figure {
+export interface ReportedNumber {
   /** Path in the report, as in `data-metric`. */
   metric: string;
   /** Unrounded. */
@@ -8,9 +8,9 @@ export interface Figure {
   text: string;
 }
 
-export type Phrase = (string | Figure)[];
+export type Phrase = (string | ReportedNumber)[];
 
-export function figure(metric: string, value: number, text: string): Figure {
+export function reported(metric: string, value: number, text: string): ReportedNumber {
   return { metric, value, text };
 }
 

@@ -51,8 +51,8 @@ export function PlotAxes(props: Props) {
 }
 
 /** Round whole numbers from the first to the last, both kept where there is room for them. */
-export function wholeTicks(last: number, room: number): number[] {
-  const most = Math.max(2, Math.floor(room / 48));
+export function wholeTicks(last: number, pixels: number): number[] {
+  const most = Math.max(2, Math.floor(pixels / 48));
   const steps = [1, 2, 5, 10, 20, 25, 50, 100, 200, 250, 500, 1000, 2000, 5000, 10_000, 100_000];
   const step = steps.find((size) => last / size <= most) ?? last;
   const found = [1];

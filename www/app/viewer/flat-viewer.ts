@@ -81,7 +81,7 @@ export class FlatViewer implements Viewer {
     return null;
   }
 
-  placeOf(region: Region, point: readonly number[]): { x: number; y: number } | null {
+  positionOf(region: Region, point: readonly number[]): { x: number; y: number } | null {
     const rect = this.#layout.get(region);
     if (!rect) return null;
     const [sx, , , , , sy, , , , , , , tx, ty] = this.#matrix(rect, this.#frame, this.#camera);
@@ -175,7 +175,7 @@ export class FlatViewer implements Viewer {
     { frame, camera, range }: Pick<Shot, "frame" | "camera" | "range">,
   ): void {
     const matrix = this.#matrix(rect, frame, camera);
-    const place = (shape: Float32Array, point: number): [number, number] => [
+    const toPixels = (shape: Float32Array, point: number): [number, number] => [
       rect.x + ((matrix[0] * (shape[2 * point] ?? 0) + matrix[12] + 1) * rect.width) / 2,
       rect.y + ((1 - matrix[5] * (shape[2 * point + 1] ?? 0) - matrix[13]) * rect.height) / 2,
     ];
@@ -189,13 +189,13 @@ export class FlatViewer implements Viewer {
     for (const shape of pane.shapes) {
       const colour = `rgb(${pane.tint.join(" ")} / ${many ? 0.22 : 1})`;
       const width = many ? 1 : pane.outline ? 1.5 : 2.25;
-      this.#outline(pen, pane, shape, place, colour, width, range);
+      this.#outline(pen, pane, shape, toPixels, colour, width, range);
     }
-    if (pane.ellipsoid) drawEllipse(pen, pane.ellipsoid, place);
+    if (pane.ellipsoid) drawEllipse(pen, pane.ellipsoid, toPixels);
     const { marks } = pane;
     pen.fillStyle = `rgb(${marks?.tint.join(" ")})`;
     marks?.mask.forEach((marked, point) => {
-      const [x, y] = place(pane.shapes[0] ?? new Float32Array(0), point);
+      const [x, y] = toPixels(pane.shapes[0] ?? new Float32Array(0), point);
       if (marked === 1) pen.fillRect(x - MARK_PX / 2, y - MARK_PX / 2, MARK_PX, MARK_PX);
     });
     pen.restore();
@@ -205,7 +205,7 @@ export class FlatViewer implements Viewer {
     pen: CanvasRenderingContext2D,
     pane: PaneContent,
     shape: Float32Array,
-    place: (shape: Float32Array, point: number) => [number, number],
+    toPixels: (shape: Float32Array, point: number) => [number, number],
     colour: string,
     width: number,
     range: Shot["range"],
@@ -220,7 +220,7 @@ export class FlatViewer implements Viewer {
     if (!segments) {
       for (let point = 0; point < shape.length / 2; point += 1) {
         pen.fillStyle = values ? colourAt(share(point)) : colour;
-        const [x, y] = place(shape, point);
+        const [x, y] = toPixels(shape, point);
         pen.fillRect(x - width, y - width, 2 * width, 2 * width);
       }
       return;
@@ -231,15 +231,15 @@ export class FlatViewer implements Viewer {
     for (let i = 0; i + 1 < segments.length; i += 2) {
       const [from = 0, to = 0] = [segments[i], segments[i + 1]];
       // A path that goes on from where it ended is joined, not begun anew.
-      if (i === 0 || segments[i - 1] !== from) pen.moveTo(...place(shape, from));
-      pen.lineTo(...place(shape, to));
+      if (i === 0 || segments[i - 1] !== from) pen.moveTo(...toPixels(shape, from));
+      pen.lineTo(...toPixels(shape, to));
     }
     pen.stroke();
     if (!values) return;
     pen.lineWidth = MAP_PX;
     for (let i = 0; i + 1 < segments.length; i += 2) {
       const [from = 0, to = 0] = [segments[i], segments[i + 1]];
-      const [start, end] = [place(shape, from), place(shape, to)];
+      const [start, end] = [toPixels(shape, from), toPixels(shape, to)];
       const [low, high] = [share(from), share(to)];
       const steps = Math.max(
         1,
@@ -273,7 +273,7 @@ const ELLIPSE_STEPS = 64;
 function drawEllipse(
   pen: CanvasRenderingContext2D,
   { centre, axes, ink }: DrawnEllipsoid,
-  place: (shape: Float32Array, point: number) => [number, number],
+  toPixels: (shape: Float32Array, point: number) => [number, number],
 ): void {
   const [x = 0, y = 0] = centre;
   const [ax = 0, ay = 0, bx = 0, by = 0] = axes;
@@ -285,7 +285,7 @@ function drawEllipse(
   }
   const colour = ink.join(" ");
   pen.beginPath();
-  for (let i = 0; i < ELLIPSE_STEPS; i += 1) pen.lineTo(...place(outline, i));
+  for (let i = 0; i < ELLIPSE_STEPS; i += 1) pen.lineTo(...toPixels(outline, i));
   pen.closePath();
   pen.fillStyle = `rgb(${colour} / 0.18)`;
   pen.fill();

@@ -171,7 +171,7 @@ export class MeshViewer implements Viewer {
     return null;
   }
 
-  placeOf(region: Region, point: readonly number[]): { x: number; y: number } | null {
+  positionOf(region: Region, point: readonly number[]): { x: number; y: number } | null {
     const cell = this.#layout.get(region);
     if (!cell) return null;
     this.#aim(cell, this.#frame);
@@ -183,10 +183,10 @@ export class MeshViewer implements Viewer {
     const cell = this.#layout.get(region);
     if (!cell) return null;
     this.#aim(cell, this.#frame);
-    const place = vector(through).project(this.#eye);
-    place.x = (2 * (x - cell.x)) / cell.width - 1;
-    place.y = 1 - (2 * (y - cell.y)) / cell.height;
-    return place.unproject(this.#eye).toArray();
+    const position = vector(through).project(this.#eye);
+    position.x = (2 * (x - cell.x)) / cell.width - 1;
+    position.y = 1 - (2 * (y - cell.y)) / cell.height;
+    return position.unproject(this.#eye).toArray();
   }
 
   capture(scale: number, shot: Shot = this.#shot()): HTMLCanvasElement {

@@ -92,7 +92,7 @@ export interface Viewer {
   /** The vertex at a place on the canvas. */
   pick(x: number, y: number): Hit | null;
   /** Where a point of a pane is on the canvas. */
-  placeOf(region: Region, point: readonly number[]): { x: number; y: number } | null;
+  positionOf(region: Region, point: readonly number[]): { x: number; y: number } | null;
   /** What is at a place on the canvas, as far from the eye as `through`. */
   pointAt(region: Region, through: readonly number[], x: number, y: number): number[] | null;
   /** What is on the canvas, or another picture, `scale` pixels to a CSS pixel, drawn and copied in one task. */

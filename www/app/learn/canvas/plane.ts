@@ -1,7 +1,7 @@
 /** A plane of two numbers on a canvas: where things are, ellipses, clouds, fields, shapes. */
 import type { LessonField, LessonLaw } from "../../../worker/lessons";
 import { viridis } from "../../text/colormap";
-import type { Size } from "./Board";
+import type { Size } from "./LessonCanvas";
 
 /** From numbers to pixels and back; up is up. */
 export interface Plane {

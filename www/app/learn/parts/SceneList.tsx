@@ -84,7 +84,7 @@ export function StepAlong() {
 }
 
 export function neighbours(name: SceneName): { before: SceneName | null; after: SceneName | null } {
-  const place = SCENES.findIndex((one) => one.name === name);
-  if (place < 0) return { before: SCENES.at(-1)?.name ?? null, after: null };
-  return { before: SCENES[place - 1]?.name ?? null, after: SCENES[place + 1]?.name ?? null };
+  const index = SCENES.findIndex((one) => one.name === name);
+  if (index < 0) return { before: SCENES.at(-1)?.name ?? null, after: null };
+  return { before: SCENES[index - 1]?.name ?? null, after: SCENES[index + 1]?.name ?? null };
 }

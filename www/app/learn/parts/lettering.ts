@@ -1,6 +1,6 @@
 import { large } from "../state";
 
 /** Room for letters in a plot, in pixels: more of it where letters are large. */
-export function roomy(pixels: number): number {
+export function letterSpace(pixels: number): number {
   return Math.round(pixels * (large.value ? 1.5 : 1));
 }

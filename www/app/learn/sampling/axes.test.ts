@@ -2,13 +2,13 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { viewOf } from "../scenes/race/broken";
 import { logRange, logShare, logTicks } from "./axes";
-import { deviationsOf, placeOf, polarHistogram } from "./polar";
+import { deviationsOf, polarHistogram, restAngle } from "./polar";
 
 /** A star whose tips are off their places by some degrees. */
 function star(off: readonly number[]): number[] {
   return off.flatMap((degrees, tip) => {
-    const outer = ((placeOf(tip) + degrees) * Math.PI) / 180;
-    const inner = ((placeOf(tip) + 36) * Math.PI) / 180;
+    const outer = ((restAngle(tip) + degrees) * Math.PI) / 180;
+    const inner = ((restAngle(tip) + 36) * Math.PI) / 180;
     return [10 * Math.cos(outer), 10 * Math.sin(outer), 3 * Math.cos(inner), 3 * Math.sin(inner)];
   });
 }
@@ -61,10 +61,10 @@ test("a polar histogram counts each tip once for each star", () => {
 });
 
 test("a race looks at the middle of its target", () => {
-  const law = { mean: [2, -1, 0], covariance: [0.04, 0, 0, 0, 0.01, 0, 0, 0, 1] };
-  const { centre, extent, fieldExtent } = viewOf(law, "intersection");
+  const gaussian = { mean: [2, -1, 0], covariance: [0.04, 0, 0, 0, 0.01, 0, 0, 0, 1] };
+  const { centre, extent, fieldExtent } = viewOf(gaussian, "intersection");
   assert.deepEqual(centre, [2, -1]);
   assert.ok(extent > 3 * 0.2 && extent < 4 * 0.2);
   assert.ok(fieldExtent >= 2 + extent, "the field reaches as far as the picture");
-  assert.deepEqual(viewOf(law, "normal").centre, [0, 0]);
+  assert.deepEqual(viewOf(gaussian, "normal").centre, [0, 0]);
 });

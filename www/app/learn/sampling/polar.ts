@@ -15,14 +15,14 @@ export const BOUNDS: Readonly<Record<string, number>> = {
 };
 
 /** Where a tip is when nothing moves it: the first on top, the others to its left, in degrees. */
-export const placeOf = (tip: number) => 90 + (360 / TIPS) * tip;
+export const restAngle = (tip: number) => 90 + (360 / TIPS) * tip;
 
 /** By how many degrees each tip of a star is off its place, to the left positive. */
 export function deviationsOf(shape: ArrayLike<number>, start = 0): number[] {
   return Array.from({ length: TIPS }, (_, tip) => {
     const at = start + 2 * POINTS_BETWEEN_TIPS * tip;
     const angle = (180 / Math.PI) * Math.atan2(shape[at + 1] ?? 0, shape[at] ?? 0);
-    const off = (angle - placeOf(tip)) % 360;
+    const off = (angle - restAngle(tip)) % 360;
     return off > 180 ? off - 360 : off < -180 ? off + 360 : off;
   });
 }

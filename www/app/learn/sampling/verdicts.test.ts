@@ -82,7 +82,7 @@ test("a difference is all, next to nothing, or has a hole", () => {
   assert.ok(differenceVerdict("a", 0.6, 0.001).calm);
 });
 
-const figures = (changes: Partial<LaneFigures>): LaneFigures => ({
+const diagnostics = (changes: Partial<LaneFigures>): LaneFigures => ({
   chains: 4,
   draws: 2000,
   evaluations: 2800,
@@ -100,18 +100,22 @@ const figures = (changes: Partial<LaneFigures>): LaneFigures => ({
 });
 
 test("every break says what went wrong with its own numbers", () => {
-  const lanes = RACERS.map((_, i) =>
-    figures({ essPerThousand: 2 + 150 * i, meanSquare: i === 0 ? 0.55 : 1.01, acceptance: 0.04 }),
+  const groups = RACERS.map((_, i) =>
+    diagnostics({
+      essPerThousand: 2 + 150 * i,
+      meanSquare: i === 0 ? 0.55 : 1.01,
+      acceptance: 0.04,
+    }),
   );
-  const said = BREAKS.map((what) => raceVerdict(what, lanes, 0.01));
+  const said = BREAKS.map((what) => raceVerdict(what, groups, 0.01));
   assert.equal(new Set(said.map(({ text }) => text)).size, BREAKS.length);
   assert.ok(said[0]?.calm);
   assert.match(said[0]?.text ?? "", /times as many effective draws/);
   assert.ok(said.slice(1).every(({ calm }) => !calm));
-  assert.match(raceVerdict("scaling", lanes, 0.01).text, /0.550 instead of 1.*1.01/);
-  assert.match(raceVerdict("sigma", lanes, 0.01).text, /4.0.%/);
-  assert.match(raceVerdict("misaligned", lanes, 0.01).text, /0.100: 10 times σ/);
-  const even = lanes.map((lane) => ({ ...lane, essPerThousand: 5 }));
+  assert.match(raceVerdict("scaling", groups, 0.01).text, /0.550 instead of 1.*1.01/);
+  assert.match(raceVerdict("sigma", groups, 0.01).text, /4.0.%/);
+  assert.match(raceVerdict("misaligned", groups, 0.01).text, /0.100: 10 times σ/);
+  const even = groups.map((group) => ({ ...group, essPerThousand: 5 }));
   assert.ok(!raceVerdict("none", even, 0.01).calm, "where a fit gains nothing that is said");
   assert.match(raceVerdict("none", [], 0.01).text, /on their way/);
 });

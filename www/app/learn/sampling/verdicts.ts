@@ -14,7 +14,7 @@ export const ESS_EACH = 100;
 
 type Quality = Pick<LaneFigures, "chains" | "draws" | "rHatMax" | "essBulkMin">;
 
-/** Draws of a chain before which its figures mean nothing. */
+/** Draws of a chain before which its diagnostics mean nothing. */
 const TOO_EARLY = 20;
 
 /** Whether chains have found what they are after. */

@@ -6,7 +6,7 @@ import { PlayBar } from "../parts/controls";
 import { StarPairs } from "../parts/StarPairs";
 import { params, resetScene, setParams } from "../state";
 import { Answer } from "./agree/Answer";
-import { GuessBoard } from "./agree/GuessBoard";
+import { GuessCanvas } from "./agree/GuessCanvas";
 import { MovingStar } from "./agree/MovingStar";
 import { TELLING } from "./agree/sweep";
 import { named } from "./agree/tips";
@@ -70,7 +70,7 @@ export function AgreeScene() {
               label="A and B in common: a star that moves as far as both can."
             />
           ) : (
-            <GuessBoard guess={guess} onToggle={choose} />
+            <GuessCanvas guess={guess} onToggle={choose} />
           )}
           <figcaption>
             <b>A∩B</b>{" "}

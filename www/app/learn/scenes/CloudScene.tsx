@@ -14,7 +14,7 @@ import { useGrowing } from "../sampling/growing";
 import { LESSON_SAMPLERS, SCENE_PARAMS, STAR_PAIRS } from "../scenes";
 import { params, resetScene, setParams } from "../state";
 import { FallChart } from "./cloud/FallChart";
-import { Figures } from "./cloud/Figures";
+import { Numbers } from "./cloud/Numbers";
 import { Pictures } from "./cloud/Pictures";
 import { Questions } from "./cloud/Questions";
 import { CloudRun, type CloudValues, MOST_DRAWS } from "./cloud/run";
@@ -58,7 +58,7 @@ export function CloudScene() {
       <div class="scene-body">
         <Fall run={run} />
         <div class="scene-side">
-          <Figures run={run} />
+          <Numbers run={run} />
         </div>
       </div>
       <div class="scene-settings">

@@ -13,7 +13,7 @@ import {
 import { useSession } from "../sampling/session";
 import { params, resetScene, setParams } from "../state";
 import type { DifferenceValues } from "./difference/asks";
-import { Figures } from "./difference/Figures";
+import { Numbers } from "./difference/Numbers";
 import { Cut, Plane } from "./difference/Pictures";
 import { Questions } from "./difference/Questions";
 import { DifferenceRun } from "./difference/run";
@@ -32,12 +32,12 @@ export function DifferenceScene() {
   useSession([pair, sigma, side, seed, draws].join(), async (ask) => {
     // The story is told to those who come, not to those who set something, nor where a link says what is up.
     const told = isFirst.current && !flipped;
-    if (isFirst.current) run.place(flipped);
+    if (isFirst.current) run.show(flipped);
     isFirst.current = false;
     await run.open(ask, params("difference").peek(), told);
   });
   useEffect(() => {
-    if (mine.current !== flipped) run.place(flipped);
+    if (mine.current !== flipped) run.show(flipped);
     mine.current = flipped;
   }, [flipped]);
   useFrames(run.moving, (elapsed) => run.frame(elapsed));
@@ -79,7 +79,7 @@ export function DifferenceScene() {
         <Plane run={run} side={side} />
         <div class="scene-side">
           <Cut run={run} />
-          <Figures run={run} own={own} other={other} side={side} />
+          <Numbers run={run} own={own} other={other} side={side} />
           <ShareChart shares={run.shares.value} sigma={sigma} own={own} other={other} />
         </div>
       </div>

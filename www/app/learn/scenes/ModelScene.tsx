@@ -1,15 +1,15 @@
 import { useAsk, useAsked, useDone } from "../asked";
+import { useAutoplay } from "../autoplay";
 import { useSceneKeys } from "../keys";
 import { lissajous, padded } from "../paths";
-import { useRoam } from "../roam";
 import { SCENE_PARAMS } from "../scenes";
 import { modeCount, shapeAt } from "../shape";
 import { params, setParams } from "../state";
+import { CoefficientPlane, EXTENT } from "./model/CoefficientPlane";
 import { Equation } from "./model/Equation";
 import { ModelSide } from "./model/ModelSide";
 import { useOwnShapes } from "./model/ownShapes";
-import { EXTENT, PlaneBoard } from "./model/PlaneBoard";
-import { StarBoard } from "./model/StarBoard";
+import { StarCanvas } from "./model/StarCanvas";
 import "./model.css";
 
 /** σ says nothing about one model; it is given because a lesson has one. */
@@ -26,14 +26,14 @@ export function ModelScene() {
   const lesson = useAsked(ask, { ask: "open", pair, sigma: SIGMA });
   const model = lesson.answer?.[side] ?? null;
   const q = model ? modeCount(model) : coefficients.length;
-  const roam = useRoam({
+  const autoplay = useAutoplay({
     chosen: coefficients,
     standard: SCENE_PARAMS.model.coefficients.standard,
     limits: SCENE_PARAMS.model.coefficients,
     path: (start, seconds) => lissajous(start, SWINGS, seconds),
     write: (values) => setParams("model", { coefficients: values }),
   });
-  const now = padded(roam.now, q);
+  const now = padded(autoplay.now, q);
   const point = useAsked(ask, model && { ask: "point", side, coefficients: now }, lesson.answer);
   const field = useAsked(
     ask,
@@ -49,14 +49,14 @@ export function ModelScene() {
     lesson.answer,
   );
   const cloud = useOwnShapes(ask, lesson.answer, side);
-  const playing = roam.playing.value;
+  const playing = autoplay.playing.value;
   useDone(lesson.current && field.current && cloud.current && (playing || point.current));
-  useSceneKeys(roam.toggle, null);
+  useSceneKeys(autoplay.toggle, null);
   const [first = 0, second = 0] = now;
   // Not beyond what is drawn of the plane.
   const within = (value: number) => Math.min(EXTENT, Math.max(-EXTENT, value));
-  const to = (place: readonly [number, number]) =>
-    roam.hold([...place.map(within), ...roam.now.slice(2)]);
+  const to = (point: readonly [number, number]) =>
+    autoplay.hold([...point.map(within), ...autoplay.now.slice(2)]);
   const move = (by: readonly [number, number]) => to([first + by[0], second + by[1]]);
   return (
     <>
@@ -66,25 +66,25 @@ export function ModelScene() {
         round point and see what it makes.
       </p>
       <div class="model-scene" data-side={side}>
-        <StarBoard
+        <StarCanvas
           model={model}
           coefficients={now}
           side={side}
           cloud={cloud.answer?.values ?? null}
         />
-        <PlaneBoard
+        <CoefficientPlane
           field={field.answer}
-          place={[first, second]}
+          coefficients={[first, second]}
           side={side}
           moving={playing}
           onMove={move}
-          onPlace={to}
-          onToggle={roam.toggle}
+          onPoint={to}
+          onToggle={autoplay.toggle}
         />
         <ModelSide
           point={point.answer}
           playing={playing}
-          onToggle={roam.toggle}
+          onToggle={autoplay.toggle}
           pair={pair}
           side={side}
         />

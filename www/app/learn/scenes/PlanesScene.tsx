@@ -2,17 +2,17 @@ import type { LessonAsk, LessonSide } from "../../../worker/lessons";
 import { degrees } from "../../text/format";
 import { Segments } from "../../ui/Segments";
 import { useAsk, useAsked, useDone } from "../asked";
+import { useAutoplay } from "../autoplay";
 import { useSceneKeys } from "../keys";
 import { bounded } from "../params";
 import { LessonNumber, LessonNumbers, PlayBar } from "../parts/controls";
 import { swung } from "../paths";
-import { useRoam } from "../roam";
 import { SCENE_PARAMS, type SceneValues } from "../scenes";
 import { params, resetScene, setParams } from "../state";
 import { EXTENT } from "./planes/draw";
 import { Factors } from "./planes/Factors";
 import { Sliders } from "./planes/Sliders";
-import { SpaceBoard } from "./planes/SpaceBoard";
+import { SpaceCanvas } from "./planes/SpaceCanvas";
 import type { Flat } from "./planes/space";
 import { angleWords, TRIES, whatToSee } from "./planes/words";
 import "./planes.css";
@@ -44,9 +44,9 @@ export function PlanesScene() {
   const fieldA = useAsked(ask, field("a"), models);
   const fieldB = useAsked(ask, field("b"), models);
   const [first = 0, second = 0] = coefficients;
-  const place: Flat = [first, second];
-  const point = useAsked(ask, models && { ask: "point", side, coefficients: [...place] }, models);
-  const roam = useRoam({
+  const alpha: Flat = [first, second];
+  const point = useAsked(ask, models && { ask: "point", side, coefficients: [...alpha] }, models);
+  const autoplay = useAutoplay({
     chosen: turn,
     standard: SCHEMA.turn.standard,
     limits: SCHEMA.turn,
@@ -54,15 +54,15 @@ export function PlanesScene() {
     write: (values) => set({ turn: values }),
   });
   useDone(lesson.current && fieldA.current && fieldB.current && point.current);
-  useSceneKeys(roam.toggle, null);
+  useSceneKeys(autoplay.toggle, null);
   const to = (moved: Flat) => {
     // Whoever moves the point wants to see it stand still.
-    if (roam.playing.peek()) roam.toggle();
+    if (autoplay.playing.peek()) autoplay.toggle();
     set({ coefficients: moved.map((value) => bounded(SHEET, value)) });
   };
   const found = point.answer;
-  const [yaw = 0, pitch = 0] = roam.now;
-  const playing = roam.playing.value;
+  const [yaw = 0, pitch = 0] = autoplay.now;
+  const playing = autoplay.playing.value;
   return (
     <>
       <p class="lead">
@@ -73,16 +73,16 @@ export function PlanesScene() {
       <div class="scene-body planes-body">
         <div class="planes-board">
           {models ? (
-            <SpaceBoard
+            <SpaceCanvas
               models={models}
               fields={{ a: fieldA.answer, b: fieldB.answer }}
               side={side}
-              place={place}
+              coefficients={alpha}
               point={found}
               turn={[yaw, pitch]}
-              onPlace={to}
-              onTurn={roam.hold}
-              onRun={roam.toggle}
+              onPoint={to}
+              onTurn={autoplay.hold}
+              onRun={autoplay.toggle}
             />
           ) : (
             <div class="board planes-wait" />
@@ -94,7 +94,7 @@ export function PlanesScene() {
         </div>
         <div class="scene-side">
           <div class="planes-top">
-            <PlayBar playing={playing} onToggle={roam.toggle} onReset={resetScene} />
+            <PlayBar playing={playing} onToggle={autoplay.toggle} onReset={resetScene} />
             <Segments
               legend="Whose point is x"
               name="planes-side"

@@ -15,8 +15,8 @@ import { useGrowing } from "../sampling/growing";
 import { BREAKS, SCENE_PARAMS } from "../scenes";
 import { params, resetScene, setParams } from "../state";
 import { BREAK_WORDS, raceVerdict } from "./race/broken";
-import { Distance, Squares } from "./race/Figures";
-import { Lanes } from "./race/Lanes";
+import { ChainGroups } from "./race/ChainGroups";
+import { Distance, Squares } from "./race/Numbers";
 import { Questions } from "./race/Questions";
 import { RaceTable } from "./race/RaceTable";
 import { MOST_STEPS, RaceRun, type RaceValues } from "./race/run";
@@ -70,19 +70,19 @@ export function RaceScene() {
         </PlayBar>
       </div>
       <div class="race-pictures" data-break={what}>
-        <Lanes run={run} />
+        <ChainGroups run={run} />
         {what === "scaling" && (
           <SquareChart curve={run.curve.value} most={Math.max(1, run.target.value)} />
         )}
       </div>
       <div class="scene-body">
         <div class="race-results">
-          <RaceTable runners={run.runners.value} figures={run.figures.value} />
+          <RaceTable runners={run.runners.value} diagnostics={run.diagnostics.value} />
         </div>
         <div class="scene-side">
           <AdviceLine
             advice={{
-              ...raceVerdict(what, run.figures.value, run.models.value?.sigma ?? sigma),
+              ...raceVerdict(what, run.diagnostics.value, run.models.value?.sigma ?? sigma),
               chain: null,
             }}
           />

@@ -15,7 +15,7 @@ import { isTold, SPEEDS } from "../sampling/pacing";
 import { useOwn, useSession } from "../sampling/session";
 import { WALKS } from "../scenes";
 import { params, resetScene, setParams } from "../state";
-import { ChainFigures, Traces } from "./step/ChainFigures";
+import { ChainNumbers, Traces } from "./step/ChainNumbers";
 import { Pictures } from "./step/Pictures";
 import { Questions } from "./step/Questions";
 import { StepRun, type StepValues } from "./step/run";
@@ -90,7 +90,7 @@ export function StepScene() {
         <div class="scene-body">
           <Traces run={run} chains={chains} />
           <div class="scene-side">
-            <ChainFigures run={run} />
+            <ChainNumbers run={run} />
           </div>
         </div>
       </section>

@@ -127,12 +127,16 @@ test("what is nearer than A is drawn after it", () => {
 test("a pointer finds the coefficients that are seen under it", () => {
   const { b } = pair(50, 0.4, 0.3);
   const view = viewFrom(-0.7, 0.38);
-  for (const place of [
+  for (const coefficients of [
     [0, 0],
     [1.3, -0.7],
     [-2, 2.5],
   ] as Flat[]) {
-    near(under(b, view, seen(view, pointAt(b, place))) ?? [], place, "there and back");
+    near(
+      under(b, view, seen(view, pointAt(b, coefficients))) ?? [],
+      coefficients,
+      "there and back",
+    );
   }
   const { a } = pair(50);
   assert.equal(under(a, viewFrom(1, 0), [0, 0]), null, "nothing is held from the edge of a plane");

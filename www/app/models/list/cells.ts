@@ -28,7 +28,7 @@ export function moved(
   far: boolean,
   last: number,
 ): [number, number] | null {
-  const within = (place: number) => Math.max(0, Math.min(last, place));
+  const within = (index: number) => Math.max(0, Math.min(last, index));
   switch (key) {
     case "ArrowUp":
       return [within(row - 1), column];

@@ -79,12 +79,13 @@ test("what was done to A or B alone is left out of the table, and it says so", (
 });
 
 test("only what matters to a number asks for it anew", () => {
-  const key = (change: object, laws: boolean) => relationKey({ ...DEFAULTS, ...change }, laws);
+  const key = (change: object, betweenGaussians: boolean) =>
+    relationKey({ ...DEFAULTS, ...change }, betweenGaussians);
   for (const change of [{ seed: "2" }, { draws: 800 }, { sampler: "hmc" }]) {
     assert.equal(key(change, true), key({}, true), JSON.stringify(change));
   }
   assert.equal(key({ sigma: 1 }, false), key({}, false), "σ says nothing of two spaces");
-  assert.notEqual(key({ sigma: 1 }, true), key({}, true), "but it is the noise of two laws");
+  assert.notEqual(key({ sigma: 1 }, true), key({}, true), "but it is the noise of two Gaussians");
   for (const change of [{ align: "rigid" }, { modes: 3 }]) {
     assert.notEqual(key(change, false), key({}, false), JSON.stringify(change));
   }

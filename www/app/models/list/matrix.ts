@@ -19,9 +19,9 @@ export const paused = signal(false);
 
 interface Known {
   relation: Relation;
-  /** Settings under which it holds, without and with those that matter to the laws only. */
+  /** Settings under which it holds, without and with those that matter to the gaussianKey only. */
   base: string;
-  laws: string;
+  gaussianKey: string;
 }
 
 /** What each pair was last found to be, by the keys of its models. It stays until something newer is known. */
@@ -35,8 +35,8 @@ const SETTLE_MS = 300;
 
 const wants = computed(() => ({
   base: relationKey(settings.value, false),
-  laws: relationKey(settings.value, true),
-  ofLaws: measure.value === "bhattacharyya",
+  gaussianKey: relationKey(settings.value, true),
+  betweenGaussians: measure.value === "bhattacharyya",
 }));
 
 function pairOf(row: Slot, column: Slot): string {
@@ -56,8 +56,8 @@ export function cellOf(row: Slot, column: Slot): Cell {
 }
 
 function isCurrent(found: Known): boolean {
-  const { base, laws, ofLaws } = wants.value;
-  return ofLaws ? found.laws === laws : found.base === base;
+  const { base, gaussianKey, betweenGaussians } = wants.value;
+  return betweenGaussians ? found.gaussianKey === gaussianKey : found.base === base;
 }
 
 /** Pairs of two different models, row by row. */
@@ -84,9 +84,9 @@ export function watchMatrix(): void {
     modelList.value.map((slot) => `${slot.model} ${slotKey(slot)}`).join(),
   );
   effect(() => {
-    const { base, laws, ofLaws } = wants.value;
+    const { base, gaussianKey, betweenGaussians } = wants.value;
     const looked = tab.value === "models" && !paused.value && !reopening.value;
-    const changed = `${models.value} ${base} ${ofLaws ? laws : ""}`;
+    const changed = `${models.value} ${base} ${betweenGaussians ? gaussianKey : ""}`;
     clearTimeout(timer);
     controller.abort();
     // Whoever comes back to it wants all of it.
@@ -108,17 +108,18 @@ export function continueMatrix(): void {
 
 async function relateAll(signal: AbortSignal): Promise<void> {
   const chosen = pairSettings(settings.peek());
-  const { base, laws, ofLaws } = wants.peek();
+  const { base, gaussianKey, betweenGaussians } = wants.peek();
   for (const [row, column] of pairs.peek()) {
     const key = pairOf(row, column);
     const found = known.peek().get(key);
-    if (found && (ofLaws ? found.laws === laws : found.base === base)) continue;
+    if (found && (betweenGaussians ? found.gaussianKey === gaussianKey : found.base === base))
+      continue;
     try {
-      const place = `${key}\n${laws}`;
-      const relation = memory.get(place) ?? (await relate(signal, row, column, chosen));
+      const memoryKey = `${key}\n${gaussianKey}`;
+      const relation = memory.get(memoryKey) ?? (await relate(signal, row, column, chosen));
       if (signal.aborted) return;
-      remember(place, relation);
-      known.value = new Map(known.peek()).set(key, { relation, base, laws });
+      remember(memoryKey, relation);
+      known.value = new Map(known.peek()).set(key, { relation, base, gaussianKey });
     } catch {
       // Ended on purpose, or the engine is gone and says so: the rest is asked for when it is back.
       return;
@@ -158,9 +159,9 @@ const UNRELATED: Relation = {
 };
 
 /** The oldest are forgotten first. */
-function remember(place: string, relation: Relation): void {
-  memory.delete(place);
-  memory.set(place, relation);
+function remember(memoryKey: string, relation: Relation): void {
+  memory.delete(memoryKey);
+  memory.set(memoryKey, relation);
   for (const oldest of memory.keys()) {
     if (memory.size <= MOST_REMEMBERED) break;
     memory.delete(oldest);

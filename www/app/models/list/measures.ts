@@ -101,11 +101,11 @@ export function pairSettings(settings: Settings): Settings {
   return { ...settings, prepare: { ...UNPREPARED, subsample } };
 }
 
-/** Settings under which two models relate the same way; the noise counts for the laws only. */
-export function relationKey(settings: Settings, ofLaws: boolean): string {
+/** Settings under which two models relate the same way; the noise counts for the gaussians only. */
+export function relationKey(settings: Settings, betweenGaussians: boolean): string {
   const { align, modes, plausibility, sigma, noise, prepare } = pairSettings(settings);
-  const laws = ofLaws ? { sigma, noise } : {};
-  return settingsKey({ ...DEFAULTS, align, modes, plausibility, prepare, ...laws });
+  const noiseSettings = betweenGaussians ? { sigma, noise } : {};
+  return settingsKey({ ...DEFAULTS, align, modes, plausibility, prepare, ...noiseSettings });
 }
 
 /** Whether something was done to A or B alone, which no other pair could have. */

@@ -18,9 +18,9 @@ export function afterChoice(models: readonly Slot[], before: Compared, now: Comp
   const next: (Slot | null)[] = [...models];
   for (const side of ["a", "b"] as const) {
     const [former, slot] = [before[side], now[side]];
-    if (!slot || placeOf(next, slot) >= 0) continue;
-    const place = former && !kept(former) ? placeOf(next, former) : -1;
-    if (place >= 0) next[place] = slot;
+    if (!slot || indexIn(next, slot) >= 0) continue;
+    const index = former && !kept(former) ? indexIn(next, former) : -1;
+    if (index >= 0) next[index] = slot;
     else next.push(slot);
   }
   const list = next.flatMap((slot) => slot ?? []).filter(kept);
@@ -30,7 +30,7 @@ export function afterChoice(models: readonly Slot[], before: Compared, now: Comp
 /** With others at the end, each model once. */
 export function withModels(models: readonly Slot[], added: readonly Slot[]): Slot[] {
   const next = [...models];
-  for (const slot of added) if (placeOf(next, slot) < 0) next.push(slot);
+  for (const slot of added) if (indexIn(next, slot) < 0) next.push(slot);
   return next;
 }
 
@@ -47,7 +47,7 @@ export function isSame(one: Slot, other: Slot | null): boolean {
   return other !== null && slotKey(one) === slotKey(other);
 }
 
-function placeOf(list: readonly (Slot | null)[], wanted: Slot): number {
+function indexIn(list: readonly (Slot | null)[], wanted: Slot): number {
   return list.findIndex((slot) => slot !== null && isSame(wanted, slot));
 }
 

@@ -13,8 +13,8 @@ interface Props {
   title: string;
   about: ComponentChildren;
   label: string;
-  figures: ChainFigures;
-  /** Chain after chain, as many as the figures say. */
+  diagnostics: ChainFigures;
+  /** Chain after chain, as many as the diagnostics say. */
   values: ArrayLike<number>;
   advice: Advice;
   upName: string;
@@ -27,9 +27,9 @@ interface Props {
 
 /** Every chain as a thin line over its draws; the one that is spoken of is drawn strongly. */
 export function ChainLines(props: Props) {
-  const { name, title, about, label, figures, values, advice, file, caption } = props;
-  const chains = chainsOf(values, figures.chains);
-  const shown = shownChains(figures.chains, advice.chain);
+  const { name, title, about, label, diagnostics, values, advice, file, caption } = props;
+  const chains = chainsOf(values, diagnostics.chains);
+  const shown = shownChains(diagnostics.chains, advice.chain);
   return (
     <Chart
       name={name}
@@ -52,8 +52,8 @@ export function ChainLines(props: Props) {
           caption={caption}
           corner="Draw"
           columns={shown.map((chain) => ({ title: `Chain ${chain + 1}` }))}
-          rows={Array.from({ length: figures.length }, (_, i) => ({
-            head: i * figures.every + 1,
+          rows={Array.from({ length: diagnostics.length }, (_, i) => ({
+            head: i * diagnostics.every + 1,
             values: shown.map((chain) => chains[chain]?.[i]),
           }))}
         />
@@ -68,11 +68,11 @@ interface LinesProps extends Props {
   width: number;
 }
 
-function Lines({ chains, shown, width, figures, advice, upName, level }: LinesProps) {
+function Lines({ chains, shown, width, diagnostics, advice, upName, level }: LinesProps) {
   const box = { left: 46, right: width - 8, top: 24, bottom: 180 };
   const drawn = shown.flatMap((chain) => chains[chain] ?? []).filter(Number.isFinite);
   const [low, high] = extent(drawn);
-  const last = (figures.length - 1) * figures.every + 1;
+  const last = (diagnostics.length - 1) * diagnostics.every + 1;
   const x = linear(1, Math.max(2, last), box.left, box.right);
   const y = linear(low, high, box.bottom, box.top);
   const within = (value: number) => value >= low && value <= high;
@@ -104,7 +104,9 @@ function Lines({ chains, shown, width, figures, advice, upName, level }: LinesPr
             data-color={chain % 8}
             data-named={chain === advice.chain}
             points={(chains[chain] ?? [])
-              .map((value, i) => `${x(i * figures.every + 1).toFixed(1)},${y(value).toFixed(1)}`)
+              .map(
+                (value, i) => `${x(i * diagnostics.every + 1).toFixed(1)},${y(value).toFixed(1)}`,
+              )
               .join(" ")}
           />
         ))}

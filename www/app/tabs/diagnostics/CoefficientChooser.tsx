@@ -51,7 +51,7 @@ export function CoefficientChooser({ report, chosen }: Props) {
         >
           {Array.from({ length: modes }, (_, mode) => (
             <option key={mode} value={String(mode)}>
-              {`Mode ${mode + 1}${figuresOf(report, chosen.side, mode)}${mode === worst.mode ? `, ${why}` : ""}`}
+              {`Mode ${mode + 1}${diagnosticsOf(report, chosen.side, mode)}${mode === worst.mode ? `, ${why}` : ""}`}
             </option>
           ))}
         </select>
@@ -60,7 +60,7 @@ export function CoefficientChooser({ report, chosen }: Props) {
   );
 }
 
-function figuresOf(report: Report, side: "a" | "b", mode: number): string {
+function diagnosticsOf(report: Report, side: "a" | "b", mode: number): string {
   const own = report.intersection.coefficients?.[side];
   const [rHat, ess] = [own?.rHat[mode], own?.essBulk[mode]];
   if (ess === undefined) return "";

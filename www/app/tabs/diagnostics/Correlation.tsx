@@ -8,16 +8,16 @@ import { DataTable } from "../../ui/DataTable";
 import { PlotAxes } from "../../ui/PlotAxes";
 
 interface Props {
-  figures: ChainFigures;
+  diagnostics: ChainFigures;
   advice: Advice;
   which: string;
   file: string;
 }
 
 /** Autocorrelation of the draws, by lag. */
-export function Correlation({ figures, advice, which, file }: Props) {
-  const found = Array.from(figures.autocorrelation);
-  const draws = drawsOf(figures);
+export function Correlation({ diagnostics, advice, which, file }: Props) {
+  const found = Array.from(diagnostics.autocorrelation);
+  const draws = drawsOf(diagnostics);
   const band = noiseBand(draws);
   const silent = silentLag(found, draws);
   return (

@@ -93,7 +93,7 @@ function Plots({ found }: { found: Result }) {
           <OfPairs
             found={pairs.shown.question.found}
             side={pairs.shown.question.side}
-            figures={pairs.shown.answer}
+            diagnostics={pairs.shown.answer}
           />
         </div>
       )}
@@ -116,8 +116,8 @@ function modesOf(report: Report, side: "a" | "b"): number {
 type ChainAnswer = Answer<Coefficient & { found: Result }, ChainFigures>;
 
 function OfChains({ shown }: { shown: ChainAnswer }) {
-  const { question, answer: figures, problem } = shown;
-  if (!figures) {
+  const { question, answer: diagnostics, problem } = shown;
+  if (!diagnostics) {
     return (
       <p class="tab-empty">
         {problem?.message} <span class="dim">{problem?.hint}</span>
@@ -134,31 +134,31 @@ function OfChains({ shown }: { shown: ChainAnswer }) {
   const own = report.intersection.coefficients?.[side];
   const rHat = own?.rHat[mode] ?? null;
   const ess = own?.essBulk[mode] ?? report.intersection.sides[side].essBulkMin;
-  const level = meanSd(figures.distances);
-  const each = figures.every === 1 ? "" : ` Every ${ordinal(figures.every)} draw is shown.`;
+  const level = meanSd(diagnostics.distances);
+  const each = diagnostics.every === 1 ? "" : ` Every ${ordinal(diagnostics.every)} draw is shown.`;
   return (
     <>
       <ChainLines
         name="trace"
         title={`Trace of ${which}`}
         about={`The coefficient of ${which} in every draw, in standard deviations of ${name}; one line for each chain.${each}`}
-        label={`Trace of ${which}: ${figures.chains} chains, ${figures.length} draws of each shown${rHat === null ? "" : `, R-hat ${rHat.toFixed(4)}`}, ${number(ess, 3)} effective draws.`}
-        figures={figures}
-        values={figures.draws}
-        advice={traceAdvice(figures, rHat, sampler)}
+        label={`Trace of ${which}: ${diagnostics.chains} chains, ${diagnostics.length} draws of each shown${rHat === null ? "" : `, R-hat ${rHat.toFixed(4)}`}, ${number(ess, 3)} effective draws.`}
+        diagnostics={diagnostics}
+        values={diagnostics.draws}
+        advice={traceAdvice(diagnostics, rHat, sampler)}
         upName={`coefficient, SD of ${name}`}
         file={`trace-${file}`}
         caption={`Draws of ${which}, in standard deviations`}
       />
       <RankPlots
-        figures={figures}
-        advice={rankAdvice(figures, rHat, sampler)}
+        diagnostics={diagnostics}
+        advice={rankAdvice(diagnostics, rHat, sampler)}
         which={which}
         file={`ranks-${file}`}
       />
       <Correlation
-        figures={figures}
-        advice={autocorrelationAdvice(figures, ess, sampler)}
+        diagnostics={diagnostics}
+        advice={autocorrelationAdvice(diagnostics, ess, sampler)}
         which={which}
         file={`autocorrelation-${file}`}
       />
@@ -167,9 +167,9 @@ function OfChains({ shown }: { shown: ChainAnswer }) {
         title={`Distance to the other model`}
         about={`d of the same draws: how far each shape of ${name} lies from the nearest shape of ${side === "a" ? "B" : "A"}, mean over the points, in ${unit}.${each}`}
         label={`Distance over draws of ${name}: ${level.mean} ± ${level.spread} ${unit}.`}
-        figures={figures}
-        values={figures.distances}
-        advice={distanceAdvice(figures, unit, sampler)}
+        diagnostics={diagnostics}
+        values={diagnostics.distances}
+        advice={distanceAdvice(diagnostics, unit, sampler)}
         upName={`d, ${unit}`}
         file={`distance-${side}`}
         caption={`Distance d of the draws from ${name}, ${unit}`}
@@ -194,16 +194,19 @@ function ordinal(value: number): string {
 interface PairProps {
   found: Result;
   side: "a" | "b";
-  figures: PairFigures;
+  diagnostics: PairFigures;
 }
 
-function OfPairs({ found, side, figures }: PairProps) {
-  const own = found.report.intersection.coefficients?.[side].essBulk.slice(0, figures.modes.length);
+function OfPairs({ found, side, diagnostics }: PairProps) {
+  const own = found.report.intersection.coefficients?.[side].essBulk.slice(
+    0,
+    diagnostics.modes.length,
+  );
   const ess = own ? Math.min(...own) : found.report.intersection.sides[side].essBulkMin;
   return (
     <PairPlots
-      figures={figures}
-      advice={pairsAdvice(figures, ess)}
+      diagnostics={diagnostics}
+      advice={pairsAdvice(diagnostics, ess)}
       model={side.toUpperCase()}
       file={`pairs-${side}`}
     />

@@ -14,7 +14,7 @@ import { Chart } from "../../ui/Chart";
 import { PairTables } from "./PairTables";
 
 interface Props {
-  figures: PairFigures;
+  diagnostics: PairFigures;
   advice: Advice;
   /** “A” */
   model: string;
@@ -22,11 +22,11 @@ interface Props {
 }
 
 /** Scatter plots of the first coefficients in pairs, with the Gaussians that stand for them. */
-export function PairPlots({ figures, advice, model, file }: Props) {
-  const { modes, count: drawn, fit } = figures;
+export function PairPlots({ diagnostics, advice, model, file }: Props) {
+  const { modes, count: drawn, fit } = diagnostics;
   const pairs = pairsOf(modes.length);
   if (pairs.length === 0) return null;
-  const shares = pairs.map(([i, j]) => shareWithin(figures, i, j, 2));
+  const shares = pairs.map(([i, j]) => shareWithin(diagnostics, i, j, 2));
   const share = shares.reduce((sum, value) => sum + value, 0) / shares.length;
   return (
     <Chart
@@ -35,11 +35,17 @@ export function PairPlots({ figures, advice, model, file }: Props) {
       about={`${count(drawn)} of the draws in the first ${modes.length} modes of ${model}, in standard deviations of ${model}. Ellipses hold 1 and 2 standard deviations of what the model of A∩B is made of${fit ? " and of the Gaussian fit" : "; the Gaussian fit of a stored comparison is not kept"}.`}
       label={`Pair plots of the first ${modes.length} modes of ${model}: ${count(drawn)} draws, ${percent(share)} of them within 2 standard deviations, where a Gaussian has ${percent(gaussianShare(2))}.`}
       height={(width) => cellOf(modes.length, width).height}
-      draw={(width) => <Triangle figures={figures} width={width} />}
+      draw={(width) => <Triangle diagnostics={diagnostics} width={width} />}
       legend={<PairLegend fit={fit !== null} />}
       advice={advice}
       table={() => (
-        <PairTables figures={figures} pairs={pairs} shares={shares} model={model} file={file} />
+        <PairTables
+          diagnostics={diagnostics}
+          pairs={pairs}
+          shares={shares}
+          model={model}
+          file={file}
+        />
       )}
     />
   );
@@ -55,13 +61,13 @@ function cellOf(modes: number, width: number) {
   return { size, height: cells * size + (cells - 1) * GAP + FOOT };
 }
 
-function Triangle({ figures, width }: { figures: PairFigures; width: number }) {
-  const { modes, count: drawn, draws, fit } = figures;
+function Triangle({ diagnostics, width }: { diagnostics: PairFigures; width: number }) {
+  const { modes, count: drawn, draws, fit } = diagnostics;
   const { size } = cellOf(modes.length, width);
   const column = (mode: number) =>
     Array.from({ length: drawn }, (_, draw) => draws[draw * modes.length + mode] ?? 0);
   const columns = modes.map((_, mode) => column(mode));
-  const ranges = columns.map((values, mode) => rangeOf(values, figures, fit, mode));
+  const ranges = columns.map((values, mode) => rangeOf(values, diagnostics, fit, mode));
   const last = modes.length - 1;
   return (
     <>
@@ -78,8 +84,8 @@ function Triangle({ figures, width }: { figures: PairFigures; width: number }) {
           <g key={`${i} ${j}`} class="pair-cell">
             <rect class="cell" x={left} y={top} width={size} height={size} />
             <path class="dots" d={dots} />
-            {fit && <Ellipses law={fit} i={i} j={j} x={x} y={y} kind="fit" />}
-            <Ellipses law={figures} i={i} j={j} x={x} y={y} kind="moments" />
+            {fit && <Ellipses gaussian={fit} i={i} j={j} x={x} y={y} kind="fit" />}
+            <Ellipses gaussian={diagnostics} i={i} j={j} x={x} y={y} kind="moments" />
             {i === 0 && (
               <Side
                 range={ranges[j] ?? [0, 1]}
@@ -112,9 +118,9 @@ function rangeOf(
   fit: Gaussian | null,
   mode: number,
 ): [number, number] {
-  const ends = (fit ? [moments, fit] : [moments]).flatMap((law) => {
-    const reach = 2 * deviation(law, mode);
-    return [(law.mean[mode] ?? 0) - reach, (law.mean[mode] ?? 0) + reach];
+  const ends = (fit ? [moments, fit] : [moments]).flatMap((gaussian) => {
+    const reach = 2 * deviation(gaussian, mode);
+    return [(gaussian.mean[mode] ?? 0) - reach, (gaussian.mean[mode] ?? 0) + reach];
   });
   const [low, high] = [Math.min(...values, ...ends), Math.max(...values, ...ends)];
   const margin = 0.05 * (high - low) || 1;
@@ -122,7 +128,7 @@ function rangeOf(
 }
 
 interface EllipsesProps {
-  law: Gaussian;
+  gaussian: Gaussian;
   i: number;
   j: number;
   x: Scale;
@@ -131,8 +137,8 @@ interface EllipsesProps {
 }
 
 /** As polygons: the two axes have scales of their own, which would turn an ellipse's angle. */
-function Ellipses({ law, i, j, x, y, kind }: EllipsesProps) {
-  const { x: cx, y: cy, long, short, angle } = ellipseOf(law, i, j);
+function Ellipses({ gaussian, i, j, x, y, kind }: EllipsesProps) {
+  const { x: cx, y: cy, long, short, angle } = ellipseOf(gaussian, i, j);
   const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
   const outline = (deviations: number) =>
     Array.from({ length: 72 }, (_, step) => {

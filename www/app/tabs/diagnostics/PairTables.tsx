@@ -4,7 +4,7 @@ import { number, percent } from "../../text/format";
 import { DataTable } from "../../ui/DataTable";
 
 interface TablesProps {
-  figures: PairFigures;
+  diagnostics: PairFigures;
   pairs: [number, number][];
   shares: number[];
   model: string;
@@ -12,8 +12,8 @@ interface TablesProps {
 }
 
 /** Means, standard deviations and correlations of the Gaussians beside the scatter plots. */
-export function PairTables({ figures, pairs, shares, model, file }: TablesProps) {
-  const { modes, fit } = figures;
+export function PairTables({ diagnostics, pairs, shares, model, file }: TablesProps) {
+  const { modes, fit } = diagnostics;
   const plain = (value: number) => number(value, 3);
   return (
     <>
@@ -34,8 +34,8 @@ export function PairTables({ figures, pairs, shares, model, file }: TablesProps)
         rows={modes.map((mode, i) => ({
           head: mode + 1,
           values: [
-            figures.mean[i],
-            deviation(figures, i),
+            diagnostics.mean[i],
+            deviation(diagnostics, i),
             ...(fit ? [fit.mean[i], deviation(fit, i)] : []),
           ],
         }))}
@@ -52,7 +52,7 @@ export function PairTables({ figures, pairs, shares, model, file }: TablesProps)
         rows={pairs.map(([i, j], row) => ({
           head: `${i + 1}, ${j + 1}`,
           values: [
-            correlation(figures, i, j),
+            correlation(diagnostics, i, j),
             ...(fit ? [correlation(fit, i, j)] : []),
             shares[row],
           ],

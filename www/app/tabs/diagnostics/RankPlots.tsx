@@ -6,7 +6,7 @@ import { Chart } from "../../ui/Chart";
 import { DataTable } from "../../ui/DataTable";
 
 interface Props {
-  figures: ChainFigures;
+  diagnostics: ChainFigures;
   advice: Advice;
   /** “mode 3 of A” */
   which: string;
@@ -14,10 +14,10 @@ interface Props {
 }
 
 /** Rank histograms of the chains: flat in every chain if the chains agree. */
-export function RankPlots({ figures, advice, which, file }: Props) {
-  const { bins, chains } = figures;
-  const bars = chainsOf(figures.ranks, chains);
-  const band = rankBand(figures);
+export function RankPlots({ diagnostics, advice, which, file }: Props) {
+  const { bins, chains } = diagnostics;
+  const bars = chainsOf(diagnostics.ranks, chains);
+  const band = rankBand(diagnostics);
   const shown = shownChains(chains, advice.chain);
   const size = Math.max(...shown.flatMap((chain) => bars[chain] ?? []), band.high);
   const limits = `${count(band.low)} to ${count(band.high)}`;
@@ -26,7 +26,7 @@ export function RankPlots({ figures, advice, which, file }: Props) {
       name="ranks"
       title="Rank plots"
       about={`All draws of ${which} put in order: how many of each chain are among the lowest, …, the highest. Chance alone keeps most bars within the band, ${limits}.`}
-      label={`Rank plots of ${which}: ${chains} chains with ${bins} bars each, from ${count(Math.min(...figures.ranks))} to ${count(Math.max(...figures.ranks))} draws high; ${count(band.expected)} are expected, chance allows ${limits}.`}
+      label={`Rank plots of ${which}: ${chains} chains with ${bins} bars each, from ${count(Math.min(...diagnostics.ranks))} to ${count(Math.max(...diagnostics.ranks))} draws high; ${count(band.expected)} are expected, chance allows ${limits}.`}
       height={(width) => gridOf(shown.length, width).height}
       draw={(width) => {
         const { columns, wide, tall } = gridOf(shown.length, width);

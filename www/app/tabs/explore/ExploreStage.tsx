@@ -6,7 +6,7 @@ import { answer, dragTool, explorer, trouble } from "../../state/exploring";
 import { run, unit } from "../../state/state";
 import { length } from "../../text/format";
 import { EXPLORE_PANES, type ExplorePane, panesOf } from "./contents";
-import { exploreHover, takeExploreCanvas, vertexPlaces } from "./controller";
+import { exploreHover, takeExploreCanvas, vertexPositions } from "./controller";
 import { ExploreBar } from "./ExploreBar";
 import { Follow } from "./Follow";
 import { HeatBar } from "./HeatBar";
@@ -20,7 +20,7 @@ export function ExploreStage() {
       <div class="field-of-view" data-drag={dragTool.value}>
         {kind !== null && <Panes key={kind} flat={kind === 2} />}
         <Tooltip />
-        {vertexPlaces.value.map(({ region, x, y }) => (
+        {vertexPositions.value.map(({ region, x, y }) => (
           <span
             key={region}
             class="vertex-place"

@@ -9,17 +9,17 @@ import {
   followWords,
   meterValue,
   meterWords,
-  placeOf,
   rarity,
   SIGNS,
   unusual,
+  whoCanMake,
 } from "./words";
 
 /** Of one height whatever it says: the shapes above it keep their place while sliders move. */
 export function Follow() {
   const found = answer.value;
-  const placed = found?.explored.placed;
-  if (!found || !placed) return null;
+  const nearest = found?.explored.placed;
+  if (!found || !nearest) return null;
   const { space } = found;
   const { norm, plausibility } = found.explored;
   return (
@@ -28,16 +28,16 @@ export function Follow() {
         <h3>{followQuestion(space)}</h3>
         {followers(space).map((side) => (
           <p key={side} data-follows={side}>
-            {followWords(SIGNS[side], placed[side], sigmaInUse.value)}
+            {followWords(SIGNS[side], nearest[side], sigmaInUse.value)}
           </p>
         ))}
       </div>
-      <Meter ofA={placed.a.likelihood} ofB={placed.b.likelihood} />
-      <NearestTable sides={followers(space)} placed={placed} />
+      <Meter ofA={nearest.a.likelihood} ofB={nearest.b.likelihood} />
+      <NearestTable sides={followers(space)} nearest={nearest} />
       <p class="small">
-        The shape itself is <Figure name="norm" value={norm} text={number(norm)} /> SD from the mean
+        The shape itself is <Value name="norm" value={norm} text={number(norm)} /> SD from the mean
         of {SIGNS[space]},{" "}
-        <Figure
+        <Value
           name="plausibility"
           value={plausibility}
           text={unusual(plausibility, SIGNS[space])}
@@ -48,7 +48,7 @@ export function Follow() {
   );
 }
 
-function Figure({ name, value, text }: { name: string; value: number; text: string }) {
+function Value({ name, value, text }: { name: string; value: number; text: string }) {
   return (
     <span class="metric" data-explore={name} data-value={value}>
       {text}
@@ -58,11 +58,11 @@ function Figure({ name, value, text }: { name: string; value: number; text: stri
 
 interface NearestProps {
   sides: ("a" | "b")[];
-  placed: BothSides<Nearest>;
+  nearest: BothSides<Nearest>;
 }
 
 /** The shape by which each model follows. */
-function NearestTable({ sides, placed }: NearestProps) {
+function NearestTable({ sides, nearest }: NearestProps) {
   const sigma = sigmaInUse.value;
   return (
     <table class="numbers">
@@ -78,21 +78,21 @@ function NearestTable({ sides, placed }: NearestProps) {
       </thead>
       <tbody>
         {sides.map((side) => {
-          const { distance, likelihood, plausibility } = placed[side];
+          const { distance, likelihood, plausibility } = nearest[side];
           return (
             <tr key={side}>
               <th scope="row">of {SIGNS[side]}</th>
               <td>
-                <Figure name="distance" value={distance} text={length(distance, unit.value)} />
+                <Value name="distance" value={distance} text={length(distance, unit.value)} />
                 {sigma !== null && (
                   <span class="dim follow-sigma"> (σ {length(sigma, unit.value)})</span>
                 )}
               </td>
               <td>
-                <Figure name="likelihood" value={likelihood} text={percent(likelihood)} />
+                <Value name="likelihood" value={likelihood} text={percent(likelihood)} />
               </td>
               <td>
-                <Figure name="followed" value={plausibility} text={rarity(plausibility)} />
+                <Value name="followed" value={plausibility} text={rarity(plausibility)} />
               </td>
             </tr>
           );
@@ -120,7 +120,7 @@ function Meter({ ofA, ofB }: { ofA: number; ofB: number }) {
         aria-valuemax={1}
         aria-valuenow={Number(value.toFixed(3))}
         aria-valuetext={words}
-        data-neither={placeOf(ofA, ofB) === "neither"}
+        data-neither={whoCanMake(ofA, ofB) === "neither"}
       >
         <i style={{ left: `${50 + 50 * value}%` }} />
       </div>

@@ -71,9 +71,10 @@ function ofOne({ state, explored }: ExploreScene, space: "a" | "b"): Layer[] {
 
 /** A shape of A∩B between the nearest of either model. */
 function ofBoth({ state, explored }: ExploreScene): Layer[] {
-  const { shape, placed } = explored;
+  const { shape, placed: nearest } = explored;
   const overlaid = state.layout === "overlaid";
-  const larger = placed && overlaid ? largest(placed.a.residuals, placed.b.residuals) : undefined;
+  const larger =
+    nearest && overlaid ? largest(nearest.a.residuals, nearest.b.residuals) : undefined;
   const x: Layer = {
     pane: "intersection",
     of: "intersection",
@@ -81,11 +82,11 @@ function ofBoth({ state, explored }: ExploreScene): Layer[] {
     values: heat(state, larger),
     outline: false,
   };
-  if (!placed) return [x];
+  if (!nearest) return [x];
   return [
     x,
     ...(["a", "b"] as const).flatMap((side) => {
-      const { shape, residuals } = placed[side];
+      const { shape, residuals } = nearest[side];
       const found = { of: side, shape };
       return [
         { ...found, pane: side, values: heat(state, residuals), outline: false },
@@ -178,9 +179,11 @@ export function roundUp(value: number): number {
 }
 
 /** What is missed, of the answer: all that may be coloured. */
-export function missedBy(space: Space, placed: Record<"a" | "b", Nearest>): Float32Array[] {
-  const { a, b } = placed;
-  return space === "intersection" ? [a.residuals, b.residuals] : [placed[otherOf(space)].residuals];
+export function missedBy(space: Space, nearest: Record<"a" | "b", Nearest>): Float32Array[] {
+  const { a, b } = nearest;
+  return space === "intersection"
+    ? [a.residuals, b.residuals]
+    : [nearest[otherOf(space)].residuals];
 }
 
 /** Whether the same things are drawn in the same way, only elsewhere; then how they moved. */

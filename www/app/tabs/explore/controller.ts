@@ -24,7 +24,7 @@ export const exploreHover = signal<(Hit & { x: number; y: number; value: number 
 );
 
 /** Where the vertex that is looked at is drawn, in each pane. */
-export const vertexPlaces = signal<{ region: Region; x: number; y: number }[]>([]);
+export const vertexPositions = signal<{ region: Region; x: number; y: number }[]>([]);
 /** The vertex that the pointer holds. */
 const dragged = signal<number | null>(null);
 
@@ -67,14 +67,14 @@ export const heatRange = computed<[number, number] | null>(() => {
 });
 
 /** Room for shapes three standard deviations from the mean. */
-const ROOM = 1.14;
+const MARGIN = 1.14;
 
 const frame = computed<Frame>(() => {
   const found = sceneFrame({ ...scene.value, mode: "mean" });
   return {
     ...found,
-    halfWidth: ROOM * found.halfWidth,
-    halfHeight: ROOM * found.halfHeight,
+    halfWidth: MARGIN * found.halfWidth,
+    halfHeight: MARGIN * found.halfHeight,
   };
 });
 
@@ -112,7 +112,7 @@ export function takeExploreCanvas(
         const [shown, chosen] = [contents.value, dragged.value ?? vertex.value];
         // Once the viewer has all of them.
         requestAnimationFrame(() => {
-          vertexPlaces.value = gone ? [] : placesIn(made, shown, chosen);
+          vertexPositions.value = gone ? [] : positionsIn(made, shown, chosen);
         });
       }),
       listen(canvas, gestures(canvas, panes, made)),
@@ -123,37 +123,37 @@ export function takeExploreCanvas(
     gone = true;
     for (const stop of stops) stop();
     exploreHover.value = null;
-    vertexPlaces.value = [];
+    vertexPositions.value = [];
   };
 }
 
 /** Shapes that only moved are moved; anything else is drawn anew. */
 function drawing(made: Viewer, flat: boolean): () => void {
   let former: PaneContent[] = [];
-  let place: Frame | null = null;
+  let lastFrame: Frame | null = null;
   return () => {
     const found = exploreScene.value;
     const dimension = found?.scene.geometry.a?.dimension ?? found?.scene.geometry.b?.dimension;
     if (!found || (dimension === 2) !== flat) return;
     const next = contents.value;
     made.setColors(heatRange.value);
-    const moved = place === frame.value ? movedFrom(former, next) : null;
+    const moved = lastFrame === frame.value ? movedFrom(former, next) : null;
     if (moved) made.morph(moved);
     else made.setMesh(next, frame.value);
     former = next;
-    place = frame.value;
+    lastFrame = frame.value;
   };
 }
 
-function placesIn(made: Viewer, shown: PaneContent[], chosen: number | null) {
+function positionsIn(made: Viewer, shown: PaneContent[], chosen: number | null) {
   if (chosen === null) return [];
   const seen = new Set<Region>();
   return shown.flatMap(({ region, moves, shapes: [shape] }) => {
     const point = moves && shape && !seen.has(region) ? positionOf(shape, chosen) : null;
-    const place = point && made.placeOf(region, point);
-    if (!place) return [];
+    const position = point && made.positionOf(region, point);
+    if (!position) return [];
     seen.add(region);
-    return [{ region, ...place }];
+    return [{ region, ...position }];
   });
 }
 
@@ -167,7 +167,7 @@ function gestures(canvas: HTMLCanvasElement, panes: Map<Region, HTMLElement>, ma
       const hit = made.pick(at.x, at.y);
       if (!hit || hit.region !== explorer.peek().space) return false;
       const held = takeVertex(hit.vertex);
-      const drawn = held && made.placeOf(hit.region, asDrawn(held.vertex, held.to));
+      const drawn = held && made.positionOf(hit.region, asDrawn(held.vertex, held.to));
       if (!drawn) return false;
       away = { x: drawn.x - at.x, y: drawn.y - at.y };
       dragged.value = hit.vertex;
@@ -191,8 +191,8 @@ function gestures(canvas: HTMLCanvasElement, panes: Map<Region, HTMLElement>, ma
       const held = grab.peek();
       if (!held) return;
       const through = asDrawn(held.vertex, held.to);
-      const place = made.pointAt(held.space, through, x + away.x, y + away.y);
-      if (place) moveVertex(asMeant(held.vertex, place));
+      const position = made.pointAt(held.space, through, x + away.x, y + away.y);
+      if (position) moveVertex(asMeant(held.vertex, position));
     },
     camera: () => camera.peek(),
     setCamera: (next: typeof camera.value) => {
@@ -241,11 +241,11 @@ function meanAt(vertex: number, axis: number, dimension: number): number {
 /** What is missed at a vertex, in the pane that tells it. */
 function missedAt(hit: Hit): number | null {
   const found = answer.peek();
-  const placed = found?.explored.placed;
-  if (!found || !placed) return null;
+  const nearest = found?.explored.placed;
+  if (!found || !nearest) return null;
   if (found.space === "intersection") {
     const side = hit.region === "b" ? "b" : "a";
-    return hit.region === "intersection" ? null : (placed[side].residuals[hit.vertex] ?? null);
+    return hit.region === "intersection" ? null : (nearest[side].residuals[hit.vertex] ?? null);
   }
-  return placed[found.space === "a" ? "b" : "a"].residuals[hit.vertex] ?? null;
+  return nearest[found.space === "a" ? "b" : "a"].residuals[hit.vertex] ?? null;
 }

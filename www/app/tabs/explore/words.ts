@@ -104,10 +104,10 @@ export function rarity(share: number): string {
 const WITHIN = Math.exp(-0.5);
 const NEAR = Math.exp(-2);
 
-export type Place = "a" | "nearlyBoth" | "both" | "b" | "neither";
+export type Maker = "a" | "nearlyBoth" | "both" | "b" | "neither";
 
 /** Where a shape lies between two models, from L_D of either. */
-export function placeOf(ofA: number, ofB: number): Place {
+export function whoCanMake(ofA: number, ofB: number): Maker {
   const [least, most] = [Math.min(ofA, ofB), Math.max(ofA, ofB)];
   if (most < NEAR) return "neither";
   if (least >= WITHIN) return "both";
@@ -121,7 +121,7 @@ export function meterValue(ofA: number, ofB: number): number {
 }
 
 export function meterWords(ofA: number, ofB: number): string {
-  switch (placeOf(ofA, ofB)) {
+  switch (whoCanMake(ofA, ofB)) {
     case "both":
       return "Both can make it";
     case "a":

@@ -22,7 +22,7 @@ export function MatrixTable({ range, tell }: Props) {
   const table = useRef<HTMLTableElement>(null);
   const active = useSignal<[number, number]>([0, 1]);
   const last = models.length - 1;
-  const [row, column] = active.value.map((place) => Math.min(place, last));
+  const [row, column] = active.value.map((index) => Math.min(index, last));
   const go = (event: KeyboardEvent) => {
     const next = moved([row ?? 0, column ?? 0], event.key, event.ctrlKey || event.metaKey, last);
     if (next === null) return;

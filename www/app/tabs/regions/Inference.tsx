@@ -32,24 +32,24 @@ export function Inferred({ report }: { report: Report }) {
   );
 }
 
-type Figure = "rHat" | "essBulk" | "essTail";
-const PLOTS: { figure: Figure; title: string; limit: number }[] = [
-  { figure: "rHat", title: "R-hat", limit: R_HAT },
-  { figure: "essBulk", title: "Bulk ESS", limit: ESS },
-  { figure: "essTail", title: "Tail ESS", limit: ESS },
+type Statistic = "rHat" | "essBulk" | "essTail";
+const PLOTS: { statistic: Statistic; title: string; limit: number }[] = [
+  { statistic: "rHat", title: "R-hat", limit: R_HAT },
+  { statistic: "essBulk", title: "Bulk ESS", limit: ESS },
+  { statistic: "essTail", title: "Tail ESS", limit: ESS },
 ];
 
 /** R-hat and effective sample sizes of every mode, both sides, with the limits drawn. */
-export function ModeFigures({ report }: { report: Report }) {
+export function ModePlots({ report }: { report: Report }) {
   const both = report.intersection.coefficients;
   const worst = worstModes(report);
   if (!both || !worst) return null;
   return (
     <figure class="mode-figures">
       <figcaption>Every mode: A round, B square, the limit dashed</figcaption>
-      {PLOTS.map(({ figure, title, limit }) =>
-        both.a[figure].length + both.b[figure].length === 0 ? null : (
-          <ModePlot key={figure} both={both} figure={figure} title={title} limit={limit} />
+      {PLOTS.map(({ statistic, title, limit }) =>
+        both.a[statistic].length + both.b[statistic].length === 0 ? null : (
+          <ModePlot key={statistic} both={both} statistic={statistic} title={title} limit={limit} />
         ),
       )}
       <p class="small">
@@ -65,22 +65,22 @@ const BOX = { left: 34, right: 8, top: 20, bottom: 6 };
 
 interface PlotProps {
   both: BothSides<ModeDiagnostics>;
-  figure: Figure;
+  statistic: Statistic;
   title: string;
   limit: number;
 }
 
-function ModePlot({ both, figure, title, limit }: PlotProps) {
-  const values = SIDES.flatMap((side) => both[side][figure]).filter(Number.isFinite);
-  const modes = Math.max(both.a[figure].length, both.b[figure].length);
+function ModePlot({ both, statistic, title, limit }: PlotProps) {
+  const values = SIDES.flatMap((side) => both[side][statistic]).filter(Number.isFinite);
+  const modes = Math.max(both.a[statistic].length, both.b[statistic].length);
   const [low, high] = [Math.min(limit, ...values), Math.max(limit, ...values)];
   const [bottom, top] = [HEIGHT - BOX.bottom, BOX.top];
   const y: Scale =
-    figure === "rHat"
+    statistic === "rHat"
       ? linear(Math.min(1, low), high, bottom, top)
       : logarithmic(Math.max(1, low / 1.5), high * 1.2, bottom, top);
   const x = linear(1, Math.max(2, modes), BOX.left + 6, WIDTH - BOX.right);
-  const fails = (value: number) => (figure === "rHat" ? value >= limit : value < limit);
+  const fails = (value: number) => (statistic === "rHat" ? value >= limit : value < limit);
   return (
     <svg viewBox={`0 0 ${WIDTH} ${HEIGHT}`} class="plot mode-plot" aria-hidden="true">
       <text class="tick" x={BOX.left} y={10}>
@@ -92,7 +92,7 @@ function ModePlot({ both, figure, title, limit }: PlotProps) {
       </text>
       {SIDES.map((side) => (
         <g key={side} class="mode-marks" data-side={side}>
-          {both[side][figure].map((value, i) =>
+          {both[side][statistic].map((value, i) =>
             Number.isFinite(value) ? (
               <g key={i} data-fails={fails(value)}>
                 <title>
@@ -101,7 +101,7 @@ function ModePlot({ both, figure, title, limit }: PlotProps) {
                 <Mark
                   kind={side === "a" ? "circle" : "square"}
                   x={x(i + 1) + (side === "a" ? -1 : 1)}
-                  y={y(Math.max(value, figure === "rHat" ? 1 : value))}
+                  y={y(Math.max(value, statistic === "rHat" ? 1 : value))}
                 />
               </g>
             ) : null,

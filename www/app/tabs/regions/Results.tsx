@@ -12,7 +12,7 @@ import {
 import { linked, opening, outOfDate, result, SIDES, slots } from "../../state/state";
 import { count, degrees } from "../../text/format";
 import { Metric, Phrase } from "../../ui/Phrase";
-import { Inferred, ModeFigures } from "./Inference";
+import { Inferred, ModePlots } from "./Inference";
 import { Modes } from "./Modes";
 import { Numbers } from "./Numbers";
 import { Sweep } from "./Sweep";
@@ -76,7 +76,7 @@ export function Results() {
           above {count(1000)}. MCSE is the Monte-Carlo standard error, in standard deviations of a
           mode. A difference is sampled exactly, so its draws are independent and have no R-hat.
         </p>
-        <ModeFigures report={report} />
+        <ModePlots report={report} />
         <Angles angles={report.overlap.principalAnglesDegrees} />
       </details>
     </section>

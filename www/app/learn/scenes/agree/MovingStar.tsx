@@ -1,6 +1,6 @@
 import { useMemo } from "preact/hooks";
 import type { LessonModel } from "../../../../worker/lessons";
-import { Board, type Size } from "../../canvas/Board";
+import { LessonCanvas, type Size } from "../../canvas/LessonCanvas";
 import { faded, type Palette } from "../../canvas/palette";
 import { drawOverMean, planeOf, traceOutline } from "../../canvas/plane";
 import { shapeAt } from "../../shape";
@@ -42,7 +42,7 @@ export function MovingStar({ model, whose, seconds, label }: Props) {
       { fill: faded(colour, 0.15), line: colour, meanLine: palette.dim },
     );
   };
-  return <Board label={label} aspect={ASPECT} draw={draw} />;
+  return <LessonCanvas label={label} aspect={ASPECT} draw={draw} />;
 }
 
 function fanOf(model: LessonModel): number[][] {

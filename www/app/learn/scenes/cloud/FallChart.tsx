@@ -4,7 +4,7 @@ import { logarithmic } from "../../../text/plots";
 import { Chart } from "../../../ui/Chart";
 import { DataTable } from "../../../ui/DataTable";
 import { type Box, PlotAxes } from "../../../ui/PlotAxes";
-import { roomy } from "../../parts/lettering";
+import { letterSpace } from "../../parts/lettering";
 import { logRange, logTicks } from "../../sampling/axes";
 
 interface Point {
@@ -66,10 +66,10 @@ interface LinesProps {
 function Lines({ points, closedForm, width, most }: LinesProps) {
   const height = Math.round(Math.min(300, Math.max(210, 0.55 * width)));
   const box: Box = {
-    left: roomy(52),
-    right: width - roomy(16),
-    top: roomy(24),
-    bottom: height - roomy(40),
+    left: letterSpace(52),
+    right: width - letterSpace(16),
+    top: letterSpace(24),
+    bottom: height - letterSpace(40),
   };
   const [low, high] = logRange([
     closedForm,
@@ -99,7 +99,7 @@ function Lines({ points, closedForm, width, most }: LinesProps) {
         showAcross={count}
         showUp={(value) => number(value, 1)}
       />
-      <text class="tick axis-name" x={box.right} y={box.bottom + roomy(30)} text-anchor="end">
+      <text class="tick axis-name" x={box.right} y={box.bottom + letterSpace(30)} text-anchor="end">
         draws of each side
       </text>
       {closedForm !== null && (

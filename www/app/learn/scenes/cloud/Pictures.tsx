@@ -1,4 +1,4 @@
-import { Board } from "../../canvas/Board";
+import { LessonCanvas } from "../../canvas/LessonCanvas";
 import { still } from "../../clock";
 import { BOUNDS } from "../../sampling/polar";
 import { drawModel, drawStars } from "./draw";
@@ -14,7 +14,7 @@ export function Pictures({ run, pair }: { run: CloudRun; pair: string }) {
   return (
     <div class="boards cloud-boards">
       <figure>
-        <Board
+        <LessonCanvas
           label="Stars drawn from both sides, one above the other; their first tips as dots"
           aspect={1}
           draw={(pen, size, palette) =>
@@ -27,7 +27,7 @@ export function Pictures({ run, pair }: { run: CloudRun; pair: string }) {
       </figure>
       <Swaying run={run} />
       <figure>
-        <Board
+        <LessonCanvas
           label={`Polar histogram of the angles of the five tips; both models can make the first within ${bound ?? "–"} degrees`}
           aspect={1}
           draw={(pen, size, palette) =>
@@ -49,7 +49,7 @@ function Swaying({ run }: { run: CloudRun }) {
   const sway = still.value ? 1 : run.sway.value;
   return (
     <figure>
-      <Board
+      <LessonCanvas
         label="The model of the draws, solid, and the true intersection, dashed, swaying by two standard deviations along their first mode"
         aspect={1}
         draw={(pen, size, palette) => {

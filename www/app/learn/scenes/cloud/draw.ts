@@ -1,6 +1,6 @@
 /** Stars of draws, and the model made of them beside the truth. */
 import type { LessonModel } from "../../../../worker/lessons";
-import type { Size } from "../../canvas/Board";
+import type { Size } from "../../canvas/LessonCanvas";
 import { faded, type Palette } from "../../canvas/palette";
 import { type Plane, planeOf, traceShape } from "../../canvas/plane";
 import type { BothSides } from "./run";

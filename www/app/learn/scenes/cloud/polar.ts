@@ -1,7 +1,7 @@
 /** Polar histogram of the angles of the tips. */
-import type { Size } from "../../canvas/Board";
+import type { Size } from "../../canvas/LessonCanvas";
 import { faded, type Palette } from "../../canvas/palette";
-import { placeOf, polarHistogram } from "../../sampling/polar";
+import { polarHistogram, restAngle } from "../../sampling/polar";
 import type { BothSides } from "./run";
 
 type Pen = CanvasRenderingContext2D;
@@ -45,7 +45,7 @@ export function drawPolar(
     pen.fillStyle = tip === 0 ? palette.ab : faded(palette.dim, 0.75);
     bins.forEach((share, bin) => {
       if (share === 0) return;
-      const from = placeOf(tip) - HALF + bin * BIN;
+      const from = restAngle(tip) - HALF + bin * BIN;
       // As much area as there are stars: lengths go with the root.
       sector(pen, at, from + 0.2, from + BIN - 0.2, ring, ring + BARS * half * Math.sqrt(share));
       pen.fill();
@@ -56,7 +56,7 @@ export function drawPolar(
   pen.textAlign = "center";
   pen.textBaseline = "middle";
   for (let tip = 0; tip < 5; tip += 1) {
-    const [x, y] = at(placeOf(tip), ring - 16 * (palette.text / 14));
+    const [x, y] = at(restAngle(tip), ring - 16 * (palette.text / 14));
     pen.fillText(String(tip + 1), x, y);
   }
   if (bound === null) return;

@@ -34,7 +34,7 @@ export class CloudRun {
   readonly models = signal<LessonModels | null>(null);
   readonly stars = signal<BothSides<Float32Array> | null>(null);
   readonly found = signal<LessonIntersection | null>(null);
-  readonly figures = signal<BothSides<LaneFigures> | null>(null);
+  readonly diagnostics = signal<BothSides<LaneFigures> | null>(null);
   /** Draws of each side so far. */
   readonly draws = signal(0);
   readonly playing = signal(false);
@@ -58,10 +58,10 @@ export class CloudRun {
     this.playing.value = false;
     const models = await ask({ ask: "open", pair, sigma });
     const burnIn = this.#isWalk(sampler) ? BURN_IN.walks : BURN_IN.others;
-    for (const [lane, side] of SIDES.entries()) {
+    for (const [group, side] of SIDES.entries()) {
       const target = "intersection" as const;
-      await ask({ ask: "begin", lane, target, side, sampler, chains, seed, burnIn });
-      await ask({ ask: "advance", lane, steps: burnIn, watch: false });
+      await ask({ ask: "begin", lane: group, target, side, sampler, chains, seed, burnIn });
+      await ask({ ask: "advance", lane: group, steps: burnIn, watch: false });
     }
     this.#ask = ask;
     this.#values = values;
@@ -120,9 +120,14 @@ export class CloudRun {
     const [count, ask, values] = [this.#stages.shift(), this.#ask, this.#values];
     if (count === undefined || !ask || !values) return;
     const steps = (count - this.draws.peek()) / values.chains;
-    for (const lane of SIDES.keys()) {
+    for (const group of SIDES.keys()) {
       for (let left = steps; left > 0; left -= MOST_AT_ONCE) {
-        await ask({ ask: "advance", lane, steps: Math.min(left, MOST_AT_ONCE), watch: false });
+        await ask({
+          ask: "advance",
+          lane: group,
+          steps: Math.min(left, MOST_AT_ONCE),
+          watch: false,
+        });
       }
     }
     // As the command line counts: what was asked for, not what whole chains make of it.
@@ -131,16 +136,18 @@ export class CloudRun {
     const counts = countsUpTo(said ? values.draws : count);
     const found = await ask({ ask: "intersection", lanes: [0, 1], counts });
     const stars = await Promise.all(
-      SIDES.map((side, lane) => ask({ ask: "shapes", lane, side, most: STARS_SHOWN })),
+      SIDES.map((side, group) => ask({ ask: "shapes", lane: group, side, most: STARS_SHOWN })),
     );
-    const figures = await Promise.all(SIDES.map((_, lane) => ask({ ask: "figures", lane })));
+    const diagnostics = await Promise.all(
+      SIDES.map((_, group) => ask({ ask: "figures", lane: group })),
+    );
     const [a, b] = stars;
-    const [ofA, ofB] = figures;
+    const [ofA, ofB] = diagnostics;
     batch(() => {
       this.draws.value = count;
       this.found.value = found;
       if (a && b) this.stars.value = { a: a.values, b: b.values };
-      if (ofA && ofB) this.figures.value = { a: ofA, b: ofB };
+      if (ofA && ofB) this.diagnostics.value = { a: ofA, b: ofB };
       if (isLast) {
         this.playing.value = false;
         lessonState.value = "done";

@@ -1,5 +1,5 @@
 import { useMemo } from "preact/hooks";
-import { Board } from "../../canvas/Board";
+import { LessonCanvas } from "../../canvas/LessonCanvas";
 import { drawCut } from "./cut";
 import { drawDifference, Morph } from "./draw";
 import type { DifferenceRun } from "./run";
@@ -13,7 +13,7 @@ export function Plane({ run, side }: { run: DifferenceRun; side: "a" | "b" }) {
   const what = flip > 0.5 ? "difference" : "intersection";
   return (
     <figure>
-      <Board
+      <LessonCanvas
         label={`Density of the ${what} over two coefficients, with its draws and the ellipse of two standard deviations of their PCA`}
         aspect={1}
         draw={(pen, size, palette) => {
@@ -35,7 +35,7 @@ export function Cut({ run }: { run: DifferenceRun }) {
   const flip = run.flip.value;
   return (
     <figure>
-      <Board
+      <LessonCanvas
         label={`${flip > 0.5 ? "1 − Lᴅ" : "Lᴅ"} along the second coefficient where the first is 0`}
         aspect={0.36}
         draw={(pen, size, palette) => found && drawCut(pen, size, palette, found.likelihood, flip)}

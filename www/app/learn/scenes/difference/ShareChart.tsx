@@ -3,7 +3,7 @@ import { linear, logarithmic } from "../../../text/plots";
 import { Chart } from "../../../ui/Chart";
 import { DataTable } from "../../../ui/DataTable";
 import { type Box, PlotAxes } from "../../../ui/PlotAxes";
-import { roomy } from "../../parts/lettering";
+import { letterSpace } from "../../parts/lettering";
 import type { Share } from "./asks";
 
 const HEIGHT = 190;
@@ -42,10 +42,10 @@ export function ShareChart({ shares, sigma, own, other }: Props) {
 
 function Line({ shares, sigma, width }: Pick<Props, "shares" | "sigma"> & { width: number }) {
   const box: Box = {
-    left: roomy(44),
+    left: letterSpace(44),
     right: width - 10,
     top: 14,
-    bottom: HEIGHT - roomy(36),
+    bottom: HEIGHT - letterSpace(36),
   };
   const [first, last] = [shares[0]?.sigma ?? 0.01, shares.at(-1)?.sigma ?? 1];
   const x = logarithmic(first, last, box.left, box.right);
@@ -62,7 +62,7 @@ function Line({ shares, sigma, width }: Pick<Props, "shares" | "sigma"> & { widt
         upName=""
         showUp={percent}
       />
-      <text class="tick axis-name" x={box.right} y={box.bottom + roomy(30)} text-anchor="end">
+      <text class="tick axis-name" x={box.right} y={box.bottom + letterSpace(30)} text-anchor="end">
         σ
       </text>
       <polyline

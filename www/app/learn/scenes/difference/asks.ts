@@ -17,7 +17,7 @@ export const EXTENT = 3.4;
 const FIELD_SIZE = 161;
 const MODES = 2;
 const FIRST_TWO: [number, number] = [0, 1];
-const LANES = { difference: 0, intersection: 1 };
+const GROUPS = { difference: 0, intersection: 1 };
 /** Draws of the intersection, to compare with. */
 const OTHERS = { chains: 4, burnIn: 50, steps: 150 };
 /** As far as the slider goes. */
@@ -27,7 +27,7 @@ const SHARE_DRAWS = 1500;
 export interface Cloud {
   /** Two coefficients each. */
   values: Float32Array;
-  law: LessonLaw;
+  gaussian: LessonLaw;
 }
 
 export interface Found {
@@ -37,7 +37,7 @@ export interface Found {
   likelihood: LessonField;
   common: Cloud;
   exclusive: Cloud;
-  figures: LaneFigures;
+  diagnostics: LaneFigures;
   principal: LessonPrincipal;
 }
 
@@ -53,10 +53,10 @@ export async function findDifference(ask: Ask, values: DifferenceValues): Promis
   const intersection = await ask({ ask: "field", of: "intersection", ...grid });
   const difference = await ask({ ask: "field", of: "difference", ...grid });
   const likelihood = await ask({ ask: "field", of: "likelihood", ...grid });
-  const lane = LANES.difference;
+  const group = GROUPS.difference;
   await ask({
     ask: "begin",
-    lane,
+    lane: group,
     target: "difference",
     side,
     sampler: "rejection",
@@ -64,10 +64,10 @@ export async function findDifference(ask: Ask, values: DifferenceValues): Promis
     seed,
     burnIn: 0,
   });
-  await ask({ ask: "advance", lane, steps: draws, watch: false });
-  const figures = await ask({ ask: "figures", lane });
-  const principal = await ask({ ask: "principal", lane });
-  const { values: exclusive } = await ask({ ask: "draws", lane, most: draws });
+  await ask({ ask: "advance", lane: group, steps: draws, watch: false });
+  const diagnostics = await ask({ ask: "figures", lane: group });
+  const principal = await ask({ ask: "principal", lane: group });
+  const { values: exclusive } = await ask({ ask: "draws", lane: group, most: draws });
   const common = await commonDraws(ask, values);
   return {
     models,
@@ -75,8 +75,8 @@ export async function findDifference(ask: Ask, values: DifferenceValues): Promis
     difference,
     likelihood,
     common,
-    exclusive: { values: exclusive, law: principal },
-    figures,
+    exclusive: { values: exclusive, gaussian: principal },
+    diagnostics,
     principal,
   };
 }
@@ -96,11 +96,11 @@ export async function sharesOver(
 }
 
 async function exclusiveShare(ask: Ask, side: LessonSide, seed: string): Promise<number | null> {
-  const lane = LANES.difference;
+  const group = GROUPS.difference;
   const sampler = "rejection" as const;
   await ask({
     ask: "begin",
-    lane,
+    lane: group,
     target: "difference",
     side,
     sampler,
@@ -108,18 +108,27 @@ async function exclusiveShare(ask: Ask, side: LessonSide, seed: string): Promise
     seed,
     burnIn: 0,
   });
-  await ask({ ask: "advance", lane, steps: SHARE_DRAWS, watch: false });
-  return (await ask({ ask: "figures", lane })).probability;
+  await ask({ ask: "advance", lane: group, steps: SHARE_DRAWS, watch: false });
+  return (await ask({ ask: "figures", lane: group })).probability;
 }
 
 async function commonDraws(ask: Ask, { side, seed }: DifferenceValues): Promise<Cloud> {
-  const lane = LANES.intersection;
+  const group = GROUPS.intersection;
   const { chains, burnIn, steps } = OTHERS;
   const sampler = "independence" as const;
-  await ask({ ask: "begin", lane, target: "intersection", side, sampler, chains, seed, burnIn });
-  await ask({ ask: "advance", lane, steps: burnIn + steps, watch: false });
-  const { values } = await ask({ ask: "draws", lane, most: chains * steps });
-  const law = await ask({ ask: "figures", lane });
+  await ask({
+    ask: "begin",
+    lane: group,
+    target: "intersection",
+    side,
+    sampler,
+    chains,
+    seed,
+    burnIn,
+  });
+  await ask({ ask: "advance", lane: group, steps: burnIn + steps, watch: false });
+  const { values } = await ask({ ask: "draws", lane: group, most: chains * steps });
+  const gaussian = await ask({ ask: "figures", lane: group });
   // Chain after chain: in turn, so that it rains everywhere at once.
   const mixed = new Float32Array(values.length);
   const count = values.length / MODES;
@@ -127,5 +136,5 @@ async function commonDraws(ask: Ask, { side, seed }: DifferenceValues): Promise<
     const from = (i % chains) * Math.floor(count / chains) + Math.floor(i / chains);
     mixed.set(values.subarray(MODES * from, MODES * (from + 1)), MODES * i);
   }
-  return { values: mixed, law };
+  return { values: mixed, gaussian };
 }

@@ -1,6 +1,6 @@
 /** The likelihood along a line across the ridge. */
 import type { LessonField } from "../../../../worker/lessons";
-import type { Size } from "../../canvas/Board";
+import type { Size } from "../../canvas/LessonCanvas";
 import type { Palette } from "../../canvas/palette";
 import { eased } from "../../sampling/pacing";
 import { EXTENT } from "./asks";
@@ -43,8 +43,8 @@ export function drawCut(
   pen.textAlign = "center";
   pen.textBaseline = "top";
   for (const value of [-2, -1, 0, 1, 2]) {
-    const place = x(((EXTENT - value) / (2 * EXTENT)) * (rows - 1));
-    pen.fillText(String(value).replace("-", "−"), place, box.bottom + 5);
+    const across = x(((EXTENT - value) / (2 * EXTENT)) * (rows - 1));
+    pen.fillText(String(value).replace("-", "−"), across, box.bottom + 5);
   }
   pen.textAlign = "right";
   pen.fillText("α₂", box.right, box.bottom + 5);

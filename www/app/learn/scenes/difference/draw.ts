@@ -1,8 +1,8 @@
 /** The plane of the difference: two densities that turn into one another, rain, and an ellipse. */
 import type { LessonField, LessonSide } from "../../../../worker/lessons";
 import { viridis } from "../../../text/colormap";
-import type { Size } from "../../canvas/Board";
 import { drawPrior } from "../../canvas/chains";
+import type { Size } from "../../canvas/LessonCanvas";
 import { faded, type Palette } from "../../canvas/palette";
 import { drawField, type Plane, planeOf, traceGaussian } from "../../canvas/plane";
 import { eased } from "../../sampling/pacing";
@@ -64,7 +64,14 @@ export function drawDifference(pen: Pen, size: Size, palette: Palette, shown: Sh
   // What belongs to the other side leaves before it comes.
   const alpha = Math.abs(2 * flip - 1);
   drawRain(pen, plane, size, up, shown.fallen(up.values.length / 2), colour, palette.raised, alpha);
-  drawLaw(pen, plane, palette, up, alpha, flip > 0.5 ? "PCA of the difference, 2 SD" : "PCA, 2 SD");
+  drawGaussian(
+    pen,
+    plane,
+    palette,
+    up,
+    alpha,
+    flip > 0.5 ? "PCA of the difference, 2 SD" : "PCA, 2 SD",
+  );
 }
 
 function drawRain(
@@ -111,16 +118,16 @@ function drawRain(
 }
 
 /** What a mean and a covariance say of the draws. */
-function drawLaw(
+function drawGaussian(
   pen: Pen,
   plane: Plane,
   palette: Palette,
-  { law }: Cloud,
+  { gaussian }: Cloud,
   alpha: number,
   name: string,
 ): void {
   pen.globalAlpha = alpha;
-  traceGaussian(pen, plane, law, RADIUS_SD);
+  traceGaussian(pen, plane, gaussian, RADIUS_SD);
   pen.lineWidth = 4;
   pen.strokeStyle = palette.raised;
   pen.stroke();
@@ -129,8 +136,8 @@ function drawLaw(
   pen.strokeStyle = palette.ink;
   pen.stroke();
   pen.setLineDash([]);
-  const [x = 0, y = 0] = law.mean;
-  const top = RADIUS_SD * Math.sqrt(Math.max(0, law.covariance[3] ?? 0));
+  const [x = 0, y = 0] = gaussian.mean;
+  const top = RADIUS_SD * Math.sqrt(Math.max(0, gaussian.covariance[3] ?? 0));
   pen.font = `600 ${palette.text}px ${palette.font}`;
   pen.textAlign = "center";
   pen.textBaseline = "bottom";

@@ -78,7 +78,7 @@ export class DifferenceRun {
   }
 
   /** As a link has it: no movement. */
-  place(flipped: boolean): void {
+  show(flipped: boolean): void {
     this.#story.value = 0;
     this.flipped.value = flipped;
     this.flip.value = Number(flipped);

@@ -2,7 +2,7 @@ import type { ComponentChildren } from "preact";
 import type { LessonModel, LessonSide } from "../../../../worker/lessons";
 import { modeOf, pointOf } from "../../shape";
 import { pathOf } from "../../star";
-import { STAR_EXTENT } from "./StarBoard";
+import { STAR_EXTENT } from "./StarCanvas";
 
 interface Props {
   model: LessonModel;

@@ -4,18 +4,18 @@ import type { Ask } from "../../engine";
 
 /** Some shapes that a model makes by itself: exact draws of its own distribution. */
 const OWN_SHAPES = 60;
-const LANE = 0;
+const GROUP = 0;
 
 export function useOwnShapes(
   ask: Ask,
   models: LessonModels | null,
   side: LessonSide,
 ): Asked<LaneShapes> {
-  const lane = useAsked(
+  const group = useAsked(
     ask,
     models && {
       ask: "begin",
-      lane: LANE,
+      lane: GROUP,
       target: "prior",
       side,
       sampler: "rejection",
@@ -27,12 +27,12 @@ export function useOwnShapes(
   );
   const drawn = useAsked(
     ask,
-    lane.current ? { ask: "advance", lane: LANE, steps: OWN_SHAPES, watch: false } : null,
-    lane.answer,
+    group.current ? { ask: "advance", lane: GROUP, steps: OWN_SHAPES, watch: false } : null,
+    group.answer,
   );
   return useAsked(
     ask,
-    drawn.current ? { ask: "shapes", lane: LANE, side, most: OWN_SHAPES } : null,
+    drawn.current ? { ask: "shapes", lane: GROUP, side, most: OWN_SHAPES } : null,
     drawn.answer,
   );
 }

@@ -5,13 +5,13 @@ import { SCENE_PARAMS, type SceneValues } from "../../scenes";
 import { setParams } from "../../state";
 
 const SCHEMA = SCENE_PARAMS.planes;
-const placed = (value: number) => `${value < 0 ? "−" : "+"}${Math.abs(value).toFixed(2)}`;
+const signedText = (value: number) => `${value < 0 ? "−" : "+"}${Math.abs(value).toFixed(2)}`;
 const set = (part: Partial<SceneValues<"planes">>) => setParams("planes", part);
 
-type Lie = Pick<SceneValues<"planes">, "sigma" | "tilt" | "shift" | "lift">;
+type Arrangement = Pick<SceneValues<"planes">, "sigma" | "tilt" | "shift" | "lift">;
 
 /** How the planes lie, and how near is near. */
-export function Sliders({ sigma, tilt, shift, lift }: Lie) {
+export function Sliders({ sigma, tilt, shift, lift }: Arrangement) {
   return (
     <div class="planes-sliders">
       <Slider
@@ -39,7 +39,7 @@ export function Sliders({ sigma, tilt, shift, lift }: Lie) {
         least={-2}
         most={2}
         step={0.05}
-        show={placed}
+        show={signedText}
         onChange={(value) => set({ shift: bounded(SCHEMA.shift, value) })}
       />
       <Slider
@@ -48,7 +48,7 @@ export function Sliders({ sigma, tilt, shift, lift }: Lie) {
         least={-1.5}
         most={1.5}
         step={0.05}
-        show={placed}
+        show={signedText}
         onChange={(value) => set({ lift: bounded(SCHEMA.lift, value) })}
       />
     </div>

@@ -15,13 +15,13 @@ export interface Side {
 }
 
 /** From space to pixels. */
-export type ToBoard = (point: Vec) => Flat;
+export type ToCanvas = (point: Vec) => Flat;
 
 export function drawSheets(
   pen: CanvasRenderingContext2D,
   palette: Palette,
   view: View,
-  to: ToBoard,
+  to: ToCanvas,
   { a, b }: Record<"a" | "b", Side>,
 ): void {
   const { behind, before } = cutAt(a.sheet, cornersOf(b.sheet, EXTENT), view);
@@ -34,7 +34,7 @@ export function drawSheets(
 function drawPart(
   pen: CanvasRenderingContext2D,
   palette: Palette,
-  to: ToBoard,
+  to: ToCanvas,
   { sheet, colour, picture }: Side,
   part: readonly Vec[],
 ): void {
@@ -64,7 +64,7 @@ function trace(pen: CanvasRenderingContext2D, points: readonly Flat[]): void {
 }
 
 /** A line at every standard deviation: a plane that is seen to be one. */
-function drawGrid(pen: CanvasRenderingContext2D, to: ToBoard, sheet: Sheet, colour: string): void {
+function drawGrid(pen: CanvasRenderingContext2D, to: ToCanvas, sheet: Sheet, colour: string): void {
   pen.lineWidth = 1;
   pen.strokeStyle = colour;
   pen.beginPath();
@@ -79,7 +79,7 @@ function drawGrid(pen: CanvasRenderingContext2D, to: ToBoard, sheet: Sheet, colo
 
 function drawRing(
   pen: CanvasRenderingContext2D,
-  to: ToBoard,
+  to: ToCanvas,
   sheet: Sheet,
   radius: number,
   colour: string,
@@ -101,7 +101,7 @@ function drawRing(
  */
 function drawPicture(
   pen: CanvasRenderingContext2D,
-  to: ToBoard,
+  to: ToCanvas,
   sheet: Sheet,
   picture: HTMLCanvasElement,
 ): void {

@@ -2,14 +2,14 @@
 import type { LessonPoint, LessonSide } from "../../../../worker/lessons";
 import { arrow, handle, write } from "../../canvas/marks";
 import type { Palette } from "../../canvas/palette";
-import { ALLOWABLE, EXTENT, type ToBoard } from "./draw";
+import { ALLOWABLE, EXTENT, type ToCanvas } from "./draw";
 import { along, commonSegment, type Flat, meeting, pointAt, type Sheet } from "./space";
 
 /** As far as the line is drawn. */
 const FAR = 6;
 
 /** The corner that lies furthest to the right (0) or furthest down (1): there is room for a letter. */
-export function cornerOf(sheet: Sheet, to: ToBoard, axis: 0 | 1): Flat {
+export function cornerOf(sheet: Sheet, to: ToCanvas, axis: 0 | 1): Flat {
   const far = 0.88 * EXTENT;
   const corners = [-far, far].flatMap((s) => [-far, far].map((t) => to(pointAt(sheet, [s, t]))));
   return corners.reduce((most, corner) => (corner[axis] > most[axis] ? corner : most));
@@ -19,7 +19,7 @@ export function cornerOf(sheet: Sheet, to: ToBoard, axis: 0 | 1): Flat {
 export function drawCommon(
   pen: CanvasRenderingContext2D,
   palette: Palette,
-  to: ToBoard,
+  to: ToCanvas,
   { a, b }: Record<LessonSide, Sheet>,
 ): void {
   const line = meeting(a, b);
@@ -53,14 +53,14 @@ export function drawCommon(
 export function drawPoint(
   pen: CanvasRenderingContext2D,
   palette: Palette,
-  to: ToBoard,
+  to: ToCanvas,
   sheets: Record<LessonSide, Sheet>,
   side: LessonSide,
-  place: Flat,
+  coefficients: Flat,
   point: LessonPoint | null,
 ): void {
   const other = side === "a" ? "b" : "a";
-  const spot = to(pointAt(sheets[side], place));
+  const spot = to(pointAt(sheets[side], coefficients));
   const italic = { italic: true, weight: 700, size: 1.25 };
   if (point) {
     const [x = 0, y = 0, z = 0] = point.nearest;

@@ -137,10 +137,10 @@ export function commonSegment(a: Sheet, b: Sheet, radius: number): readonly [Vec
 }
 
 /** Coefficients under a pointer; null where the sheet is seen from its edge. */
-export function under(sheet: Sheet, view: View, place: Flat): Flat | null {
+export function under(sheet: Sheet, view: View, at: Flat): Flat | null {
   const [x, y] = seen(view, sheet.middle);
   const [[a, c], [b, d]] = [seen(view, sheet.first), seen(view, sheet.second)];
-  const [u, v] = [place[0] - x, place[1] - y];
+  const [u, v] = [at[0] - x, at[1] - y];
   const size = a * d - b * c;
   if (Math.abs(size) < 0.06 * Math.hypot(a, c) * Math.hypot(b, d)) return null;
   return [(d * u - b * v) / size, (a * v - c * u) / size];

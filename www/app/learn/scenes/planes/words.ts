@@ -1,7 +1,7 @@
 /** What there is to see in two planes as they lie. Pure. */
 import { number } from "../../../text/format";
 
-export interface Lie {
+export interface Arrangement {
   /** Degrees. */
   tilt: number;
   lift: number;
@@ -18,7 +18,7 @@ export const TRIES: readonly (readonly [string, { tilt: number; shift: number; l
     ["Far apart", { tilt: 70, shift: 0.4, lift: 1.5 }],
   ];
 
-export function whatToSee({ tilt, lift, sigma }: Lie): string {
+export function whatToSee({ tilt, lift, sigma }: Arrangement): string {
   if (tilt === 0 && lift === 0) {
     return (
       "One plane for both: every point of A has d = 0, so nearness says nothing and plausibility " +

@@ -12,11 +12,11 @@ const INSIDE = 0.62;
 
 interface Props {
   runners: readonly Runner[];
-  figures: readonly LaneFigures[];
+  diagnostics: readonly LaneFigures[];
 }
 
 /** What each sampler yields for the same work, over the logarithm, and whether its chains agree. */
-export function RaceTable({ runners, figures }: Props) {
+export function RaceTable({ runners, diagnostics }: Props) {
   return (
     <table class="race-table">
       <caption>
@@ -42,7 +42,7 @@ export function RaceTable({ runners, figures }: Props) {
       </thead>
       <tbody>
         {runners.map(({ sampler }, i) => (
-          <Row key={sampler} name={SAMPLER_NAMES[sampler]} figures={figures[i]} place={i} />
+          <Row key={sampler} name={SAMPLER_NAMES[sampler]} diagnostics={diagnostics[i]} index={i} />
         ))}
       </tbody>
     </table>
@@ -51,15 +51,15 @@ export function RaceTable({ runners, figures }: Props) {
 
 function Row({
   name,
-  figures,
-  place,
+  diagnostics,
+  index,
 }: {
   name: string;
-  figures: LaneFigures | undefined;
-  place: number;
+  diagnostics: LaneFigures | undefined;
+  index: number;
 }) {
-  const { essPerThousand = null, rHatMax = null, acceptance = null } = figures ?? {};
-  const path = `race.${place}.figures`;
+  const { essPerThousand = null, rHatMax = null, acceptance = null } = diagnostics ?? {};
+  const path = `race.${index}.figures`;
   const share = essPerThousand === null ? 0 : logShare(essPerThousand, LOW, HIGH);
   return (
     <tr>

@@ -2,7 +2,7 @@ import { count, number } from "../../../text/format";
 import { linear, ticks } from "../../../text/plots";
 import { Chart } from "../../../ui/Chart";
 import { type Box, PlotAxes } from "../../../ui/PlotAxes";
-import { roomy } from "../../parts/lettering";
+import { letterSpace } from "../../parts/lettering";
 import type { Moment } from "./run";
 
 const HEIGHT = 230;
@@ -33,10 +33,10 @@ export function SquareChart({ curve, most }: { curve: readonly Moment[]; most: n
 
 function Curves({ curve, most, width }: { curve: readonly Moment[]; most: number; width: number }) {
   const box: Box = {
-    left: roomy(40),
+    left: letterSpace(40),
     right: width - 12,
-    top: roomy(24),
-    bottom: HEIGHT - roomy(40),
+    top: letterSpace(24),
+    bottom: HEIGHT - letterSpace(40),
   };
   const x = linear(0, most, box.left, box.right);
   const y = linear(0.4, 1.2, box.bottom, box.top);
@@ -59,7 +59,7 @@ function Curves({ curve, most, width }: { curve: readonly Moment[]; most: number
         upName="E‖α‖²/q"
         showAcross={count}
       />
-      <text class="tick axis-name" x={box.right} y={box.bottom + roomy(30)} text-anchor="end">
+      <text class="tick axis-name" x={box.right} y={box.bottom + letterSpace(30)} text-anchor="end">
         steps after burn-in
       </text>
       <line class="right" x1={box.left} x2={box.right} y1={y(1)} y2={y(1)} />

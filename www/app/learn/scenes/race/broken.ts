@@ -80,9 +80,13 @@ export const BREAK_WORDS: Record<Break, BreakWords> = {
 };
 
 /** What went wrong, and how one notices. */
-export function raceVerdict(what: Break, figures: readonly LaneFigures[], sigma: number): Verdict {
-  const [published, corrected] = figures;
-  const last = figures.at(-1);
+export function raceVerdict(
+  what: Break,
+  diagnostics: readonly LaneFigures[],
+  sigma: number,
+): Verdict {
+  const [published, corrected] = diagnostics;
+  const last = diagnostics.at(-1);
   if (!published || !corrected || !last) return { calm: true, text: "They are on their way." };
   switch (what) {
     case "scaling":

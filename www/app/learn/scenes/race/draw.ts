@@ -1,7 +1,7 @@
 /** A runner’s board: the target, where its chains were, where they are. */
 import type { LessonLaw } from "../../../../worker/lessons";
-import type { Size } from "../../canvas/Board";
 import { chainColour, drawDot } from "../../canvas/chains";
+import type { Size } from "../../canvas/LessonCanvas";
 import { faded, type Palette } from "../../canvas/palette";
 import { drawField, type Plane, planeOf, traceGaussian } from "../../canvas/plane";
 import type { View } from "./broken";

@@ -17,20 +17,20 @@ const TRAIL = 90;
 const FIELD_SIZE = 144;
 /** How long a race lasts. */
 const RACE_MS = 10_000;
-/** Into how many parts one that is not watched is cut for its curves; the figures of a long one take their time. */
+/** Into how many parts one that is not watched is cut for its curves; the diagnostics of a long one take their time. */
 const PARTS = { short: 25, long: 10 };
 const LONG = 1000;
 /** Steps that an engine is asked for between two frames. */
 const MOST_AT_ONCE = 200;
-const FIGURES_EVERY_MS = 120;
+const DIAGNOSTICS_EVERY_MS = 120;
 /** Figures take at most one part of so many of the time. */
-const FIGURES_SHARE = 4;
+const DIAGNOSTICS_SHARE = 4;
 export const MOST_STEPS = 5000;
 const MORE = 2;
 
 export interface Runner {
   sampler: LessonSampler;
-  lane: number;
+  group: number;
   dimension: number;
   /** Numbers of a state: chains × dimension. */
   width: number;
@@ -48,7 +48,7 @@ export class RaceRun {
   readonly image = signal<HTMLCanvasElement | null>(null);
   readonly view = signal<View | null>(null);
   readonly runners = signal<readonly Runner[]>([]);
-  readonly figures = signal<readonly LaneFigures[]>([]);
+  readonly diagnostics = signal<readonly LaneFigures[]>([]);
   readonly curve = signal<readonly Moment[]>([]);
   readonly playing = signal(false);
   /** Steps after the burn-in. */
@@ -59,7 +59,7 @@ export class RaceRun {
   #carry = 0;
   #clock = 0;
   #next = 0;
-  #every = FIGURES_EVERY_MS;
+  #every = DIAGNOSTICS_EVERY_MS;
   #over: ((steps: number) => void) | null = null;
 
   async open(ask: Ask, values: RaceValues, growing: boolean): Promise<void> {
@@ -78,10 +78,10 @@ export class RaceRun {
       size: FIELD_SIZE,
     });
     const runners: Runner[] = [];
-    for (const [lane, sampler] of samplers.entries()) {
+    for (const [group, sampler] of samplers.entries()) {
       const begun = await ask({
         ask: "begin",
-        lane,
+        lane: group,
         target,
         side,
         sampler,
@@ -90,11 +90,11 @@ export class RaceRun {
         burnIn: BURN_IN,
         ...(dimension === null ? {} : { dimension }),
       });
-      const { states } = await ask({ ask: "advance", lane, steps: BURN_IN, watch: false });
+      const { states } = await ask({ ask: "advance", lane: group, steps: BURN_IN, watch: false });
       const trail = new Trail(TRAIL);
       trail.clear(states.length);
       trail.push(states);
-      runners.push({ sampler, lane, dimension: begun.dimension, width: states.length, trail });
+      runners.push({ sampler, group, dimension: begun.dimension, width: states.length, trail });
     }
     batch(() => {
       this.#ask = ask;
@@ -103,7 +103,7 @@ export class RaceRun {
       this.view.value = view;
       this.image.value = fieldImage(field);
       this.runners.value = runners;
-      this.figures.value = [];
+      this.diagnostics.value = [];
       this.curve.value = [];
       this.step.value = 0;
       this.target.value = steps;
@@ -161,7 +161,7 @@ export class RaceRun {
       this.#clock = 0;
       const start = performance.now();
       await this.#lookAtNext();
-      this.#every = Math.max(FIGURES_EVERY_MS, FIGURES_SHARE * (performance.now() - start));
+      this.#every = Math.max(DIAGNOSTICS_EVERY_MS, DIAGNOSTICS_SHARE * (performance.now() - start));
     }
   }
 
@@ -191,7 +191,9 @@ export class RaceRun {
     const ask = this.#ask;
     if (steps <= 0 || !ask) return;
     const answers = await Promise.all(
-      this.runners.peek().map(({ lane }) => ask({ ask: "advance", lane, steps, watch: false })),
+      this.runners
+        .peek()
+        .map(({ group }) => ask({ ask: "advance", lane: group, steps, watch: false })),
     );
     this.runners.peek().forEach(({ trail }, i) => {
       const states = answers[i]?.states;
@@ -202,8 +204,10 @@ export class RaceRun {
   async #look(): Promise<void> {
     const ask = this.#ask;
     if (!ask || this.step.peek() === 0) return;
-    const lanes = this.runners.peek();
-    this.figures.value = await Promise.all(lanes.map(({ lane }) => ask({ ask: "figures", lane })));
+    const runners = this.runners.peek();
+    this.diagnostics.value = await Promise.all(
+      runners.map(({ group }) => ask({ ask: "figures", lane: group })),
+    );
     this.#note();
   }
 
@@ -212,15 +216,17 @@ export class RaceRun {
     const runners = this.runners.peek();
     const ask = this.#ask;
     if (!ask) return;
-    if (this.figures.peek().length < runners.length) return this.#look();
+    if (this.diagnostics.peek().length < runners.length) return this.#look();
     this.#next = (this.#next + 1) % runners.length;
-    const figures = await ask({ ask: "figures", lane: this.#next });
-    this.figures.value = this.figures.peek().map((old, i) => (i === this.#next ? figures : old));
+    const diagnostics = await ask({ ask: "figures", lane: this.#next });
+    this.diagnostics.value = this.diagnostics
+      .peek()
+      .map((old, i) => (i === this.#next ? diagnostics : old));
     this.#note();
   }
 
   #note(): void {
-    const meanSquares = this.figures.peek().map(({ meanSquare }) => meanSquare);
+    const meanSquares = this.diagnostics.peek().map(({ meanSquare }) => meanSquare);
     const step = this.step.peek();
     const before = this.curve.peek().filter((moment) => moment.step < step);
     this.curve.value = [...before, { step, meanSquares }];

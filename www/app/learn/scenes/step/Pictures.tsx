@@ -1,4 +1,4 @@
-import { Board } from "../../canvas/Board";
+import { LessonCanvas } from "../../canvas/LessonCanvas";
 import { drawWalk, type Shown } from "./draw";
 import { Mixture } from "./Mixture";
 import { drawNear } from "./near";
@@ -18,7 +18,7 @@ export function Pictures({ run, slow, chains }: { run: StepRun; slow: boolean; c
   return (
     <>
       <figure>
-        <Board
+        <LessonCanvas
           label={`Density of the intersection over two coefficients from −${EXTENT} to ${EXTENT} standard deviations, and ${chains === 1 ? "a chain that walks" : `${chains} chains that walk`} on it`}
           aspect={1}
           draw={(pen, size, palette) => shown && drawWalk(pen, size, palette, shown)}
@@ -29,7 +29,7 @@ export function Pictures({ run, slow, chains }: { run: StepRun; slow: boolean; c
         </figcaption>
       </figure>
       <figure class="step-near">
-        <Board
+        <LessonCanvas
           label="The last step under a magnifier: the state, the circles or the ray of the proposal, the proposal, and whether it was accepted"
           aspect={1}
           draw={(pen, size, palette) => shown && drawNear(pen, size, palette, shown)}

@@ -1,7 +1,7 @@
 /** The plane of the walk: the density, where the chains were, where they are, where they might go. */
 import type { LessonStep } from "../../../../worker/lessons";
-import type { Size } from "../../canvas/Board";
 import { chainColour, drawDot, drawOutcome, drawPrior, drawTrail } from "../../canvas/chains";
+import type { Size } from "../../canvas/LessonCanvas";
 import type { Palette } from "../../canvas/palette";
 import { drawField, type Plane, planeOf } from "../../canvas/plane";
 import { eased, isSaid, phaseAt } from "../../sampling/pacing";
@@ -43,10 +43,10 @@ export function drawWalk(pen: Pen, size: Size, palette: Palette, shown: Shown): 
     for (const step of shown.decisions) drawProposal(pen, plane, palette, step, shown.told, radius);
   }
   for (let chain = 0; chain < chains; chain += 1) {
-    const [x = 0, y = 0] = placeOf(shown, chain);
+    const [x = 0, y = 0] = positionOf(shown, chain);
     drawDot(pen, plane.x(x), plane.y(y), radius, chainColour(chain), palette.raised);
   }
-  if (shown.slow) drawLoupe(pen, plane, palette, placeOf(shown, followedOf(shown)));
+  if (shown.slow) drawLoupe(pen, plane, palette, positionOf(shown, followedOf(shown)));
 }
 
 /** Every state of late as a dot: where the walk stays longer they lie closer. */
@@ -66,7 +66,10 @@ function drawVisited(pen: Pen, plane: Plane, trail: Trail, chains: number, hidde
 }
 
 /** Where a chain is while its step is told: it moves once that is decided. */
-export function placeOf({ trail, decisions, told, slow }: Shown, chain: number): readonly number[] {
+export function positionOf(
+  { trail, decisions, told, slow }: Shown,
+  chain: number,
+): readonly number[] {
   const step = decisions[chain];
   if (!step)
     return [trail.at(trail.length - 1, 2 * chain), trail.at(trail.length - 1, 2 * chain + 1)];

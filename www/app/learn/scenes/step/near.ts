@@ -1,11 +1,11 @@
 /** One chain of the walk under a magnifier. */
 import type { LessonStep } from "../../../../worker/lessons";
-import type { Size } from "../../canvas/Board";
 import { chainColour, drawDot, drawTrail } from "../../canvas/chains";
+import type { Size } from "../../canvas/LessonCanvas";
 import { faded, type Palette } from "../../canvas/palette";
 import { drawField, type Plane, planeOf } from "../../canvas/plane";
 import { MIXTURE, SCALING } from "../../sampling/names";
-import { drawProposal, followedOf, line, NEAR, placeOf, type Shown, undecided } from "./draw";
+import { drawProposal, followedOf, line, NEAR, positionOf, type Shown, undecided } from "./draw";
 import { EXTENT } from "./run";
 
 type Pen = CanvasRenderingContext2D;
@@ -15,7 +15,7 @@ const TRAIL = 40;
 /** That chain’s step from near by: what proposes, what is proposed, what is decided. */
 export function drawNear(pen: Pen, size: Size, palette: Palette, shown: Shown): void {
   const [followed, hidden] = [followedOf(shown), undecided(shown)];
-  const at = placeOf(shown, followed);
+  const at = positionOf(shown, followed);
   const plane = planeOf(size, NEAR, [at[0] ?? 0, at[1] ?? 0]);
   drawField(pen, plane, shown.image, EXTENT);
   pen.strokeStyle = palette.raised;

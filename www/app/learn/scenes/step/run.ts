@@ -27,9 +27,9 @@ const TELLING_STEPS = 60;
 /** An engine tells of so many decisions at once, and of so many steps when it does not tell. */
 const MOST_TOLD = 4000;
 const MOST_AT_ONCE = 10_000;
-const FIGURES_EVERY_MS = 300;
+const DIAGNOSTICS_EVERY_MS = 300;
 export const MOST_STEPS = 20_000;
-const LANE = 0;
+const GROUP = 0;
 /** Models of two modes: what is drawn is all there is. */
 const MODES = 2;
 const FIRST_TWO: [number, number] = [0, 1];
@@ -38,7 +38,7 @@ export class StepRun {
   readonly models = signal<LessonModels | null>(null);
   readonly image = signal<HTMLCanvasElement | null>(null);
   readonly progress = signal<LaneProgress | null>(null);
-  readonly figures = signal<LaneFigures | null>(null);
+  readonly diagnostics = signal<LaneFigures | null>(null);
   /** The last decision of every chain. */
   readonly decisions = signal<readonly LessonStep[]>([]);
   readonly playing = signal(false);
@@ -49,7 +49,7 @@ export class StepRun {
   #ask: Ask | null = null;
   #turns = new Turns();
   #carry = 0;
-  #sinceFigures = 0;
+  #sinceDiagnostics = 0;
   #over: ((step: number) => void) | null = null;
 
   /** Opens the models, and goes to the step of a link; without one the walk begins by itself. */
@@ -60,8 +60,8 @@ export class StepRun {
     const grid = { side, modes: FIRST_TWO, at: [], extent: EXTENT, size: FIELD_SIZE };
     const field = await ask({ ask: "field", of: "intersection", ...grid });
     const target = "intersection" as const;
-    const lane = { lane: LANE, target, side, sampler, chains, seed, burnIn: 0 };
-    const { states } = await ask({ ask: "begin", ...lane });
+    const group = { lane: GROUP, target, side, sampler, chains, seed, burnIn: 0 };
+    const { states } = await ask({ ask: "begin", ...group });
     this.trail.clear(states.length);
     this.trail.push(states);
     batch(() => {
@@ -70,7 +70,7 @@ export class StepRun {
       this.models.value = models;
       this.image.value = fieldImage(field);
       this.progress.value = null;
-      this.figures.value = null;
+      this.diagnostics.value = null;
       this.decisions.value = [];
       this.told.value = 1;
     });
@@ -91,7 +91,7 @@ export class StepRun {
       if (this.told.peek() < 1 || !this.playing.peek()) return;
     }
     if (!this.playing.peek() || this.#turns.busy) return;
-    this.#sinceFigures += elapsedMs;
+    this.#sinceDiagnostics += elapsedMs;
     if (told) {
       this.#turns.take(async () => {
         await this.#advance(1);
@@ -106,11 +106,11 @@ export class StepRun {
     if (steps === 0) return;
     this.#turns.take(async () => {
       await this.#advance(steps);
-      if (this.#sinceFigures > FIGURES_EVERY_MS) await this.#look();
+      if (this.#sinceDiagnostics > DIAGNOSTICS_EVERY_MS) await this.#look();
     });
   }
 
-  /** Stops where it is; resolves to that step once its figures are there. */
+  /** Stops where it is; resolves to that step once its diagnostics are there. */
   async pause(): Promise<number> {
     this.playing.value = false;
     await this.#turns.idle();
@@ -153,7 +153,7 @@ export class StepRun {
     for (let left = step - watched; left > 0; left -= MOST_AT_ONCE) {
       await this.#ask?.({
         ask: "advance",
-        lane: LANE,
+        lane: GROUP,
         steps: Math.min(left, MOST_AT_ONCE),
         watch: false,
       });
@@ -164,7 +164,7 @@ export class StepRun {
 
   async #advance(steps: number): Promise<void> {
     const wanted = Math.min(steps, MOST_STEPS - this.step);
-    const progress = await this.#ask?.({ ask: "advance", lane: LANE, steps: wanted, watch: true });
+    const progress = await this.#ask?.({ ask: "advance", lane: GROUP, steps: wanted, watch: true });
     if (!progress) return;
     const chains = progress.states.length / MODES;
     const decided = progress.steps;
@@ -185,10 +185,10 @@ export class StepRun {
   }
 
   async #look(): Promise<void> {
-    this.#sinceFigures = 0;
+    this.#sinceDiagnostics = 0;
     if (this.step === 0) return;
-    const figures = await this.#ask?.({ ask: "figures", lane: LANE });
-    if (figures) this.figures.value = figures;
+    const diagnostics = await this.#ask?.({ ask: "figures", lane: GROUP });
+    if (diagnostics) this.diagnostics.value = diagnostics;
   }
 }
 

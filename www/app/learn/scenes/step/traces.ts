@@ -1,6 +1,7 @@
 /** Both coefficients over the last steps, chain by chain. */
-import type { Size } from "../../canvas/Board";
+
 import { chainColour } from "../../canvas/chains";
+import type { Size } from "../../canvas/LessonCanvas";
 import { faded, type Palette } from "../../canvas/palette";
 import type { Trail } from "../../sampling/trail";
 import { TRACED } from "./run";

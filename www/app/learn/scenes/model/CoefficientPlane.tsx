@@ -1,12 +1,12 @@
 import { useMemo, useRef } from "preact/hooks";
 import type { LessonField, LessonSide } from "../../../../worker/lessons";
 import { isDark } from "../../../state/theme";
-import { Board, type Pointer, type Size } from "../../canvas/Board";
+import { nudge } from "../../autoplay";
+import { LessonCanvas, type Pointer, type Size } from "../../canvas/LessonCanvas";
 import { handle, REACH, write } from "../../canvas/marks";
 import { faded, type Palette } from "../../canvas/palette";
 import { drawField, type Plane, planeOf } from "../../canvas/plane";
 import { tintedField } from "../../canvas/tint";
-import { nudge } from "../../roam";
 
 /** Standard deviations from the middle to the rim. */
 export const EXTENT = 3.4;
@@ -15,16 +15,24 @@ const TAIL = 70;
 
 interface Props {
   field: LessonField | null;
-  place: readonly [number, number];
+  coefficients: readonly [number, number];
   side: LessonSide;
   moving: boolean;
   onMove: (by: readonly [number, number]) => void;
-  onPlace: (place: readonly [number, number]) => void;
+  onPoint: (coefficients: readonly [number, number]) => void;
   onToggle: () => void;
 }
 
 /** The plane of the first two coefficients, with the density and a point to hold. */
-export function PlaneBoard({ field, place, side, moving, onMove, onPlace, onToggle }: Props) {
+export function CoefficientPlane({
+  field,
+  coefficients,
+  side,
+  moving,
+  onMove,
+  onPoint,
+  onToggle,
+}: Props) {
   const dark = isDark();
   // Made when it is drawn first: the colour is known then.
   const image = useMemo(
@@ -33,7 +41,8 @@ export function PlaneBoard({ field, place, side, moving, onMove, onPlace, onTogg
   );
   const tail = useRef<(readonly [number, number])[]>([]);
   const apart = useRef<[number, number]>([0, 0]);
-  if (tail.current.at(-1) !== place) tail.current = [...tail.current.slice(-TAIL), place];
+  if (tail.current.at(-1) !== coefficients)
+    tail.current = [...tail.current.slice(-TAIL), coefficients];
   const draw = (pen: CanvasRenderingContext2D, size: Size, palette: Palette) => {
     const plane = planeOf(size, EXTENT);
     if (image.of) {
@@ -43,34 +52,36 @@ export function PlaneBoard({ field, place, side, moving, onMove, onPlace, onTogg
     drawAxes(pen, plane, size, palette);
     drawRings(pen, plane, palette);
     drawTail(pen, plane, tail.current, palette);
-    drawLegs(pen, plane, place, palette);
-    const spot = [plane.x(place[0]), plane.y(place[1])] as const;
+    drawLegs(pen, plane, coefficients, palette);
+    const spot = [plane.x(coefficients[0]), plane.y(coefficients[1])] as const;
     handle(pen, palette, spot, palette[side], 9);
   };
   const grab = ({ x, y, size }: Pointer) => {
     const plane = planeOf(size, EXTENT);
-    const [u, v] = [plane.x(place[0]) - x, plane.y(place[1]) - y];
+    const [u, v] = [plane.x(coefficients[0]) - x, plane.y(coefficients[1]) - y];
     // Only a point that is held moves: elsewhere fingers scroll the page.
     if (Math.hypot(u, v) > REACH) return false;
     apart.current = [u, v];
     return true;
   };
-  // While it moves by itself, its place is nothing to read out.
-  const where = moving ? "" : `: α₁ is ${place[0].toFixed(1)}, α₂ is ${place[1].toFixed(1)}`;
+  // While it moves by itself, its position is nothing to read out.
+  const where = moving
+    ? ""
+    : `: α₁ is ${coefficients[0].toFixed(1)}, α₂ is ${coefficients[1].toFixed(1)}`;
   return (
-    <Board
+    <LessonCanvas
       label={`The first two coefficients${where}, among rings of 1, 2 and 3 standard deviations. Arrow keys move the point.`}
       help="model-help"
       aspect={0.94}
       draw={draw}
       onGrab={grab}
       onDrag={({ x, y, size }) =>
-        onPlace(planeOf(size, EXTENT).back(x + apart.current[0], y + apart.current[1]))
+        onPoint(planeOf(size, EXTENT).back(x + apart.current[0], y + apart.current[1]))
       }
       onKey={(key, event) => {
         const by = nudge(event);
         if (by) onMove(by);
-        else if (key === "Home") onPlace([0, 0]);
+        else if (key === "Home") onPoint([0, 0]);
         else if (key === " ") onToggle();
         else return false;
         return true;
@@ -124,14 +135,14 @@ function drawRings(pen: CanvasRenderingContext2D, plane: Plane, palette: Palette
 function drawTail(
   pen: CanvasRenderingContext2D,
   plane: Plane,
-  places: readonly (readonly [number, number])[],
+  points: readonly (readonly [number, number])[],
   palette: Palette,
 ): void {
   pen.lineWidth = 2.5;
-  for (let i = 1; i < places.length; i += 1) {
-    const [from, to] = [places[i - 1], places[i]];
+  for (let i = 1; i < points.length; i += 1) {
+    const [from, to] = [points[i - 1], points[i]];
     if (!from || !to || Math.hypot(to[0] - from[0], to[1] - from[1]) > 0.3) continue;
-    pen.strokeStyle = faded(palette.ink, (0.5 * i) / places.length);
+    pen.strokeStyle = faded(palette.ink, (0.5 * i) / points.length);
     pen.beginPath();
     pen.moveTo(plane.x(from[0]), plane.y(from[1]));
     pen.lineTo(plane.x(to[0]), plane.y(to[1]));

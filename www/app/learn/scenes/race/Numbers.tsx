@@ -4,7 +4,7 @@ import type { RaceRun } from "./run";
 
 /** E‖α‖²/q of both walks: the one number that the scaling move breaks. */
 export function Squares({ run }: { run: RaceRun }) {
-  const [published, corrected] = run.figures.value;
+  const [published, corrected] = run.diagnostics.value;
   return (
     <LessonNumbers label="E‖α‖²/q of the walks">
       <LessonNumber
@@ -25,14 +25,14 @@ export function Squares({ run }: { run: RaceRun }) {
 
 /** How far the draws of the last runner are from the other model, beside what σ allows. */
 export function Distance({ run }: { run: RaceRun }) {
-  const lane = run.figures.value.length - 1;
+  const last = run.diagnostics.value.length - 1;
   const sigma = run.models.value?.sigma;
   return (
     <LessonNumbers label="Distance of the draws to the other model">
       <LessonNumber
         label="mean d, independence"
-        metric={`race.${lane}.figures.meanDistance`}
-        value={run.figures.value[lane]?.meanDistance}
+        metric={`race.${last}.figures.meanDistance`}
+        value={run.diagnostics.value[last]?.meanDistance}
         note={
           sigma === undefined
             ? undefined

@@ -9,7 +9,7 @@ import { bounded } from "./params";
 
 type List = readonly number[];
 
-interface Roaming {
+interface AutoplayOptions {
   /** As in the link. */
   chosen: List;
   /** What a link leaves out: then it moves. */
@@ -21,7 +21,7 @@ interface Roaming {
   limits: { least: number; most: number; digits: number };
 }
 
-export interface Roam {
+export interface Autoplay {
   now: List;
   playing: ReadonlySignal<boolean>;
   toggle: () => void;
@@ -29,7 +29,7 @@ export interface Roam {
   hold: (values: List) => void;
 }
 
-export function useRoam({ chosen, standard, path, write, limits }: Roaming): Roam {
+export function useAutoplay({ chosen, standard, path, write, limits }: AutoplayOptions): Autoplay {
   const moves = (values: List) => !still.peek() && values.join() === standard.join();
   const playing = useSignal(moves(chosen));
   const now = useSignal(chosen);

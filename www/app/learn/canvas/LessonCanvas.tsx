@@ -39,7 +39,7 @@ interface Props {
 const SURE = 8;
 
 /** A picture of a lesson, on Canvas2D, sharp on every screen and in the colours of the page. */
-export function Board(props: Props) {
+export function LessonCanvas(props: Props) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const latest = useRef(props);
   latest.current = props;

@@ -5,8 +5,8 @@ import { cloudVerdict } from "../../sampling/verdicts";
 import type { CloudRun } from "./run";
 
 /** The model of the draws in numbers. */
-export function Figures({ run }: { run: CloudRun }) {
-  const [found, sides] = [run.found.value, run.figures.value];
+export function Numbers({ run }: { run: CloudRun }) {
+  const [found, sides] = [run.found.value, run.diagnostics.value];
   const last = found ? found.predicted.length - 1 : 0;
   const predicted = found?.predicted[last] ?? null;
   return (

@@ -1,6 +1,6 @@
 import { count, number, percent } from "../../../text/format";
 import { AdviceLine } from "../../../ui/Chart";
-import { Board } from "../../canvas/Board";
+import { LessonCanvas } from "../../canvas/LessonCanvas";
 import { LessonNumber, LessonNumbers } from "../../parts/controls";
 import { chainVerdict } from "../../sampling/verdicts";
 import type { StepRun } from "./run";
@@ -10,7 +10,7 @@ export function Traces({ run, chains }: { run: StepRun; chains: number }) {
   const step = run.progress.value?.step ?? 0;
   return (
     <figure>
-      <Board
+      <LessonCanvas
         label={`Traces of both coefficients over the last steps, up to step ${step}, a line for each chain`}
         aspect={0.34}
         draw={(pen, size, palette) => {
@@ -26,8 +26,8 @@ export function Traces({ run, chains }: { run: StepRun; chains: number }) {
 }
 
 /** What the chains say of themselves, and what that means. */
-export function ChainFigures({ run }: { run: StepRun }) {
-  const figures = run.figures.value;
+export function ChainNumbers({ run }: { run: StepRun }) {
+  const diagnostics = run.diagnostics.value;
   const progress = run.progress.value;
   return (
     <>
@@ -41,23 +41,23 @@ export function ChainFigures({ run }: { run: StepRun }) {
         <LessonNumber
           label="accepted"
           metric="figures.acceptance"
-          value={figures?.acceptance}
+          value={diagnostics?.acceptance}
           show={percent}
         />
         <LessonNumber
           label="R-hat"
           metric="figures.rHatMax"
-          value={figures?.rHatMax}
+          value={diagnostics?.rHatMax}
           show={(value) => number(value, 4)}
         />
         <LessonNumber
           label="effective draws"
           metric="figures.essBulkMin"
-          value={figures?.essBulkMin}
-          note={figures ? `of ${count(figures.draws)}` : undefined}
+          value={diagnostics?.essBulkMin}
+          note={diagnostics ? `of ${count(diagnostics.draws)}` : undefined}
         />
       </LessonNumbers>
-      {figures && <AdviceLine advice={{ ...chainVerdict(figures), chain: null }} />}
+      {diagnostics && <AdviceLine advice={{ ...chainVerdict(diagnostics), chain: null }} />}
     </>
   );
 }

@@ -4,7 +4,7 @@ import { LessonNumber, LessonNumbers } from "../../parts/controls";
 import { differenceVerdict } from "../../sampling/verdicts";
 import type { DifferenceRun } from "./run";
 
-interface FiguresProps {
+interface NumbersProps {
   run: DifferenceRun;
   own: string;
   other: string;
@@ -12,9 +12,9 @@ interface FiguresProps {
 }
 
 /** How much is different, and how far PCA misleads. */
-export function Figures({ run, own, other, side }: FiguresProps) {
+export function Numbers({ run, own, other, side }: NumbersProps) {
   const found = run.found.value;
-  const { probability = null, standardError = null } = found?.figures ?? {};
+  const { probability = null, standardError = null } = found?.diagnostics ?? {};
   const { misled, misledDraws } = found?.principal ?? {};
   return (
     <>

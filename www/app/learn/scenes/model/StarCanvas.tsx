@@ -1,5 +1,5 @@
 import type { LessonModel, LessonSide } from "../../../../worker/lessons";
-import { Board, type Size } from "../../canvas/Board";
+import { LessonCanvas, type Size } from "../../canvas/LessonCanvas";
 import { arrow, write } from "../../canvas/marks";
 import { faded, type Palette } from "../../canvas/palette";
 import { drawOverMean, type Plane, planeOf, traceOutline } from "../../canvas/plane";
@@ -17,7 +17,7 @@ interface Props {
 }
 
 /** The mean, the shape, and how the one becomes the other at each of its points. */
-export function StarBoard({ model, coefficients, side, cloud }: Props) {
+export function StarCanvas({ model, coefficients, side, cloud }: Props) {
   const draw = (pen: CanvasRenderingContext2D, size: Size, palette: Palette) => {
     if (!model) return;
     const plane = planeOf(size, STAR_EXTENT);
@@ -34,7 +34,7 @@ export function StarBoard({ model, coefficients, side, cloud }: Props) {
     name(pen, plane, palette, model.mean, shape, side);
   };
   return (
-    <Board
+    <LessonCanvas
       label="A star: its mean as a dashed line, the shape of the present coefficients as a solid one, and arrows that say how far each mode takes each point."
       aspect={0.94}
       draw={draw}

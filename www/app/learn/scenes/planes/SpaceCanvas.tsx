@@ -1,12 +1,12 @@
 import { useMemo, useRef } from "preact/hooks";
 import type { LessonField, LessonModel, LessonPoint, LessonSide } from "../../../../worker/lessons";
 import { isDark } from "../../../state/theme";
-import { Board, type Pointer, type Size } from "../../canvas/Board";
+import { nudge } from "../../autoplay";
+import { LessonCanvas, type Pointer, type Size } from "../../canvas/LessonCanvas";
 import { REACH, write } from "../../canvas/marks";
 import type { Palette } from "../../canvas/palette";
 import { tintedField } from "../../canvas/tint";
-import { nudge } from "../../roam";
-import { drawSheets, type ToBoard } from "./draw";
+import { drawSheets, type ToCanvas } from "./draw";
 import { cornerOf, drawCommon, drawPoint } from "./drawPoint";
 import {
   type Flat,
@@ -24,10 +24,10 @@ interface Props {
   /** The density of A∩B over the coefficients of each. */
   fields: Record<LessonSide, LessonField | null>;
   side: LessonSide;
-  place: Flat;
+  coefficients: Flat;
   point: LessonPoint | null;
   turn: Flat;
-  onPlace: (place: Flat) => void;
+  onPoint: (coefficients: Flat) => void;
   onTurn: (turn: Flat) => void;
   onRun: () => void;
 }
@@ -55,15 +55,15 @@ export function sheetOf({ mean, basis }: LessonModel): Sheet {
 }
 
 /** Two planes in space, what is common to them, and a point of one with the nearest of the other. */
-export function SpaceBoard(props: Props) {
-  const { models, fields, side, place, point, turn } = props;
+export function SpaceCanvas(props: Props) {
+  const { models, fields, side, coefficients, point, turn } = props;
   const dark = isDark();
   const sheets = useMemo(() => ({ a: sheetOf(models.a), b: sheetOf(models.b) }), [models]);
   const pictures = usePictures(fields, dark);
   const view = viewFrom(...turn);
   const held = useRef<{ apart: Flat } | { at: Flat; turn: Flat } | null>(null);
   const draw = (pen: CanvasRenderingContext2D, size: Size, palette: Palette) => {
-    const { to } = boardOf(view, size, sheets);
+    const { to } = projectionOf(view, size, sheets);
     const one = (which: LessonSide) => ({
       sheet: sheets[which],
       colour: palette[which],
@@ -74,9 +74,10 @@ export function SpaceBoard(props: Props) {
     const letter = { weight: 700, size: 1.5, align: "center" } as const;
     write(pen, palette, "A", cornerOf(sheets.a, to, 0), { ...letter, colour: palette.a });
     write(pen, palette, "B", cornerOf(sheets.b, to, 1), { ...letter, colour: palette.b });
-    drawPoint(pen, palette, to, sheets, side, place, point);
+    drawPoint(pen, palette, to, sheets, side, coefficients, point);
   };
-  const spot = (size: Size): Flat => boardOf(view, size, sheets).to(pointAt(sheets[side], place));
+  const spot = (size: Size): Flat =>
+    projectionOf(view, size, sheets).to(pointAt(sheets[side], coefficients));
   const grab = ({ x, y, size }: Pointer) => {
     const [u, v] = spot(size);
     const near = Math.hypot(u - x, v - y) < REACH;
@@ -87,10 +88,10 @@ export function SpaceBoard(props: Props) {
     const { current } = held;
     if (!current) return;
     if ("apart" in current) {
-      const { from } = boardOf(view, size, sheets);
+      const { from } = projectionOf(view, size, sheets);
       const seenAt = from([x + current.apart[0], y + current.apart[1]]);
       const found = under(sheets[side], view, seenAt);
-      if (found) props.onPlace(found);
+      if (found) props.onPoint(found);
     } else {
       const [yaw, pitch] = current.turn;
       props.onTurn(
@@ -101,15 +102,15 @@ export function SpaceBoard(props: Props) {
   const key = (name: string, event: KeyboardEvent) => {
     const by = nudge(event);
     const turned = TURNS[name.toLowerCase()];
-    if (by) props.onPlace([place[0] + by[0], place[1] + by[1]]);
+    if (by) props.onPoint([coefficients[0] + by[0], coefficients[1] + by[1]]);
     else if (turned) props.onTurn(upright([turn[0] + turned[0], turn[1] + turned[1]]));
-    else if (name === "Home") props.onPlace([0, 0]);
+    else if (name === "Home") props.onPoint([0, 0]);
     else if (name === " ") props.onRun();
     else return false;
     return true;
   };
   return (
-    <Board
+    <LessonCanvas
       label="Two planes in space, that of model A and that of model B, each with the ellipse of its plausible shapes. What is common to both glows along the line in which they meet. A point x of one plane and the nearest point of the other are joined by a line. Arrow keys move x; J, L, I and K turn the view."
       help="planes-help"
       aspect={0.74}
@@ -130,12 +131,12 @@ const upright = ([yaw, pitch]: Flat): Flat => [
 const scaleOf = ({ width, height }: Size) => Math.min(width / 1.25, height) / (2 * FILLED);
 
 /** Between pixels and what is seen, with the middle of both sheets in the middle of the board. */
-function boardOf(view: View, size: Size, { a, b }: Record<LessonSide, Sheet>) {
+function projectionOf(view: View, size: Size, { a, b }: Record<LessonSide, Sheet>) {
   const scale = scaleOf(size);
   const [[ax, ay], [bx, by]] = [seen(view, a.middle), seen(view, b.middle)];
   const left = size.width / 2 - (scale * (ax + bx)) / 2;
   const top = size.height / 2 + (scale * (ay + by)) / 2;
-  const to: ToBoard = (point) => {
+  const to: ToCanvas = (point) => {
     const [x, y] = seen(view, point);
     return [left + scale * x, top - scale * y];
   };

@@ -1,11 +1,11 @@
-import { Board } from "../../canvas/Board";
+import { LessonCanvas } from "../../canvas/LessonCanvas";
 import { SAMPLER_NAMES } from "../../sampling/names";
 import { params } from "../../state";
 import { drawRunner, type Scenery } from "./draw";
 import type { RaceRun, Runner } from "./run";
 
 /** A board for each sampler. */
-export function Lanes({ run }: { run: RaceRun }) {
+export function ChainGroups({ run }: { run: RaceRun }) {
   // Where they are now.
   run.step.value;
   const [image, view, models] = [run.image.value, run.view.value, run.models.value];
@@ -15,21 +15,21 @@ export function Lanes({ run }: { run: RaceRun }) {
   return (
     <div class="race-lanes" data-count={run.runners.value.length}>
       {run.runners.value.map((runner) => (
-        <Lane key={runner.sampler} runner={runner} scenery={scenery} />
+        <ChainGroup key={runner.sampler} runner={runner} scenery={scenery} />
       ))}
     </div>
   );
 }
 
-interface LaneProps {
+interface GroupProps {
   runner: Runner;
   scenery: Scenery | null;
 }
 
-function Lane({ runner, scenery }: LaneProps) {
+function ChainGroup({ runner, scenery }: GroupProps) {
   return (
     <figure>
-      <Board
+      <LessonCanvas
         label={`${SAMPLER_NAMES[runner.sampler]}: its chains over the first two coefficients`}
         aspect={1}
         draw={(pen, size, palette) => {

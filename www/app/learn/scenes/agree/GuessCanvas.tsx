@@ -1,4 +1,4 @@
-import { Board, type Size } from "../../canvas/Board";
+import { LessonCanvas, type Size } from "../../canvas/LessonCanvas";
 import { faded, type Palette } from "../../canvas/palette";
 import { planeOf, traceOutline } from "../../canvas/plane";
 import { pointOf, TIPS } from "../../shape";
@@ -14,7 +14,7 @@ interface Props {
 }
 
 /** A star that stands still, with a button at each of its tips. */
-export function GuessBoard({ guess, onToggle }: Props) {
+export function GuessCanvas({ guess, onToggle }: Props) {
   const draw = (pen: CanvasRenderingContext2D, size: Size, palette: Palette) => {
     traceOutline(pen, planeOf(size, EXTENT), STAR);
     pen.fillStyle = faded(palette.ab, 0.1);
@@ -26,7 +26,7 @@ export function GuessBoard({ guess, onToggle }: Props) {
     pen.setLineDash([]);
   };
   return (
-    <Board
+    <LessonCanvas
       label="A star with a question mark at each of its five tips."
       aspect={ASPECT}
       draw={draw}
@@ -36,7 +36,7 @@ export function GuessBoard({ guess, onToggle }: Props) {
           key={point}
           type="button"
           class="tip-button"
-          style={placeOf(point)}
+          style={positionOf(point)}
           aria-pressed={guess.includes(tip)}
           aria-label={`${TIP_NAMES[tip]} tip`}
           onClick={() => onToggle(tip)}
@@ -44,12 +44,12 @@ export function GuessBoard({ guess, onToggle }: Props) {
           {guess.includes(tip) ? "✓" : "?"}
         </button>
       ))}
-    </Board>
+    </LessonCanvas>
   );
 }
 
 /** Just inside a tip, as shares of the board. */
-function placeOf(point: number): { left: string; top: string } {
+function positionOf(point: number): { left: string; top: string } {
   const [x, y] = pointOf(STAR, point);
   const share = (value: number) => `${(50 + (47 * value) / EXTENT).toFixed(2)}%`;
   return { left: share(ASPECT * x), top: share(-y) };
