@@ -60,7 +60,7 @@ test("two that do not fit say so beside the models, and nothing is run", async (
     await alert.filter({ hasText: /12 points.*4,?284/ }).waitFor();
     await untilState(page, "error");
     assert.equal(await page.getByRole("button", { name: "Run it live" }).isDisabled(), true);
-    await page.getByText("These two cannot be compared as they stand.").waitFor();
+    await page.getByText("These two models cannot be compared as they stand.").waitFor();
     assert.deepEqual(await results(), before);
     await page.keyboard.press("Control+z");
     await alert.waitFor({ state: "detached" });

@@ -115,7 +115,7 @@ test("the tab opens at the worst coefficient, says that the draws can be believe
       .waitFor();
     const chosen = tab(page).getByRole("combobox", { name: "Coefficient" });
     assert.equal(await chosen.inputValue(), String(mode));
-    await tab(page).getByRole("heading", { name: "These draws can be believed" }).waitFor();
+    await tab(page).getByRole("heading", { name: "These draws have converged" }).waitFor();
     assert.match(await tab(page).locator(".verdict").innerText(), /Converged: R-hat 1\.00\d+/);
 
     await tab(page).locator('[data-done="true"] [data-chart="sweep"]').waitFor({ timeout: 60_000 });
@@ -146,20 +146,23 @@ test("a walk that is too short is not believed, and each plot says what to do", 
     assert.match(await tab(page).locator(".verdict").innerText(), /Not converged yet: R-hat [1-9]/);
     const better = "draw longer or use the automatic sampler\\.$";
     for (const [chart, said] of [
-      ["trace", `^Chain [1-5] (sits apart|wanders|spreads).*${better}`],
+      ["trace", `^(The mean of chain [1-5] is|Chain [1-5] (drifts|has)).*${better}`],
       [
         "ranks",
         `^Chain [1-5] has [\\d.]+ times its share of the (low|middle|high) ranks: ${better}`,
       ],
-      ["autocorrelation", `only \\d+ of 200 draws count, and 400 are needed: ${better}`],
+      [
+        "autocorrelation",
+        `the 200 draws are worth only \\d+ independent ones, and 400 are needed: ${better}`,
+      ],
       ["pairs", "^\\d+ effective draws are too few"],
     ]) {
       const line = advice(page, chart);
       assert.match((await line.innerText()).toLowerCase(), new RegExp(said.toLowerCase()), chart);
       assert.equal(await line.getAttribute("data-calm"), "false", chart);
     }
-    // The chain that is spoken of is the one that is drawn strongly.
-    const named = (await advice(page, "trace").innerText()).match(/^Chain (\d)/)[1];
+    // The chain that the advice names is the one that is drawn strongly.
+    const named = (await advice(page, "trace").innerText()).match(/chain (\d)/i)[1];
     const strong = page.locator('[data-chart="trace"] .chain-legend [data-named="true"]');
     assert.equal(await strong.innerText(), `chain ${named}`);
     assert.deepEqual(await accessibilityFaults(page), []);
@@ -311,7 +314,7 @@ test("a run that was cancelled shows the draws that it made", async () => {
     await untilState(page, "running");
     await page
       .getByRole("region", { name: "Run", exact: true })
-      .getByText(/^(not converged yet|looks well so far)/)
+      .getByText(/^(not converged yet|first modes look converged)/)
       .waitFor({ timeout: 60_000 });
     await page.getByRole("button", { name: "Cancel", exact: true }).click();
     await untilState(page, "done");

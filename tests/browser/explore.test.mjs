@@ -150,7 +150,7 @@ test("the meter says what both can make and what one cannot", async () => {
     assert.ok(Math.abs(Number(await meter(page).getAttribute("aria-valuenow"))) < 0.5);
     await page
       .getByRole("combobox", { name: "Along which directions" })
-      .selectOption({ label: "What B cannot follow" });
+      .selectOption({ label: "Exclusive modes of A" });
     await type(page, 1, 3);
     await page.getByText("Only A can make it").waitFor();
     assert.ok(Number(await meter(page).getAttribute("aria-valuenow")) < -0.8);
@@ -170,7 +170,7 @@ test("directions are in the order that they state", async () => {
     const directions = page.getByRole("combobox", { name: "Along which directions" });
     for (const [label, word, order] of [
       ["Modes of A", /([\d.]+)\smm per SD/, -1],
-      ["What B cannot follow", /misses ([\d.]+)\smm per SD/, -1],
+      ["Exclusive modes of A", /misses ([\d.]+)\smm per SD/, -1],
       ["Where A varies most beside B", /([\d.]+)\s× the variance of B/, -1],
       ["Principal angles", /([\d.]+)° to its partner/, 1],
     ]) {

@@ -44,7 +44,7 @@ test("it says which settings it was made with, and its report is the stored one"
     await untilState(page, "done");
     const run = page.getByRole("region", { name: "Run", exact: true });
     const { chains, draws, seed } = report.settings;
-    for (const words of [`${chains} chains`, `${draws} draws a side`, `seed ${seed}`]) {
+    for (const words of [`${chains} chains`, `${draws} draws per model`, `seed ${seed}`]) {
       assert.match(await run.innerText(), new RegExp(words));
     }
     const save = page.getByRole("button", { name: "Report .json" });

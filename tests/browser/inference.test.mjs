@@ -231,7 +231,7 @@ test("one side alone can be chosen, and its model is the one that was foretold",
   await withPage({}, async ({ url, page }) => {
     await openPage(page, url, STARS);
     const both = (await downloadReport(page)).intersection.disagreement;
-    const part = await unfold(page, "The two sides");
+    const part = await unfold(page, "From A and from B");
     await part.getByRole("radio", { name: "A alone" }).check({ force: true });
     await untilShown(page, /from A alone/);
     await page.waitForURL(/sides=a/);
@@ -252,7 +252,7 @@ test("where the paper's difference is the whole model the page says so, and offe
     const overlap = Math.max(aWithoutB.overlapWithPrior, bWithoutA.overlapWithPrior);
     assert.ok(overlap > 0.95, `the overlap is only ${overlap}`);
     await page.getByText(/^At this σ the paper’s difference is nearly all of/).waitFor();
-    await page.getByRole("button", { name: "Show the relative one" }).click();
+    await page.getByRole("button", { name: "Show the relative difference" }).click();
     await page.waitForURL(/diff=relative/);
     await untilShown(page, /difference relative/);
     assert.equal((await downloadReport(page)).settings.difference, "relative");

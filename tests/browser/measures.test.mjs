@@ -133,7 +133,7 @@ test("the linear splitting stands beside the set difference, with why it may be 
     ]);
     assert.match(
       await part.innerText(),
-      /Hall, Marshall & Martin 2000.*no law has such a covariance/s,
+      /Hall, Marshall & Martin 2000.*negative variance, which no distribution has/s,
     );
   });
 });
@@ -256,7 +256,7 @@ test("shapes that a model has not seen, and those that it was made of, put it to
     );
     assert.match(
       await chart(page, "evaluation-a").innerText(),
-      /12 test shapes that the model was not made of/,
+      /12 test shapes that the model was not computed from/,
     );
     const drawn = chart(page, "evaluation-a").locator(
       ".chart-box .series[data-series=generalization] circle",
@@ -277,7 +277,7 @@ test("shapes that a model has not seen, and those that it was made of, put it to
     const own = await tested(page, "b");
     assert.match(
       await chart(page, "evaluation-b").innerText(),
-      /The 16 shapes it was made of: each is left out in turn/,
+      /The 16 training shapes: each is left out in turn/,
     );
     assert.ok(own.generalization[0] > own.generalization[2]);
     assert.deepEqual(await accessibilityFaults(page), []);

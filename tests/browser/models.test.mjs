@@ -335,14 +335,14 @@ test("work on the table can be ended and gone on with", async () => {
     });
     await page.goto(`${url}#${STARS}&room=models&shelf=${all}`);
     await page.waitForFunction(() => globalThis.held.length === 1);
-    await models(page).getByText("Working out 0 of 132 pairs").waitFor();
+    await models(page).getByText("Computing 0 of 132 pairs").waitFor();
     await page.getByRole("button", { name: "Cancel working out the table" }).click();
     await models(page).getByText("Stopped at 0 of 132 pairs").waitFor();
     await page.evaluate(() => {
       globalThis.holding = false;
       for (const send of globalThis.held) send();
     });
-    await models(page).getByRole("button", { name: "Go on" }).click();
+    await models(page).getByRole("button", { name: "Continue" }).click();
     await untilTable(page, 12);
     assert.equal(await models(page).getByRole("progressbar").count(), 0);
   });

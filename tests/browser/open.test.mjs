@@ -36,8 +36,8 @@ async function openFolders(page, url) {
 test("two folders of meshes become two models, and say from how many shapes", async () => {
   await withPage({}, async ({ url, page }) => {
     await openFolders(page, url);
-    await card(page, "A").getByText("Made here from 7 shapes, aligned rigidly.").waitFor();
-    await card(page, "B").getByText("Made here from 6 shapes, aligned rigidly.").waitFor();
+    await card(page, "A").getByText("Computed here from 7 shapes, aligned rigidly.").waitFor();
+    await card(page, "B").getByText("Computed here from 6 shapes, aligned rigidly.").waitFor();
     assert.match(await card(page, "A").innerText(), /points\s+64\s+modes\s+6/);
     await untilDrawn(page);
   });
@@ -46,7 +46,7 @@ test("two folders of meshes become two models, and say from how many shapes", as
 test("shapes of a set are brought to one size on request, and the modes wanted are kept", async () => {
   await withPage({}, async ({ url, page }) => {
     await openFolders(page, url);
-    const box = card(page, "A").getByRole("checkbox", { name: "Also bring to one size" });
+    const box = card(page, "A").getByRole("checkbox", { name: "Also scale to one size" });
     await box.check();
     await card(page, "A").getByText("aligned rigidly and brought to one size.").waitFor();
     assert.equal(await box.isChecked(), true);

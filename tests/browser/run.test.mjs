@@ -29,7 +29,7 @@ const button = (page, name) => page.getByRole("button", { name, exact: true });
 async function untilDrawing(page) {
   await untilState(page, "running");
   await panel(page)
-    .getByText(/^(not converged yet|looks well so far)/)
+    .getByText(/^(not converged yet|first modes look converged)/)
     .waitFor({ timeout: 60_000 });
 }
 
@@ -99,7 +99,7 @@ for (const { build, query, link } of [
 
       await page.getByRole("combobox", { name: "Example" }).selectOption("stars-3");
       await untilState(page, "running");
-      await typeSetting(page, "Draws a side", "800");
+      await typeSetting(page, "Draws per model", "800");
       await page.getByRole("combobox", { name: "Sampler" }).selectOption("independence");
       await typeSetting(page, "Seed", "3");
       await untilShown(page, /independence.*seed 3$/);
@@ -163,7 +163,7 @@ test("σ belongs to its models: others get the one recommended for them", async 
     await example.selectOption("stars-1");
     await untilShown(page, /^σ 0\.\d+.units \(recommended\)/);
     await example.selectOption("heads-sex");
-    await page.getByText("Computed beforehand").waitFor();
+    await page.getByText("Stored result, computed by this version").waitFor();
     await untilState(page, "done");
     assert.deepEqual(await downloadReport(page), first);
   });

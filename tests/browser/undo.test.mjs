@@ -303,7 +303,7 @@ test("the size of a population goes back and forth", async () => {
     const card = page.getByRole("region", { name: "Model A" });
     const made = () => card.locator(".made").innerText();
     await undoes(page, "one size", made, () =>
-      card.getByRole("checkbox", { name: "Also bring to one size" }).check(),
+      card.getByRole("checkbox", { name: "Also scale to one size" }).check(),
     );
   });
 });
@@ -471,7 +471,9 @@ test("a run that is cancelled before its differences says so, and keeps the draw
   await withPage({}, async ({ url, page }) => {
     await page.goto(`${url}#v=1&demo=stars-1&sampler=paper-corrected&draws=200000&thin=2000`);
     await untilState(page, "running");
-    await page.getByText(/^(not converged yet|looks well so far)/).waitFor({ timeout: 60_000 });
+    await page
+      .getByText(/^(not converged yet|first modes look converged)/)
+      .waitFor({ timeout: 60_000 });
     await button(page, "Cancel").click();
     await untilState(page, "done");
     await page.getByText("The run was ended before the differences were drawn.").waitFor();

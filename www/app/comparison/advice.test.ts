@@ -44,7 +44,7 @@ test("traces that overlap need nothing; a chain that sits apart is named", () =>
   assert.deepEqual([found.calm, found.chain], [false, 2]);
   assert.match(
     found.text,
-    /^Chain 3 sits apart, (2\.[89]|3\.\d) SD from the others: draw longer or use the automatic sampler\.$/,
+    /^The mean of chain 3 is (2\.[89]|3\.\d) SD from that of the others: draw longer or use the automatic sampler\.$/,
   );
   assert.match(traceAdvice(apart, 1.4, "auto").text, /: draw longer\.$/);
 });
@@ -55,9 +55,12 @@ test("a chain that wanders and one that spreads unlike the others are told apart
     1.2,
     "auto",
   );
-  assert.match(wandering.text, /^Chain 2 wanders: its halves differ by [\d.]+ SD\. Draw longer\.$/);
+  assert.match(
+    wandering.text,
+    /^Chain 2 drifts: the means of its halves differ by [\d.]+ SD\. Draw longer\.$/,
+  );
   const spread = traceAdvice(diagnosticsOf(moved(LIKE, 3, (v) => v / 20)), 1.2, "auto");
-  assert.match(spread.text, /^Chain 4 spreads 0\.0\d+ times as far as the others: draw longer\.$/);
+  assert.match(spread.text, /^Chain 4 has 0\.0\d+ times the SD of the others: draw longer\.$/);
 });
 
 test("where the engine's R-hat is infinite the draws themselves are looked at", () => {
@@ -82,14 +85,14 @@ test("even ranks need nothing; uneven ones name the chain and where its draws ar
 test("bars that leave the band without R-hat minding are no alarm", () => {
   const found = rankAdvice(diagnosticsOf(moved(LIKE, 1, (value) => value - 4)), 1.005, "auto");
   assert.equal(found.calm, true);
-  assert.match(found.text, /alike, not because chains differ: nothing to do\.$/);
+  assert.match(found.text, /correlated, not because chains differ: nothing to do\.$/);
 });
 
 test("enough effective draws need nothing; too few are counted", () => {
   const diagnostics = diagnosticsOf(LIKE, [1, 0.5, 0.2, 0.01, 0]);
   assert.deepEqual(autocorrelationAdvice(diagnostics, 500, "auto"), {
     calm: true,
-    text: "Draws 3 steps apart are unrelated, and 500 of 800 count: nothing to do.",
+    text: "Draws 3 steps apart are uncorrelated, and the 800 draws are worth 500 independent ones: nothing to do.",
     chain: null,
   });
   assert.match(
@@ -100,7 +103,7 @@ test("enough effective draws need nothing; too few are counted", () => {
   assert.equal(few.calm, false);
   assert.equal(
     few.text,
-    "Draws stay alike for more than 2 steps; only 40 of 800 draws count, and 400 are needed: draw longer or use the automatic sampler.",
+    "Draws are correlated over more than 2 steps; the 800 draws are worth only 40 independent ones, and 400 are needed: draw longer or use the automatic sampler.",
   );
 });
 
@@ -111,7 +114,7 @@ test("a distance that keeps its level needs nothing; one that falls, or a chain 
   assert.deepEqual(of(level).calm, true);
   assert.match(
     of(level).text,
-    /^d keeps its level in every chain, 5\.\d+\s±\s0\.\d+\u202fmm: nothing to do\.$/,
+    /^d has the same level in every chain, 5\.\d+\s±\s0\.\d+\u202fmm: nothing to do\.$/,
   );
   const falling = of(level.map((draws) => draws.map((value, i) => value + Math.exp(-i / 50))));
   assert.equal(falling.calm, false);
@@ -121,7 +124,7 @@ test("a distance that keeps its level needs nothing; one that falls, or a chain 
   );
   const apart = of(moved(level, 3, (value) => value + 0.5));
   assert.deepEqual([apart.calm, apart.chain], [false, 3]);
-  assert.match(apart.text, /^Chain 4 keeps a distance of its own, 5\.5\d against/);
+  assert.match(apart.text, /^Chain 4 has a mean distance of 5\.5\d, all chains together/);
 });
 
 test("short chains that differ by chance alone are left in peace", () => {
@@ -164,11 +167,11 @@ test("draws like a Gaussian need nothing, with a fit that lies on them or withou
   assert.equal(alone.calm, true);
   assert.match(
     alone.text,
-    /^The draws fill their ellipses as a Gaussian does, 8\d\u202f% within 2 SD: nothing/,
+    /^The draws are distributed as a Gaussian, 8\d\u202f% of them within 2 SD: nothing/,
   );
   const own = pairs(gaussian, null);
   const fitted = pairsAdvice({ ...own, fit: { mean: own.mean, covariance: own.covariance } }, 600);
-  assert.match(fitted.text, /and the fit lies on the moments: nothing to do\.$/);
+  assert.match(fitted.text, /and the Gaussian fit has their moments: nothing to do\.$/);
 });
 
 test("a fit that is off, a distribution that is bent, and too few draws each get their own advice", () => {
@@ -176,17 +179,20 @@ test("a fit that is off, a distribution that is bent, and too few draws each get
   const narrow = pairsAdvice(pairs(gaussian, { mean: [0, 0], covariance: [1, 0, 0, 1] }), 600);
   assert.match(
     narrow.text,
-    /^The draws vary (1\.9|2\.\d) times as much as the fit in mode 2\. Trust the moments/,
+    /^The draws have (1\.9|2\.\d) times the SD of the fit in mode 2\. Use the moments/,
   );
   const beside = pairsAdvice(pairs(gaussian, { mean: [1, 0], covariance: [1, 0, 0, 4] }), 600);
-  assert.match(beside.text, /^The fit lies (0\.9\d|1\.\d) SD beside the draws in mode 1\./);
+  assert.match(
+    beside.text,
+    /^The mean of the fit is (0\.9\d|1\.\d) SD from that of the draws in mode 1\./,
+  );
   const ring = (u: number, v: number): [number, number] => {
     const size = Math.hypot(u, v);
     return [u / size, v / size];
   };
   const bent = pairsAdvice(pairs(ring, null), 600);
   assert.equal(bent.calm, false);
-  assert.match(bent.text, /^Modes 1 and 2 are not like a Gaussian: 100\u202f% of the draws/);
+  assert.match(bent.text, /^Modes 1 and 2 are not Gaussian: 100\u202f% of the draws/);
   assert.match(pairsAdvice(pairs(gaussian, null), 30).text, /^30 effective draws are too few/);
 });
 
@@ -209,14 +215,14 @@ test("σ is left in peace where nothing hangs on it, and is to be stated where m
   );
   assert.deepEqual(
     [flat?.calm, flat?.text],
-    [true, "Twice the σ would change how far A∩B varies by only 0\u202f%: nothing to do."],
+    [true, "Doubling σ would change the SD of A∩B by only 0\u202f%: nothing to do."],
   );
   // Twice the σ, √2 times the spread.
   const steep = sweepAdvice(sweep(Math.sqrt), 2);
   assert.equal(steep?.calm, false);
   assert.match(
     steep?.text ?? "",
-    /^Twice the σ would let A∩B vary 41\u202f% more: say which σ you used/,
+    /^Doubling σ would raise the SD of A∩B by 41\u202f%: state σ with every number/,
   );
   const least = sweepAdvice(
     sweep((sigma) => (sigma > 1 ? sigma : 1)),

@@ -1,10 +1,10 @@
 /**
- * What to do about draws, in one sentence under each plot, from its own numbers. Pure.
+ * Judges each diagnostic plot in one sentence: whether the chains agree, and what to change if they do not. Pure.
  *
- * Chains agree below an R-hat of 1.01, and diagnostics can be quoted from 400 effective draws on, 100 for each
- * of four chains: Vehtari, Gelman, Simpson, Carpenter & Bürkner, “Rank-normalization, folding, and
- * localization: an improved R-hat”, Bayesian Analysis 16 (2021). So many draws know a mean to 0.05
- * standard deviations; twice that is what is said to be off here. The other limits are ours and say so.
+ * R-hat must be below 1.01 and the effective sample size at least 400, 100 for each of four chains: Vehtari,
+ * Gelman, Simpson, Carpenter & Bürkner, “Rank-normalization, folding, and localization: an improved R-hat”,
+ * Bayesian Analysis 16 (2021). The mean of 400 independent draws has a standard error of 0.05 standard
+ * deviations; a deviation of more than two standard errors is reported. The other limits are our own choice.
  */
 import type { ChainFigures, PairFigures, SamplerName, SweepPoint } from "../../worker/protocol";
 import { count, length, number, percent, plusMinus } from "../text/format";
@@ -22,7 +22,7 @@ import {
 } from "./diagnosing";
 import { ESS, R_HAT } from "./words";
 
-/** Two standard errors of a mean that 400 draws know, in standard deviations. */
+/** Two standard errors of the mean of 400 independent draws, in standard deviations. */
 const OFF = 2 / Math.sqrt(ESS);
 
 const calm = (text: string): Advice => ({
@@ -37,7 +37,7 @@ function remedy(sampler: SamplerName): string {
 
 const capital = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 
-/** Of the traces; `rHat` as the engine has it of all draws, null where it is infinite. */
+/** Advice on the trace plot; `rHat` is the engine's value for all draws, null where it is infinite. */
 export function traceAdvice(
   diagnostics: ChainFigures,
   rHat: number | null,
@@ -48,18 +48,18 @@ export function traceAdvice(
   const { kind, chain, size, ratio } = oddest(chains);
   const name = `Chain ${chain + 1}`;
   const what = {
-    apart: `${name} sits apart, ${number(size, 2)} SD from the others`,
-    wanders: `${name} wanders: its halves differ by ${number(size, 2)} SD`,
-    spread: `${name} spreads ${number(ratio, 2)} times as far as the others`,
+    apart: `The mean of chain ${chain + 1} is ${number(size, 2)} SD from that of the others`,
+    wanders: `${name} drifts: the means of its halves differ by ${number(size, 2)} SD`,
+    spread: `${name} has ${number(ratio, 2)} times the SD of the others`,
   }[kind];
   const then = kind === "wanders" ? `. ${capital(remedy(sampler))}.` : `: ${remedy(sampler)}.`;
   return { calm: false, text: what + then, chain };
 }
 
-/** A twentieth of the bars leaves the band by chance; of more than so many something is said. */
+/** Share of bars outside the band from which on it is mentioned; by chance it is a twentieth. */
 const MANY_OUTSIDE = 0.1;
 
-/** Of the rank plots: R-hat says whether the chains differ, the bars which one and where. */
+/** Advice on the rank plots: R-hat tells whether the chains differ, the bars which chain and at which ranks. */
 export function rankAdvice(
   diagnostics: ChainFigures,
   rHat: number | null,
@@ -72,7 +72,9 @@ export function rankAdvice(
   const known = rHat ?? splitRHat(chainsOf(diagnostics.draws, diagnostics.chains));
   if (known < R_HAT) {
     return outside > MANY_OUTSIDE * ranks.length
-      ? calm("Some bars leave the band because draws in a row are alike, not because chains differ")
+      ? calm(
+          "Some bars lie outside the band because successive draws are correlated, not because chains differ",
+        )
       : calm("Every chain has its share of low, middle and high ranks");
   }
   const uneven = bars.map((row) => row.reduce((sum, bar) => sum + Math.abs(bar - expected), 0));
@@ -93,6 +95,7 @@ export function rankAdvice(
   };
 }
 
+/** Advice on the autocorrelation plot: whether the draws amount to enough independent ones. */
 export function autocorrelationAdvice(
   diagnostics: ChainFigures,
   essBulk: number,
@@ -104,21 +107,26 @@ export function autocorrelationAdvice(
   if (essBulk >= ESS) {
     const far =
       lag === null
-        ? `Draws are alike for more than ${last} steps`
+        ? `Draws are correlated over more than ${last} steps`
         : lag <= 1
-          ? "Successive draws are unrelated"
-          : `Draws ${lag} steps apart are unrelated`;
-    return calm(`${far}, and ${count(essBulk)} of ${count(draws)} count`);
+          ? "Successive draws are uncorrelated"
+          : `Draws ${lag} steps apart are uncorrelated`;
+    return calm(
+      `${far}, and the ${count(draws)} draws are worth ${count(essBulk)} independent ones`,
+    );
   }
-  const few = `only ${count(essBulk)} of ${count(draws)} draws count, and ${ESS} are needed`;
+  const few = `the ${count(draws)} draws are worth only ${count(essBulk)} independent ones, and ${ESS} are needed`;
   const far =
     lag === null
-      ? `Draws stay alike for more than ${last} steps`
-      : `Draws are alike up to ${lag} steps`;
+      ? `Draws are correlated over more than ${last} steps`
+      : `Draws are correlated over up to ${lag} steps`;
   return { calm: false, text: `${far}; ${few}: ${remedy(sampler)}.`, chain: null };
 }
 
-/** Of d over the draws: it has no R-hat in the report, so the plain one of what is shown is taken. */
+/**
+ * Advice on the plot of the distance d over the draws. The report has no R-hat of d, so the split R-hat of the
+ * shown draws is taken.
+ */
 export function distanceAdvice(
   diagnostics: ChainFigures,
   unit: string,
@@ -131,7 +139,7 @@ export function distanceAdvice(
   if (splitRHat(chains) < Math.max(R_HAT, 1 + 1 / half)) {
     const level = plusMinus(mean, Math.sqrt(variance));
     return calm(
-      `d keeps its level in every chain, ${level.mean}\u00a0±\u00a0${level.spread}\u202f${unit}`,
+      `d has the same level in every chain, ${level.mean}\u00a0±\u00a0${level.spread}\u202f${unit}`,
     );
   }
   const halves = chains.map((chain) => halvesOf(chain).map((part) => spreadOf(part).mean));
@@ -144,27 +152,27 @@ export function distanceAdvice(
     const way = late < early ? "falls" : "rises";
     return {
       calm: false,
-      text: `d still ${way}, from ${number(early)} to ${length(late, unit)} on average: raise the burn-in, so that draws are kept only once the chains have arrived.`,
+      text: `d still ${way}, from ${number(early)} to ${length(late, unit)} on average: raise the burn-in, so that draws are kept only after the chains have converged.`,
       chain: null,
     };
   }
   return {
     calm: false,
-    text: `Chain ${chain + 1} keeps a distance of its own, ${number(means[chain] ?? Number.NaN)} against ${length(mean, unit)} on average: ${remedy(sampler)}.`,
+    text: `Chain ${chain + 1} has a mean distance of ${number(means[chain] ?? Number.NaN)}, all chains together ${length(mean, unit)}: ${remedy(sampler)}.`,
     chain,
   };
 }
 
-/** Standard errors by which the share within an ellipse may be off, with up to ten looked at. */
+/** Standard errors by which the share of draws within an ellipse may be off, for up to ten ellipses. */
 const SHARE_ERRORS = 4;
 
-/** Of the pairs: whether the draws are like the Gaussian that stands for them, and like the fit. */
+/** Advice on the pair plots: whether the draws are Gaussian, and whether the Gaussian fit has their moments. */
 export function pairsAdvice(diagnostics: PairFigures, essBulk: number): Advice {
   const { modes, fit, count: drawn } = diagnostics;
   const not = (text: string): Advice => ({ calm: false, text, chain: null });
   if (essBulk < ESS) {
     return not(
-      `${count(essBulk)} effective draws are too few to tell a Gaussian by; draw longer first.`,
+      `${count(essBulk)} effective draws are too few to compare with a Gaussian; draw longer first.`,
     );
   }
   const wanted = gaussianShare(2);
@@ -183,39 +191,39 @@ export function pairsAdvice(diagnostics: PairFigures, essBulk: number): Advice {
   );
   if (odd && Math.abs(odd.share - wanted) > SHARE_ERRORS * error) {
     return not(
-      `Modes ${odd.i + 1} and ${odd.j + 1} are not like a Gaussian: ${percent(odd.share)} of the draws lie within 2 SD where it has ${percent(wanted)}. Look at samples, not at mean and SD alone.`,
+      `Modes ${odd.i + 1} and ${odd.j + 1} are not Gaussian: ${percent(odd.share)} of the draws lie within 2 SD, where a Gaussian has ${percent(wanted)}. Look at samples, not at mean and SD alone.`,
     );
   }
   const filled = odd
-    ? `The draws fill their ellipses as a Gaussian does, ${percent(average(shares.map(({ share }) => share)))} within 2 SD`
-    : "The draws have the spread that they should";
-  return calm(off === null ? filled : `${filled}, and the fit lies on the moments`);
+    ? `The draws are distributed as a Gaussian, ${percent(average(shares.map(({ share }) => share)))} of them within 2 SD`
+    : "There is no pair of modes to compare with a Gaussian";
+  return calm(off === null ? filled : `${filled}, and the Gaussian fit has their moments`);
 }
 
-/** Where the fit is farthest from the moments, in its own standard deviations. */
+/** The mode in which the Gaussian fit differs most from the draws, by mean or by standard deviation. */
 function farthest(diagnostics: PairFigures, fit: NonNullable<PairFigures["fit"]>) {
   const each = diagnostics.modes.map((_, i) => {
     const [own, theirs] = [deviation(diagnostics, i), deviation(fit, i)];
     const shift = Math.abs((diagnostics.mean[i] ?? 0) - (fit.mean[i] ?? 0)) / theirs;
     const ratio = own / theirs;
-    const then = "Trust the moments of the draws, not the first guess.";
+    const then = "Use the moments of the draws, not the Gaussian fit.";
     return shift > Math.abs(ratio - 1)
       ? {
           size: shift,
-          text: `The fit lies ${number(shift, 2)} SD beside the draws in mode ${i + 1}. ${then}`,
+          text: `The mean of the fit is ${number(shift, 2)} SD from that of the draws in mode ${i + 1}. ${then}`,
         }
       : {
           size: Math.abs(ratio - 1),
-          text: `The draws vary ${number(ratio, 2)} times as much as the fit in mode ${i + 1}. ${then}`,
+          text: `The draws have ${number(ratio, 2)} times the SD of the fit in mode ${i + 1}. ${then}`,
         };
   });
   return each.reduce((one, other) => (other.size > one.size ? other : one));
 }
 
-/** A change of the intersection by less is not spoken of. */
+/** A relative change of the SD of A∩B by less than this is called small. */
 const LITTLE = 0.1;
 
-/** Of the σ sweep: how much hangs on the σ in use. */
+/** Advice on the σ sweep: how much the SD of A∩B changes if the σ in use is doubled. */
 export function sweepAdvice(points: readonly SweepPoint[], sigma: number): Advice | null {
   const after = Math.max(
     1,
@@ -227,12 +235,12 @@ export function sweepAdvice(points: readonly SweepPoint[], sigma: number): Advic
   const slope = Math.log(other.vertexSd / one.vertexSd) / Math.log(other.sigma / one.sigma);
   const change = 2 ** slope - 1;
   if (Math.abs(change) < LITTLE) {
-    return calm(`Twice the σ would change how far A∩B varies by only ${percent(Math.abs(change))}`);
+    return calm(`Doubling σ would change the SD of A∩B by only ${percent(Math.abs(change))}`);
   }
-  const way = change > 0 ? "more" : "less";
+  const way = change > 0 ? "raise" : "lower";
   return {
     calm: false,
-    text: `Twice the σ would let A∩B vary ${percent(Math.abs(change))} ${way}: say which σ you used with every number.`,
+    text: `Doubling σ would ${way} the SD of A∩B by ${percent(Math.abs(change))}: state σ with every number.`,
     chain: null,
   };
 }

@@ -1,4 +1,4 @@
-/** Means, spreads and halves of chains. Pure. */
+/** Mean, variance and split R-hat of Markov chains, and the chain that differs most from the others. Pure. */
 
 export interface Spread {
   mean: number;
@@ -35,7 +35,7 @@ export interface Oddity {
   kind: "apart" | "wanders" | "spread";
   chain: number;
   size: number;
-  /** Of the standard deviations, for “spread”. */
+  /** Its standard deviation over that within the chains, for “spread”. */
   ratio: number;
 }
 

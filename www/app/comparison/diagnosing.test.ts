@@ -27,7 +27,7 @@ test("draws come chain after chain", () => {
   ]);
 });
 
-test("all of a few chains are drawn, of many also the one that is spoken of", () => {
+test("all of a few chains are drawn, of many also the one that the advice names", () => {
   assert.deepEqual(shownChains(3, null), [0, 1, 2]);
   const many = shownChains(100, 70);
   assert.equal(many.length, 32);

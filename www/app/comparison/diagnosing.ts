@@ -1,5 +1,6 @@
 /**
- * What the plots of draws are made of: bands, ellipses, which coefficient to look at first. Pure.
+ * Computes what the diagnostic plots draw: bands of rank plots, covariance ellipses, the coefficient with the
+ * worst diagnostics. Pure.
  *
  * Rank plots: Vehtari, Gelman, Simpson, Carpenter & Bürkner, “Rank-normalization, folding, and
  * localization”, Bayesian Analysis 16 (2021).
@@ -30,7 +31,7 @@ export function chainsOf(values: ArrayLike<number>, chains: number): number[][] 
   );
 }
 
-/** Which chains are drawn, from 0: all of a few, of many the first and the one that is spoken of. */
+/** Which chains are drawn, from 0: all of a few; of many, the first ones and the one that the advice names. */
 export function shownChains(chains: number, named: number | null): number[] {
   const first = Array.from({ length: Math.min(chains, MOST_CHAINS) }, (_, chain) => chain);
   return named === null || first.includes(named) ? first : [...first.slice(0, -1), named];
@@ -56,7 +57,7 @@ export function worstCoefficient(report: Report, side: "a" | "b" | null): Coeffi
     a: side === "b" ? nothing : both.a,
     b: side === "a" ? nothing : both.b,
   };
-  // An infinite R-hat is null in JSON: chains that each stay at a point of their own.
+  // An infinite R-hat, of chains that never move, is null in JSON.
   for (const name of ["a", "b"] as const) {
     const stuck = looked[name].rHat.findIndex((value) => !Number.isFinite(value));
     if (stuck >= 0) return { side: name, mode: stuck };
@@ -87,17 +88,17 @@ export function rankBand({ ranks, chains, bins }: ChainFigures): RankBand {
   return { expected, low: Math.max(0, expected - reach), high: expected + reach };
 }
 
-/** Total number of draws behind the diagnostics. */
+/** Total number of draws from which the diagnostics are computed. */
 export function drawsOf({ ranks }: ChainFigures): number {
   return ranks.reduce((sum, value) => sum + value, 0);
 }
 
-/** Correlations below this are lost in noise. */
+/** Autocorrelations below this are not significant. */
 export function noiseBand(draws: number): number {
   return BAND / Math.sqrt(draws);
 }
 
-/** The first lag whose correlation is lost in noise; null where none of these is. */
+/** The first lag whose autocorrelation is not significant; null if there is none. */
 export function silentLag(autocorrelation: ArrayLike<number>, draws: number): number | null {
   const band = noiseBand(draws);
   const lag = Array.from(autocorrelation).findIndex((value) => Math.abs(value) < band);
@@ -116,11 +117,11 @@ export interface Ellipse {
   /** Semi-axes of one standard deviation, the longer one first. */
   long: number;
   short: number;
-  /** Of the longer one to the x axis, in radians, anticlockwise. */
+  /** Angle of the longer semi-axis to the x axis, in radians, anticlockwise. */
   angle: number;
 }
 
-/** One standard deviation of two coordinates of a Gaussian. */
+/** Ellipse of one standard deviation of two coordinates of a Gaussian. */
 export function ellipseOf({ mean, covariance }: Gaussian, i: number, j: number): Ellipse {
   const size = mean.length;
   const at = (row: number, column: number) => covariance[row * size + column] ?? 0;

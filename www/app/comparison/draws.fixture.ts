@@ -1,4 +1,4 @@
-/** Draws made up for tests of plots and advice. */
+/** Made-up draws for tests of plots and advice. */
 import type { ChainFigures } from "../../worker/protocol";
 
 /** Numbers that look like draws of N(0, 1), the same ones each time. */
@@ -16,7 +16,7 @@ export function independent(chains: number, length: number, seed = 1): number[][
   return Array.from({ length: chains }, () => Array.from({ length }, draw));
 }
 
-/** As the engine makes them, but for the autocorrelation, which is given. */
+/** Diagnostics of given chains as the engine computes them; the autocorrelation is given. */
 export function diagnosticsOf(
   chains: number[][],
   autocorrelation: number[] = [1, 0],

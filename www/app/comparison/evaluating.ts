@@ -1,4 +1,4 @@
-/** Testing a model with shapes: generalization and specificity, as Davies defines them. */
+/** Asks the engine for generalization and specificity of a model, as Davies defines them, with given shapes. */
 import { type Signal, signal } from "@preact/signals";
 import { EngineFailure, sentenceOf } from "../../worker/engine-errors";
 import type { DroppedFile, Evaluation } from "../../worker/protocol";
@@ -7,7 +7,7 @@ import { type Side, slotKey, slots, spoken } from "../state/state";
 import { evaluationSentence } from "./measured";
 
 export interface Evaluated {
-  /** Of which model. */
+  /** Key of the model. */
   key: string;
   unit: string;
   evaluation: Evaluation | null;
@@ -20,11 +20,11 @@ export const evaluated: Record<Side, Signal<Evaluated | null>> = {
 };
 export const evaluating: Record<Side, Signal<boolean>> = { a: signal(false), b: signal(false) };
 
-/** The shapes that a model was made of, where the page still has them. */
+/** The training shapes of a model, where the page still has them. */
 export function trainingFiles(side: Side): DroppedFile[] | null {
   const slot = slots[side].value;
   if (slot?.origin.kind !== "shapes" || slot.source.kind !== "files") return null;
-  // Of several sets in one archive it cannot be told which files are those of this one.
+  // If an archive holds several sets of shapes, the files of one set are not known.
   return slot.parts.length === 1 ? slot.source.files : null;
 }
 

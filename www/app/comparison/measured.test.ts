@@ -62,8 +62,11 @@ test("what an evaluation found is said of all modes, and how it was done", () =>
     evaluationSentence(EVALUATION, "A", "mm"),
     /^With 2 modes A comes to within 0\.500\u202fmm .* lie 0\.900\u202fmm from the nearest/,
   );
-  assert.match(methodSentence(EVALUATION), /^The 12 shapes it was made of: each is left out/);
-  assert.match(methodSentence({ ...EVALUATION, method: "folds", folds: 10 }), /a part of 10/);
+  assert.match(methodSentence(EVALUATION), /^The 12 training shapes: each is left out/);
+  assert.match(
+    methodSentence({ ...EVALUATION, method: "folds", folds: 10 }),
+    /in 10 parts: each part is left out/,
+  );
   assert.match(methodSentence({ ...EVALUATION, method: "test", shapes: 1 }), /^1 test shape that/);
   const none = { ...EVALUATION, modes: [], generalization: [], specificity: [] };
   assert.match(evaluationSentence(none, "A", "mm"), /no modes/);

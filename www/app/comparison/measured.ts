@@ -1,18 +1,18 @@
-/** Sentences about the measures of a pair. Pure. */
+/** Sentences and tables about the measures of a pair: angles, compactness, splitting, generalization. Pure. */
 import type { Evaluation, Report } from "../../worker/protocol";
 import type { Nouns } from "../state/demos";
 import { count, degrees, length, number, percent } from "../text/format";
 import { type Phrase, reported } from "../text/phrase";
 import type { Group } from "./numbers";
 
-/** From here on a number only says that it is beyond all bounds: the engine's largest is 1.8 × 10³⁰⁸. */
+/** Numbers from here on are shown as too large; the largest that the engine can have is 1.8 × 10³⁰⁸. */
 const BEYOND = 1e300;
 
 export function divergence(value: number): string {
   return value >= BEYOND ? "too large to tell" : number(value, 4);
 }
 
-/** Said beside the two measures that need noise to exist at all. */
+/** Why Bhattacharyya distance and Kullback–Leibler divergence need noise to be finite. */
 export function noiseSentence(report: Report): Phrase {
   const { bhattacharyyaNoise: noise } = report.overlap;
   return [
@@ -22,14 +22,14 @@ export function noiseSentence(report: Report): Phrase {
   ];
 }
 
-/** Angles up to here are said to be shared directions, from there on own ones. */
+/** Directions closer than the first angle count as shared, further apart than the second as not shared. */
 const [NEAR, FAR] = [10, 45];
 
 export function angleSentence(angles: readonly number[]): string {
   if (angles.length === 0) return "There are no directions to compare.";
   const near = angles.filter((angle) => angle < NEAR).length;
   const far = angles.filter((angle) => angle > FAR).length;
-  return `Of ${count(angles.length)} directions ${near} lie within ${NEAR}° of one another and ${far} more than ${FAR}° apart; at 0° both models have the direction, at 90° one of them has nothing of it.`;
+  return `Of ${count(angles.length)} directions ${near} lie within ${NEAR}° of one another and ${far} more than ${FAR}° apart; at 0° both models have the direction, at 90° it is orthogonal to all directions of the other model.`;
 }
 
 export function angleLabel(angles: readonly number[]): string {
@@ -79,16 +79,16 @@ export function hasSplitting({ differences }: Report): boolean {
 
 /** What the baseline is, and why it may have negative variance. */
 export const SPLITTING_SENTENCES =
-  "Linear splitting (Hall, Marshall & Martin 2000) takes A∩B out of a model as if the model were a mixture of A∩B, at its weight, and a Gaussian rest: mean and covariance of the rest then follow without a draw. " +
-  "The model is no such mixture, and in directions where A∩B has more variance than its share of the model’s the rest is left with less than none: no law has such a covariance, and the larger the negative share, the less the splitting stands for any shapes.";
+  "Linear splitting (Hall, Marshall & Martin 2000) treats a model as a mixture of A∩B, with its weight, and a Gaussian remainder: mean and covariance of the remainder then follow without draws. " +
+  "The model is not such a mixture. In directions where A∩B has more variance than the mixture allows, the remainder gets negative variance, which no distribution has; the larger the negative share, the less the remainder describes shapes.";
 
 const METHODS: Record<Evaluation["method"], (evaluation: Evaluation) => string> = {
   test: ({ shapes }) =>
-    `${count(shapes)} test ${shapes === 1 ? "shape" : "shapes"} that the model was not made of.`,
+    `${count(shapes)} test ${shapes === 1 ? "shape" : "shapes"} that the model was not computed from.`,
   "leave-one-out": ({ shapes }) =>
-    `The ${count(shapes)} shapes it was made of: each is left out in turn, the model made anew of the others.`,
+    `The ${count(shapes)} training shapes: each is left out in turn and the model computed from the others.`,
   folds: ({ shapes, folds }) =>
-    `The ${count(shapes)} shapes it was made of: a part of ${folds} is left out in turn, the model made anew of the rest.`,
+    `The ${count(shapes)} training shapes, in ${folds} parts: each part is left out in turn and the model computed from the rest.`,
 };
 
 export function methodSentence(evaluation: Evaluation): string {
@@ -101,9 +101,9 @@ export function evaluationSentence(evaluation: Evaluation, name: string, unit: s
   if (most === undefined || near === undefined || far === undefined) {
     return "The model has no modes to evaluate.";
   }
-  return `With ${count(most)} ${most === 1 ? "mode" : "modes"} ${name} comes to within ${length(near, unit)} of a shape it has not seen (generalization), and its random shapes lie ${length(far, unit)} from the nearest of these (specificity); smaller is better for both.`;
+  return `With ${count(most)} ${most === 1 ? "mode" : "modes"} ${name} comes to within ${length(near, unit)} of a shape that it was not computed from (generalization), and its random shapes lie ${length(far, unit)} from the nearest of these shapes (specificity), both on average; smaller is better.`;
 }
 
 export function shareSentence(nouns: Nouns): string {
-  return `How much of the variance of ${nouns.a} lies in directions that ${nouns.b} has too, and back; the rest no shape of the other model has.`;
+  return `How much of the variance of ${nouns.a} lies in directions that ${nouns.b} has too, and the other way round. No shape of the other model can have the rest.`;
 }

@@ -1,4 +1,4 @@
-/** A paragraph for the methods section of a paper, and what to cite. Pure; every number is the report's. */
+/** Writes the methods paragraph of a paper and its BibTeX from a report. Pure; every number is the report's. */
 import type { BothSides, Inference, Report, SamplerName } from "../../worker/protocol";
 import { completed, preparationWords } from "../state/preparation";
 import { count, length, number, percent, plusMinus } from "../text/format";
@@ -78,9 +78,9 @@ function tolerance(report: Report): Phrase {
   }
   const why: Phrase = found
     ? [
-        ", recommended by the program from the distances that are possible between the models, ",
+        ", recommended by the program from the expected distance to the other model as σ → 0 and as σ → ∞, ",
         reported(`${path}.nearest`, found.nearest, number(found.nearest)),
-        " to ",
+        " and ",
         reported(`${path}.farthest`, found.farthest, length(found.farthest, unit)),
       ]
     : [", recommended by the program"];
@@ -99,7 +99,7 @@ function sampling(report: Report): Phrase {
       ? [
           "; its mean and covariance rest on a Gaussian fit and ",
           setting("weighted", weighted),
-          " weighted draws with gradients a side",
+          " weighted draws with gradients per model",
         ]
       : [];
   return [
@@ -107,7 +107,7 @@ function sampling(report: Report): Phrase {
     setting("chains", chains),
     " chains and ",
     setting("draws", draws),
-    " draws a side, burn-in ",
+    " draws per model, burn-in ",
     setting("burnIn", burnIn),
     ", thinning ",
     setting("thin", thin),

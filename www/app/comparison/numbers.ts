@@ -1,4 +1,4 @@
-/** The numbers behind the words: which ones are shown, in which order, and how. */
+/** The tables of numbers under the results: which numbers of the report, in which order, in which format. */
 import type { Report } from "../../worker/protocol";
 import { count, length, number, percent } from "../text/format";
 
@@ -16,7 +16,7 @@ export interface Group {
 }
 
 const inUnit = (value: number, report: Report) => length(value, report.models.a.unit);
-/** What is only rounding error is none. */
+/** Shows rounding error as 0. */
 const radians = (value: number) => (value < 1e-9 ? "0" : number(value, 4));
 const plainly = (value: number) => number(value);
 

@@ -1,4 +1,4 @@
-/** Runs, restores and shows comparisons: whatever is chosen is what gets compared. */
+/** Runs a comparison when models or settings change, restores the stored one, and requests the shapes to draw. */
 import { batch, computed, effect } from "@preact/signals";
 import { wasAborted } from "../../worker/engine-errors";
 import type { BothSides, Progress, Region, Report, SweepPoint } from "../../worker/protocol";
@@ -39,11 +39,11 @@ import { plain } from "../text/phrase";
 import { isCloud } from "../viewer/contents";
 import { belief } from "./words";
 
-/** How long the page waits for the next change before it runs. */
+/** Milliseconds without a change after which a comparison starts. */
 const SETTLE_MS = 500;
-/** How often the picture is refined while running. */
+/** Milliseconds between two requests for shapes during a run. */
 const REFINE_MS = 1500;
-/** Runs shorter than this show their result and no guess before it: drawing one would only hold them up. */
+/** Milliseconds of a run before which no shapes are requested: a shorter run shows its result only. */
 const FIRST_GUESS_MS = 800;
 
 type Held = NonNullable<typeof held.value>;
@@ -53,7 +53,7 @@ let regionController = new AbortController();
 let stored: Stored | null = null;
 let restoring = false;
 
-/** Whenever what is chosen differs from what is shown, run it, once the changes settle. */
+/** Starts a comparison when the chosen models and settings differ from the shown ones and stop changing. */
 export function watchChoices(first: Stored | null): void {
   stored = first;
   let timer: ReturnType<typeof setTimeout> | undefined;
@@ -67,7 +67,7 @@ export function watchChoices(first: Stored | null): void {
       timer = setTimeout(() => void restore(key), 0);
       return;
     }
-    // Two that cannot be compared are not tried: beside the models it says why, and what helps.
+    // A pair that cannot be compared is not run: the pair card says why, and what helps.
     const pair = inspected.value;
     if (pair?.key !== pairKey.value) return;
     if (pair?.inspection.problem) {
@@ -83,7 +83,7 @@ export function watchChoices(first: Stored | null): void {
   });
 }
 
-/** Puts the stored comparison back: its numbers at once, its shapes when the engine has them. */
+/** Shows the stored comparison: its numbers at once, its shapes when the engine has restored them. */
 async function restore(key: string): Promise<void> {
   const [a, b] = [slots.a.value, slots.b.value];
   if (!stored || !a || !b || restoring) return;
@@ -102,12 +102,12 @@ async function restore(key: string): Promise<void> {
     restoring = false;
   } catch (thrown) {
     restoring = false;
-    // Other models have come meanwhile: the stored comparison is as good as it was, for whoever comes back to it.
+    // Other models were opened meanwhile: the stored comparison is kept for the first ones.
     if (slots.a.peek() !== a || slots.b.peek() !== b) {
       if (currentKey.peek() === key) void restore(key);
       return;
     }
-    // A stored comparison that cannot be restored is no use: draw it again.
+    // A stored comparison that cannot be restored is run again.
     stored = null;
     if (!wasAborted(thrown)) void start();
   }
@@ -143,7 +143,7 @@ export async function start(): Promise<void> {
   });
   spoken.value = "Comparison started.";
   held.value = null;
-  const putBack = keepPicture();
+  const restoreShapes = keepShapes();
   const refine = refiner(running);
   const begun = performance.now();
   try {
@@ -163,8 +163,8 @@ export async function start(): Promise<void> {
     const nothing = done.cancelled && report.intersection.diagnostics.draws === 0;
     if (nothing && result.value !== null) {
       failedKey.value = key;
-      putBack();
-      spoken.value = "Cancelled before there were any draws; what was there stays.";
+      restoreShapes();
+      spoken.value = "Cancelled before there were any draws. The previous result is still shown.";
       return;
     }
     finish(running, report, done, sources);
@@ -172,7 +172,7 @@ export async function start(): Promise<void> {
   } catch (thrown) {
     if (runController !== controller) return;
     failedKey.value = key;
-    putBack();
+    restoreShapes();
     reportError("run", thrown);
   } finally {
     if (runController === controller) {
@@ -182,8 +182,8 @@ export async function start(): Promise<void> {
   }
 }
 
-/** The picture that belongs to the results; a run that comes to nothing leaves both as they were. */
-function keepPicture(): () => void {
+/** Keeps the shapes of the shown result; returns a function that shows them again after a failed run. */
+function keepShapes(): () => void {
   const [drawn, empty, points] = [shapes.value, emptyRegions.value, compared.value];
   return () =>
     batch(() => {
@@ -203,13 +203,13 @@ export function cancel(): void {
   runController.abort();
 }
 
-/** Forgets a run that the next request to the engine supersedes; a cancel would measure it first. */
+/** Drops a run without cancelling it: the next request to the engine replaces it, a cancel would measure it first. */
 function forgetRun(): void {
   runController = null;
   run.value = null;
 }
 
-/** Ends a run of models that are no longer compared; what it drew is not waited for. */
+/** Cancels a run of models that are no longer compared, without waiting for its result. */
 function giveUp(): void {
   const controller = runController;
   forgetRun();
@@ -235,7 +235,7 @@ function finish(
     : `Comparison finished. ${verdict}`;
 }
 
-/** Asks for shapes as soon as there are any, then again now and then, one question at a time. */
+/** Returns a function that requests shapes during a run: the first as soon as there are draws, then at intervals. */
 function refiner(running: Held): (progress: Progress, now: number) => void {
   let asked = Number.NEGATIVE_INFINITY;
   let asking = false;
@@ -250,13 +250,13 @@ function refiner(running: Held): (progress: Progress, now: number) => void {
     const begun = performance.now();
     showRegions(wanted).finally(() => {
       asking = false;
-      // Shapes of a large model take the engine seconds: no more than a tenth of a run goes into them.
+      // Shapes of a large model take the engine seconds: at most a tenth of a run is spent on them.
       wait = Math.max(REFINE_MS, 10 * (performance.now() - begun));
     });
   };
 }
 
-/** How many shapes of a region are asked for: a grid of surfaces, a heap of drawings, a cloud. */
+/** How many random shapes of a region are requested: few surfaces side by side, many outlines or points overlaid. */
 export function shapeCount(): number {
   const geometry = slots.a.value?.geometry;
   if (geometry?.segments) return 60;
@@ -300,10 +300,10 @@ async function showRegions(regions: Region[]): Promise<void> {
   );
 }
 
-/** The key of the comparison whose points `compared` holds. */
+/** Key of the comparison whose points are in `compared`. */
 let comparedKey: string | null = null;
 
-/** Fetches the points that are compared, where those are not simply the models' own. */
+/** Requests the compared points, if they are a selection of the models' points. */
 async function showCompared(signal: AbortSignal): Promise<void> {
   const shown = held.value;
   if (shown === null || (shown.key === comparedKey && compared.value !== null)) return;
@@ -321,14 +321,14 @@ async function showCompared(signal: AbortSignal): Promise<void> {
   }
 }
 
-/** Other shapes of the same draws. */
+/** Shows other random shapes of the same draws. */
 export function resample(): void {
   shapesSeed.value = (BigInt(shapesSeed.value) + 1n).toString();
 }
 
 const DIFFERENCES: Region[] = ["aWithoutB", "bWithoutA"];
 
-/** Other samples, exaggeration and exclusive modes are other pictures of the same draws. */
+/** Requests other shapes of the same draws when the seed, the exaggeration or the kind of difference changes. */
 export function watchPictures(): void {
   let drawn = shapesSeed.value;
   const show = latest<undefined>(() => {
@@ -345,7 +345,7 @@ export function watchPictures(): void {
   });
 }
 
-/** Whether the σ under the slider is still wanted: not once it was put back. */
+/** Whether the preview of another σ is still wanted: not after the slider was reset. */
 let wantsPreview = false;
 
 const askPreview = latest(async (sigma: number) => {
@@ -354,26 +354,26 @@ const askPreview = latest(async (sigma: number) => {
   try {
     const { signal } = regionController;
     const found = await engineClient().preview(signal, sigma, shapeCount(), shapesSeed.value);
-    // A run that began meanwhile has better to show.
+    // A run that started meanwhile shows its own shapes.
     if (!wantsPreview || !canPreview.value || held.value !== before) return;
     batch(() => {
       preview.value = found.prediction;
       shapes.value = { ...shapes.value, intersection: found.shapes };
     });
   } catch (thrown) {
-    // Where the fit breaks down there is nothing to foresee; the run says what is wrong.
+    // If the fit fails there is no preview; the run reports the error.
     if (!wasAborted(thrown)) preview.value = null;
   }
 });
 
-/** Shows A∩B as it would be at another σ, and what to expect there. */
+/** Previews A∩B at another σ: shapes and predicted numbers of the Gaussian fit. */
 export function trySigma(sigma: number): void {
   tried.value = sigma;
   wantsPreview = true;
   askPreview(sigma);
 }
 
-/** Takes the σ that was tried, and runs it as any other change; or gives it up. */
+/** Sets σ to the previewed value, which starts a run; or ends the preview if σ is unchanged. */
 export function takeSigma(sigma: number | null): void {
   tried.value = null;
   if (sigma !== settings.value.sigma) {
@@ -385,7 +385,7 @@ export function takeSigma(sigma: number | null): void {
   if (canPreview.value) void showRegions(["intersection"]);
 }
 
-/** The intersection's numbers at one σ, by the fit alone; null where the fit breaks down. */
+/** The numbers of A∩B at one σ by the Gaussian fit alone; null if the fit fails. */
 export async function sweepPoint(signal: AbortSignal, sigma: number): Promise<SweepPoint | null> {
   return (await engineClient().sweep(signal, [sigma]))[0] ?? null;
 }

@@ -1,6 +1,6 @@
 /**
- * Two circles drawn to scale: areas as the total variances of A and B, the lens as the
- * smaller of what each can make of the other's variance (so that it fits into either circle).
+ * Lays out the Venn diagram to scale: the areas of the circles are the total variances of A and B, the overlap is
+ * the smaller of the variances that each model shares with the other (so that it fits into both circles).
  */
 
 import type { Report } from "../../worker/protocol";
@@ -25,7 +25,7 @@ export interface Venn {
   paths: { a: string; b: string; aWithoutB: string; bWithoutA: string; intersection: string };
 }
 
-/** The drawing's own size; pages and pictures scale it. */
+/** Size of the drawing before scaling. */
 export const VENN_BOX = { width: 240, height: 170, margin: 6 };
 
 /** The diagram of a report. */
@@ -49,7 +49,7 @@ export function vennSizes(
   return { a: totalVarianceA, b: totalVarianceB, shared };
 }
 
-/** Area that two circles share. */
+/** Area of the intersection of two circles. */
 export function lensArea(r1: number, r2: number, distance: number): number {
   if (distance >= r1 + r2) return 0;
   if (distance <= Math.abs(r1 - r2)) return Math.PI * Math.min(r1, r2) ** 2;

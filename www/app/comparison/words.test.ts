@@ -112,7 +112,7 @@ function withIntersection(part: Partial<typeof report.intersection>) {
   return { ...report, intersection: { ...report.intersection, ...part } };
 }
 
-test("converged is the engine's word, whatever the other figures are", () => {
+test("the page says converged only if the engine does, whatever the diagnostics are", () => {
   const { diagnostics } = report.intersection;
   const said = (part: Partial<typeof diagnostics>) => {
     const found = withIntersection({ diagnostics: { ...diagnostics, ...part } });
@@ -142,7 +142,7 @@ test("a report of an older engine leaves the new sentences out", () => {
 test("it is said which sampler ran on a side, why, and what the moments come from", () => {
   assert.equal(
     words.inferred(report, "a"),
-    "Independence sampler: the fit is good: Pareto k 0.21, acceptance 0.83. Built on the variational fit; mean and variance come from the fit in closed form; the correction by weighted draws is within its own error.",
+    "Independence sampler: the fit is good: Pareto k 0.21, acceptance 0.83. Built on the variational fit; mean and variance come from the fit in closed form; the correction by weighted draws is below its standard error.",
   );
   assert.match(
     words.inferred(report, "b") ?? "",
@@ -165,7 +165,7 @@ test("the worst mode is the worst of both sides", () => {
   assert.deepEqual(words.worstMode(both, "essTail"), { mode: 1, side: "a", value: 1 });
 });
 
-test("modes that turn into one another are named together", () => {
+test("modes that are not determined one by one are named together", () => {
   assert.deepEqual(words.unsettledModes([0.1, 0.3, 0.5, 0.1, 0.9]), [[2, 3], [5]]);
   const said = (modeTurns: number[]) => {
     const { accuracy } = report.intersection;
@@ -236,14 +236,14 @@ test("while a file is read it is said how far, in the unit of the whole", () => 
   const reading = (bytes: number, of: number) => words.readingSentence({ bytes, of });
   assert.equal(reading(120e6, 317e6), "Reading 120 of 317\u202fMB");
   assert.equal(reading(2000, 30_000), "Reading 2 of 30\u202fkB");
-  assert.equal(reading(317e6, 317e6), "Making the model…");
+  assert.equal(reading(317e6, 317e6), "Computing the model…");
 });
 
 test("a model that was made here says from what", () => {
   assert.equal(words.originSentence({ kind: "file" }), null);
   const shapes = { kind: "shapes", count: 24, scaled: false } as const;
-  assert.equal(words.originSentence(shapes), "Made here from 24 shapes, aligned rigidly.");
-  assert.match(words.originSentence({ ...shapes, scaled: true }) ?? "", /brought to one size/);
+  assert.equal(words.originSentence(shapes), "Computed here from 24 shapes, aligned rigidly.");
+  assert.match(words.originSentence({ ...shapes, scaled: true }) ?? "", /scaled to one size/);
 });
 
 test("what a file leaves open is told, what is in order is not", () => {
@@ -256,7 +256,7 @@ test("what a file leaves open is told, what is in order is not", () => {
   assert.equal(words.basisSentence({ ...a, orthogonality: 1e-7, droppedModes: 0 }), null);
   assert.equal(
     words.basisSentence({ ...a, orthogonality: 0.02, droppedModes: 1 }),
-    "Basis not orthonormal (off by 0.020), made so. 1 mode without variance left out.",
+    "Basis was not orthonormal (off by 0.020); corrected. 1 mode without variance left out.",
   );
 });
 

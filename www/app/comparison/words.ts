@@ -1,4 +1,4 @@
-/** What a report says, in plain words. Pure: no DOM, no engine. */
+/** Writes the sentences of the results from a report: overlap, differences, convergence, accuracy. Pure: no DOM, no engine. */
 import type {
   BothSides,
   DifferenceName,
@@ -22,7 +22,7 @@ import { type Phrase, reported } from "../text/phrase";
 export const R_HAT = 1.01;
 export const ESS = 400;
 
-/** From here on “nearly everything” is a fair word. */
+/** Share of a model outside the other from which on the page says “nearly everything differs”. */
 const NEARLY_ALL = 0.99;
 
 export function headline(report: Report, nouns: Nouns): Phrase {
@@ -36,7 +36,7 @@ export function headline(report: Report, nouns: Nouns): Phrase {
   ];
 }
 
-/** How far, in σ, a shape may lie from the other model for “both can make” to be a fair word. */
+/** Mean distance of A∩B to the other model, in σ, up to which the page says that both can make its shapes. */
 const WITHIN = 2;
 
 export function shared(report: Report): Phrase {
@@ -67,7 +67,7 @@ export function differences(report: Report, nouns: Nouns): Phrase {
   const ofA = reported("differences.aWithoutB.probability", a, percent(a));
   const ofB = reported("differences.bWithoutA.probability", b, percent(b));
   const { aWithoutB, bWithoutA } = report.differences;
-  // A run that is ended early has made no difference, or one of them: 0 % is no finding then.
+  // A cancelled run may have drawn no difference, or only one: 0 % is no result then.
   if (bWithoutA.diagnostics.evaluations === 0) {
     if (aWithoutB.diagnostics.evaluations === 0) {
       return ["The run was ended before the differences were drawn."];
@@ -77,7 +77,7 @@ export function differences(report: Report, nouns: Nouns): Phrase {
   const each: Phrase = [ofA, ` of ${nouns.shapesOfA} and `, ofB, ` of ${nouns.shapesOfB}`];
   const definition = report.settings.difference ?? "soft";
   if (definition !== "soft") {
-    return ["The differences hold ", ...each, `: those ${HARD[definition]}.`];
+    return ["The differences contain ", ...each, `: those ${HARD[definition]}.`];
   }
   if (nearlyAllDiffers(report)) {
     return [
@@ -94,7 +94,7 @@ export function differences(report: Report, nouns: Nouns): Phrase {
 
 const HARD: Record<Exclude<DifferenceName, "soft">, string> = {
   distance: "that lie farthest from the other model",
-  relative: "whose own deviation from the mean the other model follows least",
+  relative: "of whose deviation from the mean the other model misses the largest part",
   outside: "whose nearest shape in the other model is least plausible there",
 };
 
@@ -104,30 +104,30 @@ export type DifferencePicture = DifferenceName | "exclusiveModes";
 export const DEFINITIONS: Record<DifferencePicture, { label: string; help: string }> = {
   soft: {
     label: "paper’s",
-    help: "A shape of A counts the more, the more σ it lies from its nearest shape in B: with probability 1 − exp(−½(d/σ)²).",
+    help: "A shape of A is in the difference with probability 1 − exp(−½(d/σ)²), d its distance to the nearest shape of B.",
   },
   distance: {
     label: "beyond a distance",
-    help: "A shape of A counts if it lies at least a certain distance from its nearest shape in B.",
+    help: "A shape of A is in the difference if its distance to the nearest shape of B is above a threshold.",
   },
   relative: {
     label: "relative",
-    help: "A shape of A counts if B misses a large part of what sets it apart from A’s mean: its distance to B over its own deviation.",
+    help: "A shape of A is in the difference if its distance to the nearest shape of B, divided by its distance to A’s mean, is above a threshold.",
   },
   outside: {
     label: "outside Q₂",
-    help: "A shape of A counts if its nearest shape in B is one that B hardly ever makes, so many standard deviations from B’s mean.",
+    help: "A shape of A is in the difference if its nearest shape of B is implausible in B: more standard deviations from B’s mean than a threshold.",
   },
   exclusiveModes: {
     label: "exclusive modes",
-    help: "Not drawn at random: the directions of A that B misses most, one after the other, each at +3 standard deviations.",
+    help: "Not random draws: the directions of A that B misses most, in order, each at +3 standard deviations.",
   },
 };
 
-/** From here on a difference looks like the model itself. */
+/** Overlap of a difference with its model from which on the page says that they are nearly the same. */
 const SAME_AS_MODEL = 0.95;
 
-/** Said where the paper's difference shows nothing that the model itself does not. */
+/** Warns that the paper's difference is nearly the whole model; null if it is not. */
 export function nearlyTheModel(report: Report): Phrase | null {
   if ((report.settings.difference ?? "soft") !== "soft") return null;
   const { aWithoutB, bWithoutA } = report.differences;
@@ -145,7 +145,7 @@ export function nearlyTheModel(report: Report): Phrase | null {
   return ["At this σ the paper’s difference is nearly all of ", ...which];
 }
 
-/** What the other model misses, mode by mode; null where the report does not say. */
+/** Share of variance that the other model misses, and the largest exclusive modes; null for an older report. */
 export function exclusive(report: Report, side: "a" | "b"): Phrase | null {
   const key = side === "a" ? "aWithoutB" : "bWithoutA";
   const found = report.differences[key].exclusive;
@@ -177,7 +177,7 @@ function nearlyAllDiffers(report: Report): boolean {
   return soft && Math.min(aWithoutB.probability, bWithoutA.probability) >= NEARLY_ALL;
 }
 
-/** The warnings that the sentences above do not say already. */
+/** The warnings of a report that are not already stated by the sentences above. */
 export function furtherWarnings(report: Report): Report["warnings"] {
   const said = new Set(["not-converged"]);
   if (nearlyAllDiffers(report)) said.add("nearly-all-differs");
@@ -192,20 +192,20 @@ export function spaces(report: Report): Phrase {
   const sentence: Phrase = [
     "The two mean shapes are ",
     reported("overlap.meanToMean", meanToMean, length(meanToMean, report.models.a.unit)),
-    " apart per point.",
+    " apart, on average over the points.",
   ];
   if (first === undefined || last === undefined) return sentence;
   return [
     ...sentence,
-    " The directions of change they have most in common differ by ",
+    " The smallest principal angle between their modes is ",
     reported("overlap.principalAnglesDegrees.0", first, degrees(first)),
-    ", those least so by ",
+    ", the largest ",
     reported(`overlap.principalAnglesDegrees.${angles.length - 1}`, last, degrees(last)),
     ".",
   ];
 }
 
-/** “Converged” is the engine's word: no other figure makes the page say it. */
+/** Whether the draws converged, as the engine decided, with the diagnostics that show it. */
 export function belief(report: Report): { converged: boolean; phrase: Phrase } {
   const { converged, rHatMax, essBulkMin, paretoK, importanceEss } =
     report.intersection.diagnostics;
@@ -228,7 +228,7 @@ export function belief(report: Report): { converged: boolean; phrase: Phrase } {
           ", effective size of the weights ",
           reported(`${path}.importanceEss`, importanceEss, count(importanceEss)),
         ];
-  // What it converged by; all there is where it has not.
+  // The diagnostics that met their limits; all of them if it has not converged.
   let evidence = chains;
   if (weights.length > 0 && !converged) evidence = [...chains, "; ", ...weights];
   if (weights.length > 0 && converged && !byChains) evidence = weights;
@@ -239,8 +239,8 @@ export function belief(report: Report): { converged: boolean; phrase: Phrase } {
 }
 
 /**
- * While running: whether what is there so far looks well. The engine looks at the first modes only
- * then; whether the draws have converged is for the report to say.
+ * Whether the draws of a run in progress look converged. During a run the engine computes the diagnostics of the
+ * first modes only; the report covers all of them.
  */
 export function liveBelief(progress: Progress): string {
   const { rHatMax, essBulkMin } = progress;
@@ -249,11 +249,11 @@ export function liveBelief(progress: Progress): string {
   return settled ? LOOKS_WELL : "not converged yet";
 }
 
-export const LOOKS_WELL = "looks well so far, judged at the end";
+export const LOOKS_WELL = "first modes look converged, all are checked at the end";
 
 const MOMENTS: Record<Inference["moments"], string> = {
   "closed-form":
-    "mean and variance come from the fit in closed form; the correction by weighted draws is within its own error",
+    "mean and variance come from the fit in closed form; the correction by weighted draws is below its standard error",
   weighted:
     "mean and variance are those of the Gaussian fit, corrected by weighted draws and gradients",
   draws: "mean and variance are those of the draws",
@@ -266,7 +266,7 @@ const FIT_WORDS: Record<FitMethod, string> = {
   rms: "RMS",
 };
 
-/** Which sampler ran on a side, why, and what the moments come from. */
+/** Which sampler ran for a model, why, and how mean and variance were computed. */
 export function inferred(report: Report, side: "a" | "b"): string | null {
   const found = report.intersection.inference?.[side];
   if (!found) return null;
@@ -284,7 +284,7 @@ interface Worst {
   value: number;
 }
 
-/** The worst of one figure over all modes of both sides; modes counted from 1. */
+/** The worst value of one diagnostic over all modes of both models; modes counted from 1. */
 export function worstMode(
   both: BothSides<ModeDiagnostics>,
   which: "rHat" | "essBulk" | "essTail",
@@ -332,10 +332,10 @@ export function worstModes(report: Report): Phrase | null {
   ];
 }
 
-/** From here on a mode is not determined on its own, in radians; as in src/report.rs. */
+/** Standard error of a mode's direction from which on the mode is not determined alone, in radians; as in src/report.rs. */
 const MOST_TURN = 0.2;
 
-/** Neighbouring modes that turn into one another, as runs of modes counted from 1. */
+/** Groups of neighbouring modes that are not determined one by one, counted from 1. */
 export function unsettledModes(turns: number[]): number[][] {
   const runs: number[][] = [];
   turns.forEach((turn, i) => {
@@ -347,7 +347,7 @@ export function unsettledModes(turns: number[]): number[][] {
   return runs;
 }
 
-/** Said of modes whose variances are too close to tell them apart. */
+/** Names the modes whose variances are too close to determine them one by one; null if there are none. */
 export function unsettled(report: Report): string | null {
   const turns = report.intersection.accuracy?.modeTurns ?? [];
   const runs = unsettledModes(turns);
@@ -377,14 +377,14 @@ function listed(names: string[]): string {
   return `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`;
 }
 
-/** From here on the two sides describe different sets of shapes. */
+/** Relative difference of the two covariances from which on they describe different sets of shapes. */
 const DISAGREE = 0.5;
 
 export function sidesDisagree(report: Report): boolean {
   return (report.intersection.disagreement?.covariance ?? 0) > DISAGREE;
 }
 
-/** How far what either side alone would give lies apart. */
+/** How much the intersection models from A alone and from B alone differ; null for an older report. */
 export function twoSides(report: Report): Phrase | null {
   const found = report.intersection.disagreement;
   if (!found) return null;
@@ -399,14 +399,14 @@ export function twoSides(report: Report): Phrase | null {
     " apart, their covariances differ by ",
     reported(`${path}.covariance`, found.covariance, percent(found.covariance)),
     sidesDisagree(report)
-      ? ": the two sides describe different sets of shapes. Look at each alone before trusting what they have in common."
+      ? ": they describe different sets of shapes. Look at each alone before you use A∩B."
       : ".",
   ];
 }
 
 const STAGES: Record<Progress["stage"], string> = {
   prepare: "Preparing",
-  fit: "First guess of A∩B",
+  fit: "Gaussian fit of A∩B",
   intersection: "Sampling A∩B",
   differences: "Sampling A∖B and B∖A",
   measure: "Measuring",
@@ -441,7 +441,7 @@ export function settingsSentence(report: Report): string {
     `σ ${sigma === null ? "recommended" : length(sigma, unit)}${sigmaRecommended ? " (recommended)" : ""}`,
     SAMPLER_WORDS[sampler] ?? sampler,
     `${chains} chains`,
-    `${count(draws)} draws a side`,
+    `${count(draws)} draws per model`,
     `seed ${seed}`,
   ];
   if (pooling && pooling !== "both") parts.push(`from ${pooling.toUpperCase()} alone`);
@@ -455,12 +455,12 @@ export function settingsSentence(report: Report): string {
   return parts.join(" · ");
 }
 
-/** While a file is opened: how far it is read. */
+/** Progress of opening a file: bytes read, of how many. */
 export function readingSentence(read: Reading | null): string {
   if (read === null) return "Opening…";
   const does = read.arrives ? "Downloading" : "Reading";
   if (read.of === null) return `${does}: ${bytes(read.bytes)} so far`;
-  if (read.bytes >= read.of && !read.arrives) return "Making the model…";
+  if (read.bytes >= read.of && !read.arrives) return "Computing the model…";
   const of = bytes(read.of);
   const unit = of.slice(of.indexOf("\u202f"));
   const done = unit.endsWith("MB")
@@ -469,40 +469,41 @@ export function readingSentence(read: Reading | null): string {
   return `${does} ${done} of ${of}`;
 }
 
-/** How a model was made that is not in a file; null for one that is. */
+/** How a model was computed from shapes or blendshapes; null for one that was read from a file. */
 export function originSentence(origin: Origin): string | null {
   switch (origin.kind) {
     case "file":
       return null;
     case "shapes":
-      return `Made here from ${count(origin.count)} shapes, aligned rigidly${origin.scaled ? " and brought to one size" : ""}.`;
+      return `Computed here from ${count(origin.count)} shapes, aligned rigidly${origin.scaled ? " and scaled to one size" : ""}.`;
     case "blendshapes":
-      return `Made here from ${count(origin.count)} blendshapes, by ${count(origin.sampled)} sampled shapes.`;
+      return `Computed here from ${count(origin.count)} blendshapes, with ${count(origin.sampled)} sampled shapes.`;
   }
 }
 
-/** What the size suggests of a unit that the file does not state. */
+/** Says that a file states no unit, with a guess from the size of the mean shape. */
 export function unitSentence(report: ModelReport): string | null {
   if (report.unit !== UNSTATED) return null;
   const guess = report.unitGuess ? `, probably ${report.unitGuess}` : "";
   return `Unit not stated${guess}.`;
 }
 
-/** From here on a basis was not orthonormal but for rounding in single precision. */
+/** Deviation from an orthonormal basis that single precision explains. */
 const ROUNDING = 1e-4;
 
 export function basisSentence(report: ModelReport): string | null {
   const off = report.orthogonality ?? 0;
   const dropped = report.droppedModes ?? 0;
   const sentences: string[] = [];
-  if (off > ROUNDING) sentences.push(`Basis not orthonormal (off by ${number(off, 2)}), made so.`);
+  if (off > ROUNDING)
+    sentences.push(`Basis was not orthonormal (off by ${number(off, 2)}); corrected.`);
   if (dropped > 0) {
     sentences.push(`${count(dropped)} mode${dropped === 1 ? "" : "s"} without variance left out.`);
   }
   return sentences.length === 0 ? null : sentences.join(" ");
 }
 
-/** The pair in one line, when all is well. */
+/** Points, faces and means of a pair that can be compared, in one line. */
 export function pairLine(found: Inspection, unit: string): string {
   const { compared, points, triangles, meanDistance } = found;
   const same = points.a === points.b;
@@ -510,13 +511,13 @@ export function pairLine(found: Inspection, unit: string): string {
     compared === null
       ? [`${count(points.a)} and ${count(points.b)} points`]
       : [`${count(compared)} points ${same && compared === points.a ? "in common" : "compared"}`];
-  if (triangles !== "unknown") parts.push(triangles === "same" ? "same faces" : "other faces");
+  if (triangles !== "unknown") parts.push(triangles === "same" ? "same faces" : "different faces");
   const apart = meanDistance.now ?? meanDistance.before;
   if (apart !== null) parts.push(apart === 0 ? "same mean" : `means ${length(apart, unit)} apart`);
   return parts.join(" · ");
 }
 
-/** What aligning would do for the distance of the means. */
+/** Distance of the two means as they stand, after rigid alignment, and after alignment with scale. */
 export function alignmentWords(found: Inspection, unit: string): string | null {
   const { before, rigid, similarity } = found.meanDistance;
   const parts: string[] = [];

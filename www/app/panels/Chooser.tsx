@@ -5,11 +5,11 @@ import { choosing, openChosen } from "../models/opening";
 import { type NamedSource, nameOf } from "../models/sources";
 import { SIDES, type Side, slots, sourceKey } from "../state/state";
 
-/** More models than two were dropped: which of them are A and B. */
+/** Dialog that asks which of several dropped models are compared as A and B. */
 export function Chooser() {
   const models = choosing.value;
   const [first] = models ?? [];
-  // Another question is another dialog, shown anew.
+  // Every question gets a new dialog.
   return models && first && <Dialog key={sourceKey(first.source)} models={models} />;
 }
 
@@ -19,7 +19,7 @@ function Dialog({ models }: { models: NamedSource[] }) {
   const dialog = useRef<HTMLDialogElement>(null);
   const chosen = useSignal<Record<Side, string>>({ a: "0", b: "1" });
   useEffect(() => dialog.current?.showModal(), []);
-  // The browser tells of a close some time after it; by then another drop may have asked anew.
+  // The close event arrives later; another drop may have opened a new question by then.
   const close = () => {
     if (choosing.peek() === models) choosing.value = null;
   };
@@ -61,7 +61,7 @@ function Dialog({ models }: { models: NamedSource[] }) {
           <button
             type="button"
             onClick={() => void openEvery(models, source("a"), source("b"))}
-            title="Opens every one of them, compares these two, and shows how each lies to each other one"
+            title="Opens all of them, compares these two, and shows a table of all pairs"
           >
             All: show the table
           </button>

@@ -2,7 +2,7 @@ import { questions, UNASKED_BYTES } from "../models/address/consent";
 import { bytes } from "../text/format";
 import { showNotice } from "../ui/Notices";
 
-/** Before anything large is downloaded. What is open stays, whatever the answer is. */
+/** Asks before a large file is downloaded. The open models stay open, whatever the answer is. */
 export function Consent() {
   return (
     <>

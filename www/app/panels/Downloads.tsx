@@ -19,7 +19,7 @@ import { FileButton } from "../ui/FileButton";
 import { openFiles } from "./dropped-files";
 import { Methods, Pictures } from "./Pictures";
 
-/** What is taken away, and as which kinds of file. */
+/** What can be downloaded, and in which file formats. */
 const KINDS: { of: string; files: [ending: string, kind: ExportKind["kind"], help: string][] }[] = [
   {
     of: "A∩B",
@@ -46,7 +46,7 @@ export function Downloads() {
   const ready = engine.value !== null && !run.value && Object.keys(shapes.value).length > 0;
   return (
     <section class="downloads" aria-label="Downloads">
-      <h3>Take away</h3>
+      <h3>Download</h3>
       {KINDS.map(({ of, files }) => (
         <fieldset key={of} class="download-row">
           <legend>{of}</legend>
@@ -82,9 +82,9 @@ export function Downloads() {
   );
 }
 
-/** What makes this comparison again, to the last digit. */
+/** The run file: models and settings that reproduce this comparison exactly. */
 function RunFileRow({ ready }: { ready: boolean }) {
-  // The engine writes down the comparison that it holds.
+  // The engine writes the run file of the comparison that it holds.
   const holds = ready && held.value !== null && held.value.key === result.value?.key;
   return (
     <fieldset class="download-row">
@@ -133,7 +133,7 @@ function Save({ what, of, ending, help, ready }: SaveProps) {
 
 const MESHES = ["ply", "obj", "glb"] as const;
 
-/** One shape as it is drawn, exaggerated or not. */
+/** Downloads one shape as it is drawn, exaggerated or not. */
 function Shape({ ready }: { ready: boolean }) {
   const from = useSignal<Region>("intersection");
   const index = useSignal(-1);

@@ -26,6 +26,7 @@ import { OpenButtons } from "./OpenButtons";
 
 const PICTURE_PX = 84;
 
+/** Card of model A or B: name, format, mean shape, number of points and modes, standard deviations. */
 export function ModelCard({ side }: { side: Side }) {
   const slot = slots[side].value;
   // Before the engine is up, the stored report already describes both models.
@@ -101,7 +102,7 @@ function CancelButton({ side }: { side: Side }) {
   );
 }
 
-/** The models of one file: which of them this is, and two of them against one another. */
+/** Chooses one of the models in a file; identity and expression of one file can be compared with one click. */
 function Parts({ side, slot, name }: { side: Side; slot: Slot; name: string }) {
   const { parts, part, source } = slot;
   const both = parts.includes("shape") && parts.includes("expression");
@@ -135,7 +136,7 @@ function Parts({ side, slot, name }: { side: Side; slot: Slot; name: string }) {
   );
 }
 
-/** How a model came about that was not in a file, and what can be chosen about that. */
+/** How a model was computed from shapes, and the settings of that: scaling and number of modes. */
 function Made({ side, slot }: { side: Side; slot: Slot }) {
   const { origin, report } = slot;
   const { modes, variance } = settings.value.prepare[side];
@@ -150,7 +151,7 @@ function Made({ side, slot }: { side: Side; slot: Slot }) {
             checked={slot.scale}
             onChange={(event) => void chooseScale(side, event.currentTarget.checked)}
           />
-          Also bring to one size
+          Also scale to one size
         </label>
       )}
       {(sentence || modes !== null || variance !== null) && (
@@ -160,7 +161,7 @@ function Made({ side, slot }: { side: Side; slot: Slot }) {
   );
 }
 
-/** What a file left open, or got wrong. */
+/** Notes on what a file does not state or states wrongly: unit, orthonormal basis. */
 function Basis({ report }: { report: ModelReport }) {
   const sentences = [unitSentence(report), basisSentence(report)].filter(Boolean);
   return sentences.length === 0 ? null : <p class="note">{sentences.join(" ")}</p>;
@@ -175,7 +176,7 @@ function Fact({ term, value }: { term: string; value: string }) {
   );
 }
 
-/** Drawn by the one viewer of the page and copied here. */
+/** Picture of the mean shape, drawn by the viewer of the page and copied here. */
 function Picture({ side }: { side: Side }) {
   const target = useRef<HTMLCanvasElement>(null);
   const key = `${drawable.value} ${isDark()}`;
@@ -185,7 +186,7 @@ function Picture({ side }: { side: Side }) {
     const picture = cardPicture(side, PICTURE_PX);
     if (!canvas) return;
     if (!picture) {
-      canvas.width = 0; // Clears what was there of another model.
+      canvas.width = 0; // Clears the picture of another model.
       return;
     }
     canvas.width = picture.width;

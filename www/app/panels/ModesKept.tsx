@@ -5,7 +5,7 @@ import { count } from "../text/format";
 
 const SHARES = [0.9, 0.95, 0.99];
 
-/** How many modes of one model are compared: all, the first few, or enough of the variance. */
+/** Chooses how many modes of one model are compared: all, the first ones, or those for a share of the variance. */
 export function ModesKept({ side, deviations }: { side: Side; deviations: number[] }) {
   const now = settings.value.prepare[side];
   const letter = side.toUpperCase();

@@ -2,7 +2,7 @@ import type { Side } from "../state/state";
 import { FileButton } from "../ui/FileButton";
 import { openFiles } from "./dropped-files";
 
-/** Files, as many as belong together; or a folder of them. */
+/** Buttons that open a model from one or several files, or from a folder. */
 export function OpenButtons({ side }: { side: Side }) {
   const name = side.toUpperCase();
   return (

@@ -24,10 +24,10 @@ import { CloseIcon } from "../ui/icons";
 import { Notices, showNotice } from "../ui/Notices";
 import { TypedField } from "../ui/TypedField";
 
-/** Whether the two can be compared as they stand, and what can be done about it. */
+/** Card of the pair: whether the two models can be compared, and the remedies if they cannot. */
 export function PairCard() {
   const found = inspected.value?.inspection;
-  /** As the visitor wants it, until something asks for attention. */
+  /** Whether the visitor opened or closed the details; null until then. */
   const opened = useSignal<boolean | null>(null);
   if (!found) return <Notices place="pair" />;
   const { problem, remedies, applied } = found;
@@ -79,7 +79,7 @@ export function PairCard() {
   );
 }
 
-/** One click that helps, and why. */
+/** A remedy as a button, with the reason for it. */
 function Offer({ remedy }: { remedy: Remedy }) {
   const { label, sentence, recommended } = remedy;
   return (
@@ -99,10 +99,10 @@ function Offer({ remedy }: { remedy: Remedy }) {
   );
 }
 
-/** What was done; each can be undone. */
+/** The remedies that were applied; each can be undone. */
 function Applied({ applied }: { applied: Remedy[] }) {
   return (
-    <ul class="chips" aria-label="Done to the models">
+    <ul class="chips" aria-label="Changes to the models">
       {applied.map((remedy) => (
         <li key={remedy.id} class="chip" data-remedy={remedy.id} title={remedy.sentence}>
           <span>{remedy.label}</span>
@@ -190,7 +190,7 @@ function Controls({ found }: { found: Inspection }) {
         standard=""
         placeholder="all"
         suffix="points"
-        help="Fewer points are compared faster; they are spread evenly over the shape."
+        help="Largest number of compared points. Fewer are compared faster; they are spread evenly over the shape."
         parse={(text) => (text.trim() === "" ? null : parseCount(text, ...SUBSAMPLE))}
         onChange={(subsample) => change({ prepare: { subsample } })}
         wrong="a whole number, or nothing for all"
@@ -206,7 +206,7 @@ interface UnitProps {
   own: SidePreparation;
 }
 
-/** Only where the file does not say it: what a file says is not changed here. */
+/** Declares the unit of a model whose file states none; a stated unit cannot be changed. */
 function UnitField({ side, found, own }: UnitProps) {
   if (own.unit === null && found.stated !== UNSTATED) return null;
   const letter = side.toUpperCase();
@@ -235,7 +235,7 @@ function UnitField({ side, found, own }: UnitProps) {
   );
 }
 
-/** Which points are compared: painted, typed or from a file. */
+/** Chooses which points are compared: painted, typed, or from a file. */
 function Points() {
   const input = useRef<HTMLInputElement>(null);
   const { points } = settings.value.prepare;

@@ -7,7 +7,7 @@ import { plain } from "../text/phrase";
 import { copyText } from "../ui/download";
 import { Phrase } from "../ui/Phrase";
 
-/** Figures and animations among what can be taken away. */
+/** Buttons that save figures and animations, and that copy the methods paragraph. */
 export function Pictures({ ready }: { ready: boolean }) {
   return (
     <>
@@ -58,7 +58,7 @@ export function Pictures({ ready }: { ready: boolean }) {
   );
 }
 
-/** What a paper says of a comparison. */
+/** Methods paragraph and BibTeX of the comparison, to copy. */
 export function Methods() {
   const report = result.value?.report;
   const said = useSignal("");

@@ -20,6 +20,7 @@ import {
 import { duration, number, percent } from "../text/format";
 import { Notices } from "../ui/Notices";
 
+/** Starts or cancels a run and shows its progress. */
 export function RunPanel() {
   return (
     <section class="run" aria-label="Run">
@@ -56,13 +57,13 @@ function Idle() {
 function stateSentence(): string {
   const held = result.value;
   if (pageState.value === "loading") return "Opening the models…";
-  if (inspection.value?.problem) return "These two cannot be compared as they stand.";
+  if (inspection.value?.problem) return "These two models cannot be compared as they stand.";
   if (held === null) return "Nothing compared yet.";
   if (outOfDate.value && failedKey.value === currentKey.value) {
     return "This run gave no result. The previous one is still shown.";
   }
-  if (outOfDate.value) return "Out of date: the choices have changed.";
-  if (held.stored) return "Computed beforehand by this engine.";
+  if (outOfDate.value) return "Out of date: models or settings have changed.";
+  if (held.stored) return "Stored result, computed by this version of the engine.";
   const took = duration(held.report.seconds.total);
   return held.cancelled
     ? `Cancelled after ${took}; the draws so far are kept.`

@@ -23,6 +23,7 @@ import { Choice } from "../ui/Choice";
 import { TypedField } from "../ui/TypedField";
 import { SigmaField } from "./SigmaField";
 
+/** Settings of the next run: tolerance σ, sampler, modes, seed, numbers of chains and draws, and rarely used ones. */
 export function SettingsPanel() {
   const now = settings.value;
   return (
@@ -43,22 +44,22 @@ export function SettingsPanel() {
         parse={parseSeed}
         onChange={(seed) => change({ seed })}
         wrong="a whole number below 2⁶⁴"
-        help="Start of the random numbers. The same seed gives the same draws, to the last bit; another one gives other draws of the same law."
+        help="Start of the random numbers. The same seed gives the same draws, to the last bit; another one gives other draws from the same distribution."
       />
       <CountField
         label="Chains"
         name="chains"
         standard={budgetOf(now.sampler).chains}
         range={RANGES.chains}
-        help="Markov chains on each side. More of them tell better whether the draws have converged; each has fewer draws."
+        help="Markov chains for each model. With more chains convergence is checked better; each chain has fewer draws."
         onChange={(chains) => change({ chains, draws: Math.max(now.draws, leastDraws(chains)) })}
       />
       <CountField
-        label="Draws a side"
+        label="Draws per model"
         name="draws"
         standard={budgetOf(now.sampler).draws}
         range={[leastDraws(now.chains), MOST_DRAWS]}
-        help="Shapes drawn of the intersection from A, and as many from B. Four times as many halve their Monte-Carlo errors; the time grows in proportion."
+        help="Shapes drawn of the intersection from A, and as many from B. Four times as many halve the Monte-Carlo errors; the time grows in proportion."
       />
       <More />
     </section>
@@ -93,7 +94,7 @@ function More() {
         onChoose={(fit) => change({ fit })}
       />
       <Choice
-        label="Sides"
+        label="Sampled from"
         value={now.pooling}
         options={SIDES_USED}
         standard={DEFAULTS.pooling}
@@ -125,7 +126,7 @@ function More() {
         standard={DEFAULTS.weighted}
         range={RANGES.weighted}
         suffix="draws"
-        help="Weighted draws with gradients, on each side, that correct the mean and variance of the fit. Four times as many halve the standard errors."
+        help="Weighted draws with gradients, for each model, that correct the mean and variance of the fit. Four times as many halve the standard errors."
       />
       <h3>Differences</h3>
       <DifferenceFields />
@@ -176,7 +177,7 @@ function DifferenceFields() {
             parse={parsePositive}
             onChange={(differenceThreshold) => change({ differenceThreshold })}
             wrong="a positive number, or nothing"
-            help="Where a shape begins to count, instead of a share of the shapes. A larger threshold keeps fewer shapes, less like the other model."
+            help="Least score of a shape in the difference, instead of a share of the shapes. A larger threshold keeps fewer shapes, less like the other model."
           />
         </>
       )}
@@ -207,7 +208,7 @@ function ModesField() {
       }
       onChange={(modes) => change({ modes })}
       wrong="a whole number, or nothing for all"
-      help="The first modes of both models. Fewer make both models stiffer and the comparison faster; the variance of those left out counts as noise."
+      help="The first modes of both models. With fewer, both models make fewer shapes and the comparison is faster; the variance of the modes left out counts as noise."
     />
   );
 }

@@ -17,10 +17,11 @@ import { length, number, percent } from "../text/format";
 import { Metric } from "../ui/Phrase";
 import { TypedField } from "../ui/TypedField";
 
-/** How far the slider goes to either side of the recommended σ, in powers of ten. */
+/** Range of the slider above and below the recommended σ, in powers of ten. */
 const DECADES = 2;
 const STEP = 0.02;
 
+/** Sets the tolerance σ, by number or slider, with the distance that is predicted for it. */
 export function SigmaField() {
   const now = settings.value;
   const shown = recommended.value;
@@ -50,7 +51,7 @@ function SigmaSlider() {
   const middle = recommended.value ?? used;
   if (middle === null) return null;
   const sigma = tried.value ?? settings.value.sigma ?? middle;
-  const place = Math.max(-DECADES, Math.min(DECADES, Math.log10(sigma / middle)));
+  const power = Math.max(-DECADES, Math.min(DECADES, Math.log10(sigma / middle)));
   const at = (element: HTMLInputElement) => {
     const power = Number(element.value);
     return power === 0 ? middle : Number((middle * 10 ** power).toPrecision(3));
@@ -59,8 +60,8 @@ function SigmaSlider() {
     const value = at(element);
     takeSigma(value === recommended.value ? null : value);
   };
-  // A slider that is put back where it was says nothing of a change.
-  const letGo = ({ currentTarget: element }: { currentTarget: HTMLInputElement }) =>
+  // A slider that is moved back to where it was sends no change event.
+  const release = ({ currentTarget: element }: { currentTarget: HTMLInputElement }) =>
     setTimeout(() => {
       if (tried.peek() !== null) take(element);
     });
@@ -73,12 +74,12 @@ function SigmaSlider() {
         min={-DECADES}
         max={DECADES}
         step={STEP}
-        value={place}
+        value={power}
         onInput={(event) => trySigma(at(event.currentTarget))}
         onChange={(event) => take(event.currentTarget)}
-        onPointerUp={letGo}
-        onPointerCancel={letGo}
-        onBlur={letGo}
+        onPointerUp={release}
+        onPointerCancel={release}
+        onBlur={release}
       />
       <span class="sigma-ends" aria-hidden="true">
         <span>{number(middle / 10 ** DECADES)}</span>
@@ -97,7 +98,7 @@ function valueText(sigma: number): string {
   return `${text}, ${number(sigma / theirs)} times the recommended value`;
 }
 
-/** What the σ of the slider would mean; dashes where nobody has worked it out. */
+/** Distance and dimensions predicted for the σ of the slider; dashes until they are computed. */
 function Expected() {
   const report = result.value?.report;
   if (!report) return null;
@@ -139,7 +140,7 @@ function Expected() {
   );
 }
 
-/** The prediction that belongs to this σ; while the slider moves, the latest one there is. */
+/** The prediction for this σ; while the slider moves, the latest one. */
 function foreseen(sigma: number | null): Prediction | null {
   const latest = preview.value;
   if (latest === null || sigma === null) return null;

@@ -9,8 +9,8 @@ const MOST_LOOKED_INTO = 20;
 
 export async function openFiles(files: DroppedFile[], side: Side): Promise<void> {
   if (page.peek() !== "compare") {
-    // What is opened is seen where it is compared. That begins with the models of its link, which those
-    // of the files then take the place of.
+    // Opened models are shown on the page Compare. It first opens the models of the link, which the dropped files
+    // then replace.
     page.value = "compare";
     await Promise.resolve();
   }

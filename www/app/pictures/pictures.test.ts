@@ -45,7 +45,10 @@ test("the methods paragraph holds σ, how it was chosen, the seed, the engine an
   assert.match(chosen, /“stars-1-a”/);
   assert.match(chosen, /WACV 2024, arXiv:2211\.16314\.$/);
   const recommended = plain(methods(reportWith({ sigma: null })));
-  assert.match(recommended, /recommended by the program from the distances that are possible/);
+  assert.match(
+    recommended,
+    /recommended by the program from the expected distance to the other model/,
+  );
   assert.doesNotMatch(recommended, /chosen as/);
 });
 

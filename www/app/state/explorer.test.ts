@@ -76,10 +76,10 @@ test("the meter goes from A only to B only, and its words with it", () => {
   assert.equal(meterWords(0.01, 0.02), "Neither can make it");
   const follows = (distance: number, plausibility = 0.5) =>
     followWords("B", { distance, plausibility }, 1);
-  assert.equal(follows(0.5), "Yes: B makes the same shape within σ.");
-  assert.match(follows(0.5, 1e-5), /^Yes: .*, though one that is rare in B\.$/);
-  assert.match(follows(1.5), /^Nearly: B stays 1\.5 σ away/);
-  assert.match(follows(3, 1e-5), /^No: B stays 3\.0 σ away\.$/);
+  assert.equal(follows(0.5), "Yes: the nearest shape of B is within σ.");
+  assert.match(follows(0.5, 1e-5), /^Yes: .*, but implausible in B\.$/);
+  assert.match(follows(1.5), /^Nearly: the nearest shape of B is 1\.5 σ away/);
+  assert.match(follows(3, 1e-5), /^No: the nearest shape of B is 3\.0 σ away\.$/);
 });
 
 test("what the other model misses of a direction is said, but not of what is ordered by it", () => {
@@ -100,11 +100,11 @@ test("what the other model misses of a direction is said, but not of what is ord
   assert.equal(missedText(axes({}), 1, "mm"), null);
 });
 
-test("how unusual a shape is goes from ordinary to rare", () => {
-  assert.match(unusual(0.995, "B"), /more ordinary than nearly all/);
-  assert.match(unusual(0.62, "B"), /more ordinary than 6 in 10/);
-  assert.match(unusual(1 / 40, "B"), /as unusual as 1 in 40 of B’s own shapes/);
-  assert.match(unusual(1e-9, "B"), /rarer than 1 in a million/);
+test("how plausible a shape is goes from nearly all to one in a million", () => {
+  assert.match(unusual(0.995, "B"), /more plausible than nearly all/);
+  assert.match(unusual(0.62, "B"), /more plausible than 6 in 10/);
+  assert.match(unusual(1 / 40, "B"), /among the least plausible 1 in 40 of B’s own shapes/);
+  assert.match(unusual(1e-9, "B"), /among the least plausible 1 in a million/);
 });
 
 test("a swing begins where the slider stood and reaches both ends", () => {

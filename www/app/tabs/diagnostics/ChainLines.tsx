@@ -14,18 +14,18 @@ interface Props {
   about: ComponentChildren;
   label: string;
   diagnostics: ChainFigures;
-  /** Chain after chain, as many as the diagnostics say. */
+  /** Values of all chains, one chain after the other. */
   values: ArrayLike<number>;
   advice: Advice;
   upName: string;
   /** Of the file and above the table. */
   file: string;
   caption: string;
-  /** A level that is marked, where it lies among the values. */
+  /** A level that is marked by a line, if it is within the range of the values. */
   level?: { value: number; label: string };
 }
 
-/** Every chain as a thin line over its draws; the one that is spoken of is drawn strongly. */
+/** Line plot of every chain over its draws; the chain that the advice names is drawn stronger. */
 export function ChainLines(props: Props) {
   const { name, title, about, label, diagnostics, values, advice, file, caption } = props;
   const chains = chainsOf(values, diagnostics.chains);
@@ -122,7 +122,7 @@ function extent(values: number[]): [number, number] {
   return [low - margin, high + margin];
 }
 
-/** Past so many the colours come again, and the names only take room. */
+/** Number of chains above which there is no legend: the colours repeat. */
 const MOST_NAMES = 16;
 
 export function ChainLegend({ shown, named }: { shown: number[]; named: number | null }) {

@@ -10,7 +10,7 @@ interface Props {
   chosen: Coefficient;
 }
 
-/** Which side and which coefficient the diagnostic plots are of. */
+/** Chooses the model and the coefficient that the diagnostic plots show. */
 export function CoefficientChooser({ report, chosen }: Props) {
   const both = report.intersection.coefficients;
   const modes = both?.[chosen.side].essBulk.length ?? report.models[chosen.side].modes;
@@ -20,7 +20,7 @@ export function CoefficientChooser({ report, chosen }: Props) {
   return (
     <div class="toolbar coefficient-chooser">
       <fieldset class="segments">
-        <legend class="unseen">Whose draws</legend>
+        <legend class="unseen">Draws of which model</legend>
         {SIDES.map((side) => (
           <label key={side} data-on={chosen.side === side}>
             <input
@@ -29,7 +29,7 @@ export function CoefficientChooser({ report, chosen }: Props) {
               value={side}
               checked={chosen.side === side}
               onChange={() =>
-                // Modes of one model are not those of the other.
+                // The modes of the two models do not correspond: the choice of the coefficient is reset.
                 batch(() => {
                   diagnosedSide.value = side;
                   diagnosedMode.value = null;

@@ -14,7 +14,7 @@ interface Props {
   file: string;
 }
 
-/** Autocorrelation of the draws, by lag. */
+/** Autocorrelation plot of one coefficient, by lag. */
 export function Correlation({ diagnostics, advice, which, file }: Props) {
   const found = Array.from(diagnostics.autocorrelation);
   const draws = drawsOf(diagnostics);
@@ -24,11 +24,11 @@ export function Correlation({ diagnostics, advice, which, file }: Props) {
     <Chart
       name="autocorrelation"
       title="Autocorrelation"
-      about={`How alike draws of ${which} are that lie so many steps apart in a chain, mean over the chains. Within the band, ±2/√N = ±${number(band, 2)}, it is noise.`}
+      about={`Correlation of draws of ${which} at each lag within a chain, averaged over the chains. Within the band, ±2/√N = ±${number(band, 2)}, it is not significant.`}
       label={`Autocorrelation of ${which}: ${number(found[1] ?? 0, 2)} at lag 1, ${
         silent === null
-          ? `still above noise at lag ${found.length - 1}`
-          : `noise from lag ${silent} on`
+          ? `still significant at lag ${found.length - 1}`
+          : `not significant from lag ${silent} on`
       }; the band is ±${number(band, 2)}.`}
       height={() => 206}
       draw={(width) => <Stems found={found} band={band} width={width} />}

@@ -32,7 +32,7 @@ import { RankPlots } from "./RankPlots";
 const PAIRED_MODES = 5;
 const PAIRED_DRAWS = 600;
 
-/** Whether the draws behind the numbers can be believed, as plots with a word on each. */
+/** Plots that show whether the draws have converged, each with a sentence of advice. */
 export function Diagnostics() {
   const found = result.value;
   return (
@@ -55,7 +55,7 @@ function Verdict({ report }: { report: Report }) {
   const worst = worstModes(report);
   return (
     <div class="verdict" data-converged={converged}>
-      <h2>{converged ? "These draws can be believed" : "Do not quote these numbers yet"}</h2>
+      <h2>{converged ? "These draws have converged" : "Do not quote these numbers yet"}</h2>
       <p>
         <Phrase parts={phrase} />
       </p>
@@ -101,7 +101,7 @@ function Plots({ found }: { found: Result }) {
   );
 }
 
-/** What is chosen, as far as these models have it. */
+/** The chosen coefficient if these models have it, else the one with the worst diagnostics. */
 function chosenCoefficient(report: Report): Coefficient {
   const worst = worstCoefficient(report, diagnosedSide.value);
   const side = diagnosedSide.value ?? worst.side;
@@ -165,7 +165,7 @@ function OfChains({ shown }: { shown: ChainAnswer }) {
       <ChainLines
         name="distance"
         title={`Distance to the other model`}
-        about={`d of the same draws: how far each shape of ${name} lies from the nearest shape of ${side === "a" ? "B" : "A"}, mean over the points, in ${unit}.${each}`}
+        about={`Distance d of the same draws from the nearest shape of ${side === "a" ? "B" : "A"}, mean over the points, in ${unit}.${each}`}
         label={`Distance over draws of ${name}: ${level.mean} ± ${level.spread} ${unit}.`}
         diagnostics={diagnostics}
         values={diagnostics.distances}

@@ -21,7 +21,7 @@ interface Props {
   file: string;
 }
 
-/** Scatter plots of the first coefficients in pairs, with the Gaussians that stand for them. */
+/** Scatter plots of all pairs of the first coefficients, with the ellipses of their moments and of the Gaussian fit. */
 export function PairPlots({ diagnostics, advice, model, file }: Props) {
   const { modes, count: drawn, fit } = diagnostics;
   const pairs = pairsOf(modes.length);
@@ -32,7 +32,7 @@ export function PairPlots({ diagnostics, advice, model, file }: Props) {
     <Chart
       name="pairs"
       title="Pairs of modes"
-      about={`${count(drawn)} of the draws in the first ${modes.length} modes of ${model}, in standard deviations of ${model}. Ellipses hold 1 and 2 standard deviations of what the model of A∩B is made of${fit ? " and of the Gaussian fit" : "; the Gaussian fit of a stored comparison is not kept"}.`}
+      about={`${count(drawn)} of the draws in the first ${modes.length} modes of ${model}, in standard deviations of ${model}. Ellipses of 1 and 2 standard deviations: the mean and covariance used for A∩B${fit ? ", and the Gaussian fit" : "; the Gaussian fit of a stored comparison is not kept"}.`}
       label={`Pair plots of the first ${modes.length} modes of ${model}: ${count(drawn)} draws, ${percent(share)} of them within 2 standard deviations, where a Gaussian has ${percent(gaussianShare(2))}.`}
       height={(width) => cellOf(modes.length, width).height}
       draw={(width) => <Triangle diagnostics={diagnostics} width={width} />}
@@ -136,7 +136,7 @@ interface EllipsesProps {
   kind: "fit" | "moments";
 }
 
-/** As polygons: the two axes have scales of their own, which would turn an ellipse's angle. */
+/** Ellipses drawn as polygons: the two axes have different scales, which would change the angle of an SVG ellipse. */
 function Ellipses({ gaussian, i, j, x, y, kind }: EllipsesProps) {
   const { x: cx, y: cy, long, short, angle } = ellipseOf(gaussian, i, j);
   const [cos, sin] = [Math.cos(angle), Math.sin(angle)];

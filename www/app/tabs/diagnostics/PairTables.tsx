@@ -11,7 +11,7 @@ interface TablesProps {
   file: string;
 }
 
-/** Means, standard deviations and correlations of the Gaussians beside the scatter plots. */
+/** Tables of the means, standard deviations and correlations that the pair plots show. */
 export function PairTables({ diagnostics, pairs, shares, model, file }: TablesProps) {
   const { modes, fit } = diagnostics;
   const plain = (value: number) => number(value, 3);

@@ -25,7 +25,7 @@ export function RankPlots({ diagnostics, advice, which, file }: Props) {
     <Chart
       name="ranks"
       title="Rank plots"
-      about={`All draws of ${which} put in order: how many of each chain are among the lowest, …, the highest. Chance alone keeps most bars within the band, ${limits}.`}
+      about={`All draws of ${which} are ranked; each bar counts the draws of one chain in an interval of ranks. If the chains agree, most bars lie within the band, ${limits}.`}
       label={`Rank plots of ${which}: ${chains} chains with ${bins} bars each, from ${count(Math.min(...diagnostics.ranks))} to ${count(Math.max(...diagnostics.ranks))} draws high; ${count(band.expected)} are expected, chance allows ${limits}.`}
       height={(width) => gridOf(shown.length, width).height}
       draw={(width) => {
@@ -68,7 +68,7 @@ const NAME = 16;
 
 function gridOf(plots: number, width: number) {
   const columns = Math.max(1, Math.min(plots, Math.floor((width + GAP) / (110 + GAP)), 8));
-  // As many in each row as fit, but no row with one plot alone where all could be alike.
+  // As many plots in each row as fit, but no row with a single plot if that can be avoided.
   const even = Math.ceil(plots / Math.ceil(plots / columns));
   const wide = (width - GAP * (even - 1)) / even;
   const tall = plots <= 8 ? 96 : 70;

@@ -1,4 +1,4 @@
-/** How the explored shapes are drawn. */
+/** Toolbar of the explorer: layout of the panes, surface style, dragging of vertices, view. */
 
 import { HOME } from "../../state/camera";
 import { type ExploreLayout, LAYOUTS, STYLES, type SurfaceStyle } from "../../state/explorer";
@@ -50,7 +50,7 @@ export function ExploreBar() {
         type="button"
         class="toggle"
         aria-pressed={dragTool.value}
-        title="Drag a vertex of the driven shape; the rest follows"
+        title="Drag a vertex of the shape; the model completes the rest with the smallest change in standard deviations"
         onClick={() => {
           dragTool.value = !dragTool.value;
         }}

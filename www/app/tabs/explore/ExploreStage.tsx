@@ -1,4 +1,4 @@
-/** The explorer's own stage: A, what lies over one another, and B, under one camera. */
+/** Canvas of the explorer with three panes under one camera: A, both models overlaid, and B. */
 import { useEffect, useRef } from "preact/hooks";
 import type { Region } from "../../../worker/protocol";
 import { dimension } from "../../stage/stage-controller";
@@ -97,19 +97,19 @@ function canvasLabel(): string {
     : `A shape of ${SIGNS[space]}, and the nearest of ${SIGNS[otherOf(space)]}`;
 }
 
-/** The middle is A∩B only while that is driven. */
+/** Label of a pane; the middle one is A∩B only while a shape of A∩B is set. */
 function sign(pane: ExplorePane): string {
   const { space, kind } = explorer.value;
   if (pane !== "intersection" || space === "intersection") return SIGNS[pane];
   return kind === "angles" ? "A–B" : "A, B";
 }
 
-/** What a pane shows, as the driven model has it. */
+/** What a pane shows: the shape that is set, the nearest shape of the other model, or both. */
 function meaning(pane: ExplorePane): string {
   const { space, kind } = explorer.value;
-  if (pane === space) return kind === "angles" ? "a direction of its own" : "the shape";
+  if (pane === space) return kind === "angles" ? "the direction" : "the shape";
   if (kind === "angles" && space !== "intersection") {
-    return pane === "intersection" ? "between the two" : "the direction beside it";
+    return pane === "intersection" ? "between the two" : "its partner direction";
   }
   if (pane !== "intersection") return "its nearest shape";
   return space === "intersection" ? "" : "overlaid";

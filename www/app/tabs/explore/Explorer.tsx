@@ -1,4 +1,4 @@
-/** Panel of the explorer: which axes of which model are moved, and how near the other model comes. */
+/** Panel of the explorer: sets a shape along directions of one model and shows how close the other model comes. */
 import type { AxesKind } from "../../../worker/protocol";
 import { KINDS, MOST_MAGNIFY, SPACES } from "../../state/explorer";
 import {
@@ -26,7 +26,7 @@ export function Explorer() {
   return (
     <section class="explorer" aria-label="Explorer" data-stale={outOfDate.value}>
       <fieldset class="segments">
-        <legend class="unseen">Which model is driven</legend>
+        <legend class="unseen">Model whose shape is set</legend>
         {SPACES.map((name) => (
           <label key={name} data-on={space === name} data-space={name}>
             <input
@@ -76,7 +76,7 @@ export function Explorer() {
   );
 }
 
-/** What is chosen by hand ends what swings. */
+/** Wraps a choice so that it stops the animation. */
 function calmly(action: () => void): () => void {
   return () => {
     stopPlaying();
@@ -84,7 +84,7 @@ function calmly(action: () => void): () => void {
   };
 }
 
-/** So that small deviations are seen. */
+/** Sets how many times deviations from the mean are drawn. */
 function Magnify() {
   const { magnify } = explorer.value;
   return (
@@ -106,7 +106,7 @@ function Magnify() {
   );
 }
 
-/** Between the two shapes of an angle. */
+/** Slider from A's shape to B's shape of a principal angle. */
 function Morph() {
   const { morph } = explorer.value;
   return (

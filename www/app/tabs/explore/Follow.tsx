@@ -1,4 +1,4 @@
-/** Whether the other model can make the explored shape: in words, in numbers, and on a meter. */
+/** Shows whether the other model can make the explored shape: in words, in numbers, and on a meter. */
 import type { BothSides, Nearest } from "../../../worker/protocol";
 import { answer, sigmaInUse } from "../../state/exploring";
 import { outOfDate, unit } from "../../state/state";
@@ -15,7 +15,7 @@ import {
   whoCanMake,
 } from "./words";
 
-/** Of one height whatever it says: the shapes above it keep their place while sliders move. */
+/** The result for the explored shape. Its height is constant, so that the shapes do not move while sliders do. */
 export function Follow() {
   const found = answer.value;
   const nearest = found?.explored.placed;
@@ -23,7 +23,7 @@ export function Follow() {
   const { space } = found;
   const { norm, plausibility } = found.explored;
   return (
-    <section class="follow" aria-label="Can the other model follow?" data-stale={outOfDate.value}>
+    <section class="follow" aria-label="Can the other model make it?" data-stale={outOfDate.value}>
       <div class="follow-words" data-followers={followers(space).length}>
         <h3>{followQuestion(space)}</h3>
         {followers(space).map((side) => (
@@ -61,7 +61,7 @@ interface NearestProps {
   nearest: BothSides<Nearest>;
 }
 
-/** The shape by which each model follows. */
+/** Distance, likelihood and plausibility of the nearest shape of each other model. */
 function NearestTable({ sides, nearest }: NearestProps) {
   const sigma = sigmaInUse.value;
   return (
@@ -73,7 +73,7 @@ function NearestTable({ sides, nearest }: NearestProps) {
           <th scope="col">
             likelihood L<sub>D</sub>
           </th>
-          <th scope="col">among its model’s own</th>
+          <th scope="col">among its model’s shapes</th>
         </tr>
       </thead>
       <tbody>
@@ -102,7 +102,7 @@ function NearestTable({ sides, nearest }: NearestProps) {
   );
 }
 
-/** From A only on the left to B only on the right. */
+/** Meter from “A only” on the left to “B only” on the right, by the likelihoods L_D of both models. */
 function Meter({ ofA, ofB }: { ofA: number; ofB: number }) {
   const value = meterValue(ofA, ofB);
   const words = meterWords(ofA, ofB);

@@ -1,4 +1,4 @@
-/** What the colours of the explored shapes mean: one scale for all panes. */
+/** Colour scale of the explored shapes: residual per vertex, one scale for all panes. */
 
 import { choose, explorer, lockedHeat } from "../../state/exploring";
 import { unit } from "../../state/state";
@@ -31,7 +31,7 @@ export function HeatBar() {
 function Scale({ range, who }: { range: [number, number]; who: string }) {
   const locked = lockedHeat.value !== null;
   const beyond = locked && (ownHeat.value ?? 0) > range[1];
-  const note = locked ? (beyond ? " (locked; some lie beyond)" : " (locked)") : "";
+  const note = locked ? (beyond ? " (locked; some values lie beyond)" : " (locked)") : "";
   return (
     <>
       <figure class="color-bar" aria-label={`Colours: what ${who} misses per vertex${note}`}>
@@ -49,7 +49,7 @@ function Scale({ range, who }: { range: [number, number]; who: string }) {
             lockedHeat.value = event.currentTarget.checked ? ownHeat.value : null;
           }}
         />
-        Lock scale{beyond && <span class="small">; some lie beyond</span>}
+        Lock scale{beyond && <span class="small">; some values lie beyond</span>}
       </label>
     </>
   );

@@ -1,4 +1,4 @@
-/** One slider for every axis of the model that is explored. */
+/** Sliders for the directions of the explored model, in standard deviations. */
 import { useComputed, useSignal } from "@preact/signals";
 import type { Axes } from "../../../worker/protocol";
 import { MOST_SD, REACH_SD } from "../../state/explorer";
@@ -33,7 +33,7 @@ export function Sliders() {
   return (
     <div class="axes">
       <p class="small">{orderSentence(axes, unit.value)}</p>
-      {total === 0 && <p class="small">There is no such direction.</p>}
+      {total === 0 && <p class="small">There are no such directions.</p>}
       <ol>
         {axes.values.slice(0, shown).map((_, axis) => (
           <Axis key={`${axes.space} ${axes.kind} ${axis}`} axes={axes} axis={axis} />
@@ -55,7 +55,7 @@ export function Sliders() {
 }
 
 function Axis({ axes, axis }: { axes: Axes; axis: number }) {
-  // Of hundreds of sliders, only the one that moves is drawn anew.
+  // Only the slider that moves is rendered again: there may be hundreds.
   const value = useComputed(() => coefficients.value[axis] ?? 0).value;
   const name = `Direction ${axis + 1}`;
   const orders = axes.values[axis] ?? 0;
@@ -129,7 +129,7 @@ function PlayButton({ axis }: { axis: number }) {
   );
 }
 
-/** As people type it; null for what is no number. */
+/** Reads a typed number, with either minus sign; null if it is none. */
 function numberIn(text: string): number | null {
   const typed = Number(text.trim().replace("−", "-").replace(",", "."));
   if (text.trim() === "" || !Number.isFinite(typed)) return null;

@@ -1,4 +1,4 @@
-/** Moving a vertex without a pointer. */
+/** Moves a vertex of the explored shape by buttons, for use without a pointer. */
 
 import { answer, settleSoon } from "../../state/exploring";
 import { compared, slots, unit, vertex } from "../../state/state";
@@ -23,8 +23,8 @@ export function VertexFields() {
     <details class="more vertex-fields">
       <summary>Move a {word} by keys</summary>
       <p class="small">
-        The shape changes as little as it can, in standard deviations, for the {word} to come where
-        it is put. By pointer: “Drag vertices” above the shapes.
+        Shows the shape with the smallest change in standard deviations that has the {word} at this
+        position. With a pointer: “Drag vertices” above the shapes.
       </p>
       <NumberField
         label={compared.value ? "Compared point" : "Vertex"}

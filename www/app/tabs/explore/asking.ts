@@ -1,4 +1,4 @@
-/** Asks the engine for what is explored: one question at a time, the latest of those that wait. */
+/** Requests the explored shape and its nearest shapes from the engine, one request at a time, always the latest. */
 import { batch, effect } from "@preact/signals";
 import { sentenceOf, wasAborted } from "../../../worker/engine-errors";
 import type { AxesKind, Explored, Space } from "../../../worker/protocol";
@@ -26,7 +26,7 @@ interface Wanted {
   state: ExplorerState;
 }
 
-/** Answers whatever is chosen while the page looks at the explorer. */
+/** Sends a request whenever the choice changes while the explorer is shown. */
 export function watchExplorer(): void {
   effect(() => {
     if (run.value?.progress === null) runningKey.value = currentKey.peek();
@@ -35,7 +35,7 @@ export function watchExplorer(): void {
     if (tab.value !== "explore") return;
     const key = askable.value;
     const state = explorer.value;
-    // What could not be answered is asked again when the run has got further.
+    // A failed request is sent again when the run has advanced.
     runStage.value;
     if (key === null) return;
     if (!hasBasis(key, state)) askBasis({ key, state });
@@ -59,7 +59,7 @@ function isAnswered(key: string, { space, kind, seed, own }: ExplorerState): boo
   );
 }
 
-/** Whether an answer is still about the model and the directions that are chosen. */
+/** Whether an answer belongs to the chosen model and directions. */
 function isWanted(key: string, { space, kind }: ExplorerState): boolean {
   const now = explorer.peek();
   return askable.peek() === key && now.space === space && now.kind === kind;
@@ -101,7 +101,7 @@ const ask = latest(async ({ key, state }: Wanted) => {
   }
 });
 
-/** The shape of the other model behind an angle: as far along its own side of it. */
+/** The partner shape of a principal angle in the other model, with the same coefficient. */
 async function partnerOf(space: Space, kind: AxesKind, along: number[]): Promise<Explored | null> {
   if (kind !== "angles" || space === "intersection") return null;
   return engineClient().explore(never, space === "a" ? "b" : "a", kind, along, false);
@@ -111,7 +111,7 @@ function fail(thrown: unknown): void {
   if (!wasAborted(thrown)) trouble.value = sentenceOf(thrown);
 }
 
-/** Takes hold of a vertex of the shape that is driven. */
+/** Begins to drag a vertex of the shape. */
 export function takeVertex(vertex: number): Grab | null {
   const found = answer.peek();
   const { space, own } = explorer.peek();
@@ -133,7 +133,7 @@ export function positionOf(shape: Float32Array, vertex: number): number[] | null
   return found.length === dimension ? found : null;
 }
 
-/** Moves the vertex that is held; the shape follows with the least change there is. */
+/** Moves the dragged vertex: asks for the shape of least change that has it at the new position. */
 export function moveVertex(to: number[]): void {
   const held = grab.peek();
   if (!held) return;
@@ -150,7 +150,7 @@ const askDrag = latest(async ({ vertex, to }: { vertex: number; to: number[] }) 
     const explored = await engineClient().drag(never, space, base, vertex, to, true);
     const still = grab.peek();
     const now = explorer.peek();
-    // Whoever moved a slider meanwhile goes on from there.
+    // If a slider was moved meanwhile, the drag continues from that shape.
     if (still?.vertex !== vertex || now.own !== still.own || now.space !== space) return;
     const own = ownOf(explored.coefficients);
     batch(() => {

@@ -1,4 +1,4 @@
-/** What the three panes of the explorer show. Pure. */
+/** Computes the contents of the three panes of the explorer: shapes, colours and residuals. Pure. */
 import type { Explored, Nearest, Space } from "../../../worker/protocol";
 import type { ExplorerState } from "../../state/explorer";
 import { contentOf, drawnWith, isCloud, type Scene, tintOf } from "../../viewer/contents";
@@ -6,7 +6,7 @@ import { blended, magnified } from "../../viewer/morph";
 import type { Moved, PaneContent } from "../../viewer/viewer";
 import { otherOf } from "./words";
 
-/** The panes: A, where both lie over one another, and B. */
+/** The panes: A, both overlaid, and B. */
 export const EXPLORE_PANES = ["a", "intersection", "b"] as const;
 export type ExplorePane = (typeof EXPLORE_PANES)[number];
 
@@ -18,11 +18,11 @@ export interface ExploreScene {
   angles: boolean;
   explored: Explored;
   partner: Explored | null;
-  /** From which deviations are magnified. */
+  /** The shape from which deviations are magnified. */
   mean: Float32Array;
 }
 
-/** Which panes are on show. */
+/** Which panes are shown. */
 export function panesOf({ layout }: ExplorerState): readonly ExplorePane[] {
   if (layout === "side") return EXPLORE_PANES;
   return [layout === "overlaid" ? "intersection" : layout];
@@ -41,7 +41,7 @@ export function exploreContents(explore: ExploreScene): PaneContent[] {
 
 interface Layer {
   pane: ExplorePane;
-  /** Whose colour it has. */
+  /** The model whose colour it has. */
   of: Space;
   shape: Float32Array;
   values: Float32Array | null;
@@ -57,7 +57,7 @@ function ofOne({ state, explored }: ExploreScene, space: "a" | "b"): Layer[] {
   const x = { of: space, shape, outline: false };
   const layers: Layer[] = [
     { ...x, pane: space, values: missed },
-    // Where the driven pane is away, what is missed is coloured here.
+    // If the pane of the shape is hidden, its residual is coloured here.
     { ...x, pane: "intersection", values: state.layout === "overlaid" ? missed : null },
   ];
   if (!nearest) return layers;
@@ -69,7 +69,7 @@ function ofOne({ state, explored }: ExploreScene, space: "a" | "b"): Layer[] {
   ];
 }
 
-/** A shape of A∩B between the nearest of either model. */
+/** A shape of A∩B and the nearest shapes of A and of B. */
 function ofBoth({ state, explored }: ExploreScene): Layer[] {
   const { shape, placed: nearest } = explored;
   const overlaid = state.layout === "overlaid";
@@ -96,7 +96,7 @@ function ofBoth({ state, explored }: ExploreScene): Layer[] {
   ];
 }
 
-/** The two shapes of an angle, and what lies between them. */
+/** The two shapes of a principal angle, and the interpolation between them. */
 function ofAngle({ state, space, explored, partner }: ExploreScene): Layer[] {
   const other = otherOf(space);
   const missed = heat(state, explored.placed?.[other].residuals);
@@ -148,21 +148,21 @@ function contentOfLayer(explore: ExploreScene, layer: Layer): PaneContent | null
   };
 }
 
-/** One point says little without the others that its model makes. */
+/** Random shapes of a model of few points, which are drawn around the single shape. */
 function backdrop(scene: Scene, pane: ExplorePane): PaneContent | null {
   const { a, b } = scene.geometry;
   if (!a || !b || !isCloud(a) || !isCloud(b)) return null;
   return contentOf({ ...scene, mode: "mean" }, pane);
 }
 
-/** Of a hundred values one may lie beyond the colours: a frayed rim would leave all others dark. */
+/** Quantile of the residuals at which the colours end: outliers at a rim would leave all others dark. */
 const WITHIN = 0.99;
 const MOST_ORDERED = 4000;
 
-/** What the numbers on the colour bar go up to: a round number, so that colours do not flicker. */
+/** Upper end of the colour bar: a round number, so that colours do not flicker. */
 export function heatEnd(maps: readonly Float32Array[]): number {
   const ends = maps.map((map) => {
-    // Some thousand vertices tell it as well as all of them, in time for the next frame.
+    // A sample of the vertices gives the quantile well enough, in time for the next frame.
     const step = Math.ceil(map.length / MOST_ORDERED);
     const ordered = map.filter((_, vertex) => vertex % step === 0).sort();
     return ordered[Math.ceil(WITHIN * (ordered.length - 1))] ?? 0;
@@ -170,7 +170,7 @@ export function heatEnd(maps: readonly Float32Array[]): number {
   return roundUp(Math.max(0, ...ends));
 }
 
-/** The next of …, 0.1, 0.2, 0.5, 1, 2, 5, … */
+/** Rounds up to the next of …, 0.1, 0.2, 0.5, 1, 2, 5, … */
 export function roundUp(value: number): number {
   if (!(value > 0)) return 1;
   const power = 10 ** Math.floor(Math.log10(value));
@@ -178,7 +178,7 @@ export function roundUp(value: number): number {
   return Number((step * power).toPrecision(1));
 }
 
-/** What is missed, of the answer: all that may be coloured. */
+/** The residuals of the answer that may be coloured. */
 export function missedBy(space: Space, nearest: Record<"a" | "b", Nearest>): Float32Array[] {
   const { a, b } = nearest;
   return space === "intersection"
@@ -186,7 +186,7 @@ export function missedBy(space: Space, nearest: Record<"a" | "b", Nearest>): Flo
     : [nearest[otherOf(space)].residuals];
 }
 
-/** Whether the same things are drawn in the same way, only elsewhere; then how they moved. */
+/** The moves that turn one content into the next, if only points and colours changed; else null. */
 export function movedFrom(
   former: readonly PaneContent[],
   next: readonly PaneContent[],

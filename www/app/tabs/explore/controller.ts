@@ -1,4 +1,4 @@
-/** Keeps the explorer's own viewer in step with what is explored. */
+/** Updates the viewer of the explorer when the explored shape, the camera or the colours change. */
 import { batch, computed, effect, signal } from "@preact/signals";
 import type { Region } from "../../../worker/protocol";
 import { createViewer, layoutOf, scene } from "../../stage/stage-controller";
@@ -18,14 +18,14 @@ import {
 } from "./contents";
 import { stopPlaying } from "./playing";
 
-/** What is under the pointer, with its place on the canvas. */
+/** The vertex under the pointer and its position on the canvas. */
 export const exploreHover = signal<(Hit & { x: number; y: number; value: number | null }) | null>(
   null,
 );
 
-/** Where the vertex that is looked at is drawn, in each pane. */
+/** Position of the chosen vertex on the canvas, in each pane. */
 export const vertexPositions = signal<{ region: Region; x: number; y: number }[]>([]);
-/** The vertex that the pointer holds. */
+/** The vertex that is dragged. */
 const dragged = signal<number | null>(null);
 
 const looks = computed(() => {
@@ -40,7 +40,7 @@ const exploreScene = computed<ExploreScene | null>(() => {
   if (!found || from?.axes.space !== found.space) return null;
   return {
     scene: scene.value,
-    // Sliders move ahead of the answers; how things are drawn does not wait for them.
+    // Sliders are ahead of the answers; settings of the drawing apply at once.
     state: explorer.peek(),
     space: found.space,
     angles: found.kind === "angles",
@@ -54,7 +54,7 @@ const contents = computed(() =>
   exploreScene.value === null ? [] : exploreContents(exploreScene.value),
 );
 
-/** What the colours would go up to if they were not locked. */
+/** Upper end of the colours if it is not locked. */
 export const ownHeat = computed(() => {
   const found = answer.value;
   return found?.explored.placed ? heatEnd(missedBy(found.space, found.explored.placed)) : null;
@@ -66,7 +66,7 @@ export const heatRange = computed<[number, number] | null>(() => {
   return explorer.peek().heat && end !== null ? [0, end] : null;
 });
 
-/** Room for shapes three standard deviations from the mean. */
+/** Factor by which the frame is larger than the means, for shapes three standard deviations away. */
 const MARGIN = 1.14;
 
 const frame = computed<Frame>(() => {
@@ -78,7 +78,7 @@ const frame = computed<Frame>(() => {
   };
 });
 
-/** Takes over a canvas and its panes; returns how to let go of it. */
+/** Draws on a canvas with its panes; returns a function that ends it. */
 export function takeExploreCanvas(
   canvas: HTMLCanvasElement,
   panes: Map<Region, HTMLElement>,
@@ -110,7 +110,7 @@ export function takeExploreCanvas(
         laid.value;
         camera.value;
         const [shown, chosen] = [contents.value, dragged.value ?? vertex.value];
-        // Once the viewer has all of them.
+        // After the viewer has all panes.
         requestAnimationFrame(() => {
           vertexPositions.value = gone ? [] : positionsIn(made, shown, chosen);
         });
@@ -127,7 +127,7 @@ export function takeExploreCanvas(
   };
 }
 
-/** Shapes that only moved are moved; anything else is drawn anew. */
+/** Moves shapes whose points changed; draws everything else again. */
 function drawing(made: Viewer, flat: boolean): () => void {
   let former: PaneContent[] = [];
   let lastFrame: Frame | null = null;
@@ -159,7 +159,7 @@ function positionsIn(made: Viewer, shown: PaneContent[], chosen: number | null) 
 
 function gestures(canvas: HTMLCanvasElement, panes: Map<Region, HTMLElement>, made: Viewer) {
   const wide = matchMedia("(min-width: 1100px)");
-  /** From the pointer to where the vertex is drawn, as it was taken hold of. */
+  /** Offset from the pointer to the drawn vertex when the drag began. */
   let away = { x: 0, y: 0 };
   return {
     paints: (at?: { x: number; y: number }) => {
@@ -175,7 +175,7 @@ function gestures(canvas: HTMLCanvasElement, panes: Map<Region, HTMLElement>, ma
     },
     beginStroke: stopPlaying,
     endStroke: () => {
-      // One step: the vertex and where it was put.
+      // One step of undo: the vertex and its new position.
       batch(() => {
         vertex.value = dragged.value;
         dragged.value = null;
@@ -217,7 +217,7 @@ function gestures(canvas: HTMLCanvasElement, panes: Map<Region, HTMLElement>, ma
   };
 }
 
-/** Where a point of a vertex is drawn: deviations from the mean are magnified. */
+/** Position at which a vertex is drawn: its deviation from the mean is magnified. */
 function asDrawn(vertex: number, point: readonly number[]): number[] {
   const { magnify } = explorer.peek();
   return point.map((value, axis) => {
@@ -238,7 +238,7 @@ function meanAt(vertex: number, axis: number, dimension: number): number {
   return basis.peek()?.mean[vertex * dimension + axis] ?? 0;
 }
 
-/** What is missed at a vertex, in the pane that tells it. */
+/** Residual of a vertex in the pane that shows it. */
 function missedAt(hit: Hit): number | null {
   const found = answer.peek();
   const nearest = found?.explored.placed;

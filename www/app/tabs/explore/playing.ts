@@ -1,10 +1,10 @@
-/** Moves a slider of the explorer from end to end and back, or all of them in turn. */
+/** Animates a slider of the explorer from end to end and back, or all of them in turn. */
 import { effect, signal } from "@preact/signals";
 import { REACH_SD } from "../../state/explorer";
 import { coefficients, currentAxes, explorer, setCoefficient, settle } from "../../state/exploring";
 import { tab } from "../../state/state";
 
-/** From the middle to one end, to the other, and back. */
+/** Milliseconds from the middle to one end, to the other, and back. */
 const PERIOD_MS = 4000;
 
 export interface Playing {
@@ -19,7 +19,7 @@ let begun = 0;
 /** Where the slider stood before it swung. */
 let before = 0;
 
-/** Where a swing is after some time, in standard deviations; it begins at `from`. */
+/** Coefficient of an animated slider after some time, in standard deviations; it begins at `from`. */
 export function swing(from: number, milliseconds: number): number {
   const start = Math.asin(Math.max(-1, Math.min(1, from / REACH_SD)));
   return REACH_SD * Math.sin(start + (2 * Math.PI * milliseconds) / PERIOD_MS);
@@ -62,7 +62,7 @@ function next(now: number): void {
   frame = requestAnimationFrame(next);
 }
 
-/** Nothing swings out of sight, nor for those who ask for calm after it was started. */
+/** Stops the animation when the explorer is hidden or the system asks for reduced motion. */
 export function watchPlaying(): void {
   const calm = matchMedia("(prefers-reduced-motion: reduce)");
   calm.addEventListener("change", () => {

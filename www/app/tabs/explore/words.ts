@@ -1,4 +1,4 @@
-/** What the explorer says of shapes and directions. Pure. */
+/** Sentences of the explorer: names of directions, how plausible a shape is, which model can make it. Pure. */
 import type { Axes, AxesKind, Space } from "../../../worker/protocol";
 import { degrees, length, number } from "../../text/format";
 
@@ -8,56 +8,56 @@ export function otherOf(space: Space): "a" | "b" {
   return space === "a" ? "b" : "a";
 }
 
-/** Who is asked whether it can make a shape of this model too. */
+/** The models whose nearest shape to a shape of this one is computed. */
 export function followers(space: Space): ("a" | "b")[] {
   return space === "intersection" ? ["a", "b"] : [otherOf(space)];
 }
 
 export function followQuestion(space: Space): string {
-  if (space === "intersection") return "Can A and B follow A∩B?";
-  return `Can ${SIGNS[otherOf(space)]} follow ${SIGNS[space]}?`;
+  if (space === "intersection") return "Can A and B make this shape of A∩B?";
+  return `Can ${SIGNS[otherOf(space)]} make this shape of ${SIGNS[space]}?`;
 }
 
-/** What directions are called, of one side. */
+/** Name of a kind of directions of one model. */
 export function kindLabel(kind: AxesKind, space: Space): string {
   const [own, other] = [SIGNS[space], SIGNS[otherOf(space)]];
   switch (kind) {
     case "modes":
       return `Modes of ${own}`;
     case "exclusive":
-      return `What ${other} cannot follow`;
+      return `Exclusive modes of ${own}`;
     case "relative":
-      return `Where ${own} varies most beside ${other}`;
+      return `Relative modes of ${own} to ${other}`;
     case "angles":
       return "Principal angles";
   }
 }
 
-/** What the order of the directions means, in one sentence. */
+/** Explains in one sentence by what the directions are ordered. */
 export function orderSentence({ kind, space, noise }: Axes, unit: string): string {
   const [own, other] = [SIGNS[space], SIGNS[otherOf(space)]];
   switch (kind) {
     case "modes":
-      return `In order of how far one standard deviation (SD) moves the points of ${own}, as root mean square (RMS) over all of them.`;
+      return `Ordered by how far one standard deviation (SD) moves the points of ${own}, root mean square (RMS) over all points.`;
     case "exclusive":
-      return `In order of what ${other} misses of one SD: how far the points stay away, as RMS, once ${other} has followed as well as it can.`;
+      return `Directions of ${own} ordered by the part of one SD that ${other} cannot make, RMS over all points.`;
     case "relative": {
       const with_ = noise === null ? "" : `, both with noise of ${length(noise, unit)} added`;
-      return `In order of how many times as much ${own} varies along the direction as ${other} does${with_}.`;
+      return `Ordered by the variance of ${own} along the direction over that of ${other}${with_}.`;
     }
     case "angles":
-      return `In order of the angle between a direction of ${own} and its partner in ${other}: at 0° both vary in the same way, at 90° ${other} cannot follow at all.`;
+      return `Ordered by the angle between a direction of ${own} and its partner in ${other}: at 0° both models have the direction, at 90° ${other} has nothing of it.`;
   }
 }
 
-/** What orders one direction, with its unit. */
+/** The value by which a direction is ordered, with its unit. */
 export function valueText(kind: AxesKind, value: number, unit: string): string {
   if (kind === "angles") return degrees(value);
   if (kind === "relative") return `${number(value)}\u202f×`;
   return length(value, unit);
 }
 
-/** The same as words for one slider. */
+/** The same value in words, for the label of a slider. */
 export function valueWords({ kind, space }: Axes, value: number, unit: string): string {
   const text = valueText(kind, value, unit);
   const other = SIGNS[otherOf(space)];
@@ -73,7 +73,7 @@ export function valueWords({ kind, space }: Axes, value: number, unit: string): 
   }
 }
 
-/** Beside what orders the directions: what the other model cannot make of one SD along this one. */
+/** The part of one SD along a direction that the other model cannot make, unless that is the value already shown. */
 export function missedText(
   { kind, space, residual, reach }: Axes,
   axis: number,
@@ -81,32 +81,32 @@ export function missedText(
 ): string | null {
   const missed = residual[axis];
   if (kind === "exclusive" || space === "intersection" || missed === undefined) return null;
-  // What is only rounding error is none.
+  // Rounding error is shown as nothing.
   const text = missed < 1e-9 * (reach[axis] ?? 0) ? "nothing" : `${number(missed, 2)}\u202f${unit}`;
   return `${SIGNS[otherOf(space)]} misses ${text}`;
 }
 
-/** How unusual a shape is among those of its model, of which `share` are less plausible. */
+/** How plausible a shape is among the shapes of its model, of which the share `share` is less plausible. */
 export function unusual(share: number, model: string): string {
   return Number.isFinite(share) ? `${rarity(share)} of ${model}’s own shapes` : "–";
 }
 
 export function rarity(share: number): string {
-  if (share > 0.99) return "more ordinary than nearly all";
-  if (share >= 0.5) return `more ordinary than ${Math.floor(10 * share)} in 10`;
-  if (share < 1e-6) return "rarer than 1 in a million";
+  if (share > 0.99) return "more plausible than nearly all";
+  if (share >= 0.5) return `more plausible than ${Math.floor(10 * share)} in 10`;
+  if (share < 1e-6) return "among the least plausible 1 in a million";
   const odds = Number((1 / share).toPrecision(2));
   const digits = odds < 10 ? 1 : 2;
-  return `as unusual as 1 in ${number(odds, digits)}`;
+  return `among the least plausible 1 in ${number(odds, digits)}`;
 }
 
-/** L_D at a distance of σ, and of twice that. */
+/** Likelihood L_D at a distance of σ, and at 2 σ. */
 const WITHIN = Math.exp(-0.5);
 const NEAR = Math.exp(-2);
 
 export type Maker = "a" | "nearlyBoth" | "both" | "b" | "neither";
 
-/** Where a shape lies between two models, from L_D of either. */
+/** Which of the two models can make a shape, from the likelihoods L_D of both. */
 export function whoCanMake(ofA: number, ofB: number): Maker {
   const [least, most] = [Math.min(ofA, ofB), Math.max(ofA, ofB)];
   if (most < NEAR) return "neither";
@@ -115,7 +115,7 @@ export function whoCanMake(ofA: number, ofB: number): Maker {
   return ofA > ofB ? "a" : "b";
 }
 
-/** From −1, A only, through 0 to 1, B only. */
+/** Value of the meter, from −1 (A only) through 0 to 1 (B only). */
 export function meterValue(ofA: number, ofB: number): number {
   return ofB - ofA;
 }
@@ -135,19 +135,19 @@ export function meterWords(ofA: number, ofB: number): string {
   }
 }
 
-/** From here on a model can make a shape only in theory. */
+/** Share of less plausible shapes below which a shape is called implausible in its model. */
 const RARE = 1e-3;
 
-/** Whether a model can follow: from how far its nearest shape lies, in σ, and how plausible that is. */
+/** Whether a model can make a shape: from the distance of its nearest shape in σ and the plausibility of that. */
 export function followWords(
   model: string,
   { distance, plausibility }: { distance: number; plausibility: number },
   sigma: number | null,
 ): string {
-  if (sigma === null) return `${model} follows as well as it can.`;
+  if (sigma === null) return `The nearest shape of ${model} is shown.`;
   const times = distance / sigma;
-  if (times > 2) return `No: ${model} stays ${number(times, 2)} σ away.`;
-  if (times > 1) return `Nearly: ${model} stays ${number(times, 2)} σ away.`;
-  const rare = plausibility < RARE ? `, though one that is rare in ${model}` : "";
-  return `Yes: ${model} makes the same shape within σ${rare}.`;
+  if (times > 2) return `No: the nearest shape of ${model} is ${number(times, 2)} σ away.`;
+  if (times > 1) return `Nearly: the nearest shape of ${model} is ${number(times, 2)} σ away.`;
+  const rare = plausibility < RARE ? `, but implausible in ${model}` : "";
+  return `Yes: the nearest shape of ${model} is within σ${rare}.`;
 }

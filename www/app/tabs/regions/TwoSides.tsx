@@ -9,7 +9,7 @@ import { SaveTable } from "../../ui/SaveTable";
 import { Numbers } from "./Numbers";
 
 const ALONE: Group = {
-  title: "Each side’s own model",
+  title: "Intersection model of each",
   columns: ["from A", "from B"],
   rows: [
     {
@@ -27,7 +27,7 @@ const ALONE: Group = {
 
 const COMPARED_MODES = [1, 3, 5, 10];
 
-/** What either side alone would give, and the choice of one of them. */
+/** Compares the intersection models sampled from A alone and from B alone, and lets one of them be chosen. */
 export function TwoSides({ report }: { report: Report }) {
   const sentence = twoSides(report);
   const { pooling } = settings.value;
@@ -36,14 +36,13 @@ export function TwoSides({ report }: { report: Report }) {
   return (
     <details class="more two-sides">
       <summary>
-        The two sides
-        {sidesDisagree(report) && <span class="flag">&nbsp;· they disagree</span>}
+        From A and from B{sidesDisagree(report) && <span class="flag">&nbsp;· they disagree</span>}
       </summary>
       <p data-disagree={sidesDisagree(report)}>
         {sentence ? (
           <Phrase parts={sentence} />
         ) : (
-          "One side alone makes this model. Choose both to see how far they differ."
+          "This model is sampled from one of the two alone. Choose both to see how much they differ."
         )}
       </p>
       {sentence && <Numbers group={ALONE} report={report} />}
@@ -79,7 +78,7 @@ export function TwoSides({ report }: { report: Report }) {
         </SaveTable>
       )}
       <fieldset class="segments">
-        <legend class="unseen">Sides that make the intersection model</legend>
+        <legend class="unseen">Models from which the intersection is sampled</legend>
         {(["both", "a", "b"] as const).map((side) => (
           <label key={side} data-on={pooling === side} title={SIDES_USED[side].help}>
             <input
