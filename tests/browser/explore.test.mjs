@@ -171,7 +171,7 @@ test("directions are in the order that they state", async () => {
     for (const [label, word, order] of [
       ["Modes of A", /([\d.]+)\smm per SD/, -1],
       ["Exclusive modes of A", /misses ([\d.]+)\smm per SD/, -1],
-      ["Where A varies most beside B", /([\d.]+)\s× the variance of B/, -1],
+      ["Relative modes of A to B", /([\d.]+)\s× the variance of B/, -1],
       ["Principal angles", /([\d.]+)° to its partner/, 1],
     ]) {
       await directions.selectOption({ label });

@@ -165,7 +165,7 @@ for (const sampler of ["auto", "variational", "independence", "hmc", "mala", "pc
       await openPage(page, url, `${STARS}&sampler=${sampler}`);
       const report = await downloadReport(page);
       assert.equal(report.settings.sampler, sampler);
-      const part = await unfold(page, "Can these draws be believed?");
+      const part = await unfold(page, "Have the draws converged?");
       const { inference, diagnostics } = report.intersection;
       for (const side of ["a", "b"]) {
         const { sampler: ran, reason } = inference[side];
@@ -191,7 +191,7 @@ test("every mode has its diagnostics, and the worst is named", async () => {
   await withPage({}, async ({ url, page }) => {
     await openPage(page, url, `${HEADS}&sampler=independence`);
     const { coefficients } = (await downloadReport(page)).intersection;
-    const part = await unfold(page, "Can these draws be believed?");
+    const part = await unfold(page, "Have the draws converged?");
     const all = [...coefficients.a.rHat, ...coefficients.b.rHat];
     const worst = Math.max(...all);
     const named = part.locator(`.mode-figures > p [data-value="${worst}"]`);

@@ -273,7 +273,7 @@ test("shapes that a model has not seen, and those that it was made of, put it to
     );
     assert.equal(await chart(page, "evaluation-b").count(), 0, "B was not tested");
 
-    await page.getByRole("button", { name: "Use the shapes B was made of" }).click();
+    await page.getByRole("button", { name: "Use the training shapes of B" }).click();
     const own = await tested(page, "b");
     assert.match(
       await chart(page, "evaluation-b").innerText(),
@@ -313,15 +313,15 @@ test("what was tested before another model is marked as old", async (t) => {
     await open.setInputFiles(one);
     await card.getByRole("heading", { name: "one" }).waitFor();
     // Its name is there while it is still read; this once it is.
-    await page.getByRole("button", { name: "Use the shapes A was made of" }).waitFor();
+    await page.getByRole("button", { name: "Use the training shapes of A" }).waitFor();
     await page
       .getByLabel("Folder of test shapes for model A", { exact: true })
       .setInputFiles(unseen);
     await chart(page, "evaluation-a").waitFor({ timeout: 60_000 });
-    assert.equal(await page.getByText("Of the model before").count(), 0);
+    assert.equal(await page.getByText("Of the previous model").count(), 0);
     await open.setInputFiles(two);
     await card.getByRole("heading", { name: "two" }).waitFor();
-    await page.getByText("Of the model before").waitFor();
+    await page.getByText("Of the previous model").waitFor();
     assert.equal(await chart(page, "evaluation-a").count(), 1);
   });
 });

@@ -82,7 +82,7 @@ test("a report is a run file too, and says whether its numbers were met again", 
     await untilShown(page, /seed 12$/);
     await dropFiles(page, "body", [file]);
     await untilShown(page, /seed 3$/);
-    await taken(page).getByText("Every number is that of the report.").waitFor();
+    await taken(page).getByText("All numbers are the same as in the report.").waitFor();
     assert.deepEqual(timeless(await downloadReport(page)), timeless(report));
 
     const tampered = { ...report, overlap: { ...report.overlap, meanToMean: 1 } };
@@ -158,7 +158,7 @@ test("a wrong fingerprint is said, and its settings can be used all the same, or
       .getByText(/made with “double\.h5” \(0123…\); open it as A\. What is open is/)
       .waitFor();
     assert.equal(await card(page).getByText("open it as B").count(), 0, "B is the right one");
-    await card(page).getByRole("button", { name: "Forget it" }).click();
+    await card(page).getByRole("button", { name: "Discard" }).click();
     assert.equal(await card(page).count(), 0);
     assert.equal(await page.getByRole("textbox", { name: "Seed" }).inputValue(), "3");
 

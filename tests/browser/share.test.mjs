@@ -305,7 +305,7 @@ test("one file and one example: the example is there, the file is waited for", a
     await follow(page, new URL(link).hash);
     await card(page, "A").getByRole("heading", { name: "planes-a" }).waitFor();
     await waiting(page).getByText("“mine.h5” (0123…); open it as B. What is open is").waitFor();
-    await waiting(page).getByRole("button", { name: "Forget it" }).click();
+    await waiting(page).getByRole("button", { name: "Discard" }).click();
     assert.equal(await waiting(page).count(), 0);
 
     const other = await another();

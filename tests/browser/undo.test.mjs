@@ -129,7 +129,7 @@ test("view, region, tab, samples, differences and exaggeration are steps of thei
       () => rooms.getByRole("button", { name: "Models" }).click(),
     );
     await page.locator(".difference-bar summary").click();
-    const bar = page.getByRole("group", { name: "What counts as a difference" });
+    const bar = page.getByRole("group", { name: "Definition of the difference" });
     const difference = () => bar.getByRole("radio", { checked: true }).getAttribute("value");
     await undoes(page, "a definition", difference, () =>
       bar.getByRole("radio", { name: "relative" }).check({ force: true }),

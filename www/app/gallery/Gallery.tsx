@@ -3,7 +3,7 @@ import { isDark } from "../state/theme";
 import { type Exhibit, HALLS, linkTo } from "./exhibits";
 import "./gallery.css";
 
-/** Comparisons of what comes with the page, each with what there is to see. */
+/** Gallery of example comparisons, each with a picture and a sentence. */
 export function Gallery() {
   return (
     <main class="gallery">
@@ -33,7 +33,7 @@ export function Gallery() {
 function Card({ exhibit }: { exhibit: Exhibit }) {
   const { name, title, see } = exhibit;
   return (
-    // Out of a frame, which has no way back.
+    // In a frame the comparison opens outside of it, since a frame has no Back button.
     <a
       class="exhibit"
       href={linkTo(exhibit)}

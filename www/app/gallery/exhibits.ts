@@ -1,10 +1,10 @@
-/** Comparisons of what comes with the page: where each is, and what there is to see. */
+/** The example comparisons of the gallery: link, picture and explanation of each. */
 
 export interface Exhibit {
-  /** Of its picture, `gallery/NAME-light.webp` and `-dark.webp`. */
+  /** Name of its pictures, `gallery/NAME-light.webp` and `-dark.webp`. */
   name: string;
   title: string;
-  /** Without the version, which comes first. */
+  /** The link without its version. */
   link: string;
   see: string;
 }
@@ -22,37 +22,37 @@ export const HALLS: ExhibitGroup[] = [
         name: "heads-sex",
         title: "Male and female heads",
         link: "demo=heads-sex&sigma=1&view=mean",
-        see: "Two models that nearly agree: each can make most of what varies in the other, and yet most of their heads are out of each other’s reach.",
+        see: "Each model can make most of the variance of the other, but most heads of one model lie further than σ from the other.",
       },
       {
         name: "heads-distance",
-        title: "Where they cannot follow each other",
+        title: "Distance to the other model",
         link: "demo=heads-sex&sigma=1&view=sd&map=distance&camera=0.35,0.05,1.00",
-        see: "Every vertex in the colour of its mean distance to the nearest shape of the other model, all five regions on one scale.",
+        see: "Colours show the distance of each vertex to the nearest shape of the other model, all five regions on one scale.",
       },
       {
         name: "heads-exclusive",
         title: "What only one of them can make",
         link: "demo=heads-sex&sigma=1&view=mean&picture=exclusiveModes&exaggerate=3",
-        see: "The mean of what only one model can make, pushed three times further away from the other.",
+        see: "The mean of each model with three times the part that the other model misses added to it.",
       },
       {
         name: "heads-follow",
-        title: "Can the female model follow?",
+        title: "Can the female model make this head?",
         link: "demo=heads-sex&sigma=1&room=explore&explore=a,exclusive,3",
-        see: "Three standard deviations along the direction that the other model misses most, its nearest head, and a map of what is missing.",
+        see: "A male head three standard deviations along the first exclusive mode, the nearest female head, and a map of the difference.",
       },
       {
         name: "heads-expression",
         title: "Identity and expression",
         link: "demo=heads-expression&view=sd",
-        see: "Two ways of changing a head: expressions make less than a fifth of how identities vary, identities nearly half of how expressions do. The map shows where.",
+        see: "Two ways in which heads vary: expressions can make less than a fifth of the variance of identities, identities nearly half of that of expressions. The map shows where each varies.",
       },
       {
         name: "heads-table",
-        title: "All four, one by one",
+        title: "All four head models, pair by pair",
         link: "demo=heads-sex&sigma=1&room=models&shelf=heads-male,heads-female,heads-identity,heads-expression",
-        see: "Each row says how much of a model’s variance the others can make; a cell opens that comparison.",
+        see: "Each row shows how much of a model’s variance the others can make; a cell opens that comparison.",
       },
     ],
   },
@@ -63,31 +63,31 @@ export const HALLS: ExhibitGroup[] = [
         name: "stars-samples",
         title: "What two stars share",
         link: "demo=stars-6&sigma=0.003&view=samples",
-        see: "A sweeps the top tip and one other, B the top tip and a third. Only the sweep of the top tip is common, and it is all that A∩B can make.",
+        see: "A moves the top tip and one other, B the top tip and a third. Only the movement of the top tip is common, and it is all that A∩B can make.",
       },
       {
         name: "stars-small",
         title: "A narrow overlap",
         link: "demo=stars-1&sigma=0.003&view=samples",
-        see: "The same two models, but they agree on ten degrees of the top tip only.",
+        see: "The same kind of models, but only ten degrees of the top tip are common.",
       },
       {
         name: "stars-walk",
         title: "The paper’s own sampler",
         link: "demo=stars-5&sigma=0.003&sampler=paper-corrected&chains=15&draws=2505&burnin=1000&thin=1&room=diagnostics",
-        see: "The random walk at the paper’s length: 15 chains that hardly leave where they began, and a handful of effective draws among tens of thousands.",
+        see: "The random walk with the paper’s number of steps: 15 chains that stay near their starting points, and only a few effective draws among tens of thousands.",
       },
       {
         name: "planes",
         title: "Two ellipses in space",
         link: "demo=planes&view=samples",
-        see: "The smallest case: two planes meet in a line, and A∩B is the piece of it that lies in both ellipses.",
+        see: "The smallest case: two planes meet in a line, and A∩B lies along the segment inside both ellipses.",
       },
       {
         name: "planes-tolerance",
         title: "A tolerance too large",
         link: "demo=planes&sigma=3&view=samples",
-        see: "The same ellipses at σ = 3: distance says next to nothing, and A∩B is whatever is plausible in both, wherever the planes lie.",
+        see: "The same ellipses at σ = 3: the distance hardly matters, and A∩B contains all points that are plausible in both models.",
       },
     ],
   },

@@ -1,4 +1,4 @@
-/** Keeps the address in step with the state, and the state with the address: Back is undo. */
+/** Writes the state of the page into its address and reads it back, so that Back is undo. */
 import { batch, computed, effect, untracked } from "@preact/signals";
 import { applyLesson, settledLesson } from "../learn/state";
 import { HASH_DIGITS } from "../models/address/codec";
@@ -51,7 +51,7 @@ const WRITE_AFTER_MS = 1000;
 
 export const { undoable, redoable } = steps;
 
-/** What of the page no link can hold. */
+/** The part of the state that no link can hold. */
 export const unlinkable = computed(() => ({
   files: SIDES.filter((side) => slots[side].value?.source.kind === "files"),
   modelList:
@@ -59,7 +59,7 @@ export const unlinkable = computed(() => ({
   points: !fitsLink(settings.value.prepare.points),
 }));
 
-/** How a link says which models these are; one that is not open yet as the last link said it. */
+/** The models as a link names them; a model that is not open yet as the last link named it. */
 function models(): LinkedModels {
   const asked = linked.value;
   const each = <T>(of: (slot: Slot) => T, otherwise: (side: Side) => T) => {
@@ -85,7 +85,7 @@ function models(): LinkedModels {
         source.kind === "demo" ? null : (report.fingerprint?.slice(0, HASH_DIGITS) ?? null),
       (side) => asked?.hashes[side] ?? null,
     ),
-    // The part of each file, where it is not the first.
+    // The part of each file, if it is not the first.
     parts: each(
       ({ part, parts }) => (part === parts[0] ? null : part),
       (side) => asked?.parts[side] ?? null,
@@ -93,13 +93,13 @@ function models(): LinkedModels {
   };
 }
 
-/** Those of the page's own models that are on the model list, if it is in use. */
+/** The models of the model list that come with the page, if the list is in use. */
 function listed(): string[] {
   if (!isUsed(modelList.value)) return [];
   return modelList.value.flatMap(({ source }) => (source.kind === "demo" ? source.name : []));
 }
 
-/** All that makes the picture, as far as an address can say it. */
+/** The link of the present state. */
 function present(): LinkState {
   return {
     page: page.value,
@@ -132,24 +132,24 @@ export function currentLink(embed = embedded.value): string {
   return writeLink({ ...present(), embed });
 }
 
-/** The same as a whole address, for somebody else. */
+/** The link as a whole address, to share. */
 export function sharedAddress(embed = false): string {
   const address = new URL(location.href);
   address.hash = currentLink(embed);
   return address.href;
 }
 
-/** Puts the present state into the address, without a step of its own. */
+/** Writes the present state into the address without a step of undo. */
 export function writeAddress(): void {
   history.replaceState(history.state, "", `#${currentLink()}`);
 }
 
 /**
- * What is a step to undo: all of a link but the camera, which only follows along, what is only about links, and
- * what no link holds.
+ * The part of the state whose change is a step of undo: the link without the camera and without settings of links,
+ * and what no link can hold.
  */
 const step = computed(() => {
-  // What goes on in a comparison behind them is no step of other pages.
+  // On other pages changes of the comparison are no steps.
   if (page.value === "gallery") return page.value;
   if (page.value === "learn") return JSON.stringify([page.value, settledLesson.value]);
   const open = SIDES.map((side) => slots[side].value && slotKey(slots[side].value));
@@ -159,7 +159,7 @@ const step = computed(() => {
 
 let applied = "";
 
-/** `takes` is asked whether it sees to a link that somebody typed or followed. */
+/** Starts the history; `takes` may take over a link that somebody typed or followed. */
 export function keepLink(takes: (link: LinkState) => boolean): void {
   applied = untracked(() => step.value);
   steps.begin(snapshot());
@@ -170,8 +170,8 @@ export function keepLink(takes: (link: LinkState) => boolean): void {
     clearTimeout(timer);
     if (meaningful) {
       applied = step.value;
-      // What is written down of a step is nothing that another one waits for.
-      // The Back button of a page with a frame in it is about that page.
+      // Saving a step must not trigger another one.
+      // In a frame the Back button belongs to the page around it.
       const join = joins() || embedded.peek();
       untracked(() => (join ? steps.join(snapshot(), fragment) : steps.push(snapshot(), fragment)));
       return;
@@ -189,10 +189,10 @@ export function undo(): void {
 
 export function redo(): void {
   steps.redo();
-  if (redoable.peek()) spoken.value = "Done again.";
+  if (redoable.peek()) spoken.value = "Redone.";
 }
 
-/** Where the page is. */
+/** The state of this step that no link can hold. */
 function snapshot(): Snapshot {
   const wanted = (side: Side): Wanted | null => {
     const slot = slots[side].peek();
@@ -206,10 +206,10 @@ function snapshot(): Snapshot {
   };
 }
 
-/** Undo and redo as everywhere, but never out of the page, nor where text is typed. */
+/** Keys for undo and redo, except where text is typed. */
 function undoByKey(event: KeyboardEvent): void {
   if (!(event.ctrlKey || event.metaKey) || event.altKey) return;
-  // While something is painted, strokes are undone.
+  // While painting, strokes are undone instead.
   if (painting.peek() !== null) return;
   const { target } = event;
   if (target instanceof HTMLInputElement && !/range|radio|checkbox|file/.test(target.type)) return;
@@ -221,10 +221,10 @@ function undoByKey(event: KeyboardEvent): void {
   else undo();
 }
 
-/** How often the browser went to another step: what was begun for a former one is given up. */
+/** Number of steps that the browser went to; work for an earlier one is dropped. */
 let journeys = 0;
 
-/** Takes over what the address says; with the models, so that nothing half-changed is compared. */
+/** Applies the address to the state, together with its models, so that no half-changed state is compared. */
 async function follow(state: unknown, takes: (link: LinkState) => boolean): Promise<void> {
   journeys += 1;
   const mine = journeys;
@@ -265,7 +265,7 @@ async function follow(state: unknown, takes: (link: LinkState) => boolean): Prom
   if (mine === journeys) await restoreModelList(wanted);
 }
 
-/** What an address says of models; those of nobody's own files. */
+/** The models that an address names, except the visitor's own files. */
 export function modelsOf(link: LinkState): Record<Side, Wanted | null> | null {
   const { urls: found, parts: named } = link;
   if (found) {
@@ -286,7 +286,7 @@ function sourceOf(address: string): Source {
   return demo ? demoSource(demo) : { kind: "url", url: address };
 }
 
-/** What an address says of the model list. */
+/** The models that an address puts on the model list. */
 export function modelListOf(link: LinkState): Wanted[] {
   return link.modelList.map((name) => first(demoSource(name)));
 }
@@ -296,12 +296,12 @@ export function apply(link: LinkState): void {
   applied = step.value;
 }
 
-/** The same as a step that can be undone. */
+/** Opens a link as a step that can be undone. */
 export function take(link: LinkState): void {
   batch(() => {
     embedded.value = link.embed;
     page.value = link.page;
-    // What is compared stays as it is while something else is looked at.
+    // The comparison stays unchanged while another page is shown.
     if (link.page === "learn") applyLesson(link.lesson);
     if (link.page !== "compare") return;
     settings.value = link.settings;

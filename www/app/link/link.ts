@@ -1,5 +1,5 @@
 /**
- * State ⇄ URL fragment, as plain `k=v` that can be read and edited by hand.
+ * Writes the state of the page as a URL fragment and reads it back: plain `key=value` that can be edited by hand.
  *
  * Every link of an older page must keep opening: unknown keys are ignored, unreadable values fall
  * back to the default, and what is not given is the default.
@@ -53,28 +53,28 @@ import { parseRanges } from "../text/ranges";
 
 export const LINK_VERSION = 1;
 
-/** What of a link is settings of the run. */
+/** The keys of a link that are settings of the run. */
 export const SETTING_KEYS = (
   "align modes sigma sampler seed chains draws burnin thin " +
   "fit sides plaus noise weighted diff leaves beyond diffdraws " +
   "unit-a unit-b modes-a modes-b variance-a variance-b rebase convert points subsample"
 ).split(" ");
 
-/** Longer links are cut by the programs that pass them on. */
+/** Longest list of points in a link: longer links are cut by programs that pass them on. */
 const LONGEST_RANGES = 2000;
 
 const MOST_VERTICES = 1e7;
 
-/** Everything that makes the picture. */
+/** Everything that a link holds. */
 export interface LinkState extends LinkedModels, ViewState {
-  /** What is taught, on the page that teaches. */
+  /** The lesson on the page Learn. */
   lesson: LessonState;
   explorer: ExplorerState;
-  /** Range of the colours of what is missed while it is locked; 0 is the other end. */
+  /** Upper end of the colours of residuals while it is locked; the lower end is 0. */
   heatScale: number | null;
-  /** Models that come with the page and are in the table, if there are more than two. */
+  /** Models on the model list that come with the page, if there are more than two. */
   modelList: string[];
-  /** What the table shows of each pair. */
+  /** The measure that the table of pairs shows. */
   measure: MeasureName;
 }
 
@@ -127,7 +127,7 @@ function comparisonPairs(state: LinkState): [string, string | number][] {
   return pairs;
 }
 
-/** How the comparison is looked at, as far as that is not as at first. */
+/** Keys of the view that differ from their defaults. */
 function lookPairs(state: LinkState): [string, string | number][] {
   const first = defaultLink();
   const plain = (
@@ -171,7 +171,7 @@ function rareSettings(settings: Settings): [string, string | number][] {
     .map(([key, name, text]) => [key, text ?? settings[name] ?? ""]);
 }
 
-/** What is done to the models first; nothing of a pair that is compared as it stands. */
+/** Keys of the preparation of the models; none for a pair that is compared as it stands. */
 function preparationPairs(prepare: Preparation): [string, string | number][] {
   const pairs: [string, string | number][] = [];
   for (const side of ["a", "b"] as const) {
@@ -190,7 +190,7 @@ function preparationPairs(prepare: Preparation): [string, string | number][] {
   return pairs;
 }
 
-/** Whether a link can hold which points are compared: not the pairs of a list, nor a frayed region. */
+/** Whether a link can hold the selection of points: not a list of pairs, nor a region with too many ranges. */
 export function fitsLink(points: PointSelection | null): boolean {
   if (points?.by === "list") return false;
   return points?.by !== "region" || points.ranges.length <= LONGEST_RANGES;
@@ -201,7 +201,7 @@ export function readLink(fragment: string): LinkState {
   const fallback = defaultLink();
   const page = oneOf(given.get("page"), PAGES) ?? fallback.page;
   const embed = given.get("embed") === "1";
-  // Keys of a lesson and of a comparison may have the same names.
+  // A lesson and a comparison may use the same key for different things.
   if (page !== "compare") return { ...fallback, page, embed, lesson: readLesson(given) };
   return {
     page,
@@ -286,7 +286,7 @@ function readPreparation(given: URLSearchParams): Preparation {
   };
 }
 
-/** What an address asks for in words this page does not know, as `key=value`. */
+/** The keys and values of an address that this page does not know, as `key=value`. */
 export function misread(fragment: string): string[] {
   const given = new URLSearchParams(fragment.replace(/^#/, ""));
   const words: Record<string, string[]> = {
@@ -306,7 +306,7 @@ export function misread(fragment: string): string[] {
   return [...misreadAddresses(given), ...settings];
 }
 
-/** As many digits as single precision has. */
+/** Rounds to the digits of single precision. */
 function shortNumber(value: number): string {
   return String(Number(value.toPrecision(7)));
 }
@@ -347,13 +347,13 @@ function oneOf<T extends string>(text: string | null, allowed: readonly T[]): T 
   return allowed.find((value) => value === text);
 }
 
-/** Each model once, and those that there are. */
+/** The known models of a list, each once. */
 function readModelList(text: string | null): string[] {
   const names = new Set((text ?? "").split(","));
   return [...names].filter((name) => DEMO_MODELS.includes(name));
 }
 
-/** Only what would break the fragment: the rest stays readable. */
+/** Escapes only what would break the fragment, so that the rest stays readable. */
 function escapeValue(text: string): string {
   return text.replace(/[%&#+\s]/g, (character) => encodeURIComponent(character));
 }

@@ -1,4 +1,4 @@
-/** docs/links.md against what the page really reads and writes. */
+/** Compares docs/links.md with the keys that the page reads and writes. */
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";

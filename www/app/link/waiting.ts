@@ -1,11 +1,11 @@
-/** A link that names files which it cannot hold waits for them, as a run file waits for its models. */
+/** Reads from a link the visitor's own files that it names, which must be opened by hand. */
 
 import { fileName } from "../models/address/address";
 import type { LinkedModels } from "../state/linked-models";
 import type { LinkState } from "./link";
 import type { ExpectedModel, ExpectedRun } from "./runfile/expected";
 
-/** What such a link expects; null where everything that it names can be fetched. Pure. */
+/** The expected models of a link; null if all of them can be fetched. Pure. */
 export function expectedByLink(link: LinkState): ExpectedRun | null {
   const { urls, hashes, parts } = link;
   if (!urls || (urls.a !== null && urls.b !== null)) return null;
@@ -23,7 +23,7 @@ export function expectedByLink(link: LinkState): ExpectedRun | null {
   };
 }
 
-/** What a model that a link says by itself is called; null for a file whose name is left out. */
+/** Name of a model as the link states it; null for a file whose name is left out. */
 export function askedName({ urls, names }: LinkedModels, side: "a" | "b"): string | null {
   const address = urls?.[side] ?? null;
   return address === null ? names[side] : fileName(address.replace(/^demo:/, ""));

@@ -1,4 +1,4 @@
-/** Opening models into the two slots. A model that cannot be opened leaves the former one. */
+/** Opens models as A or B. If a model cannot be opened the former one stays. */
 import { batch, signal } from "@preact/signals";
 import { EngineFailure, wasAborted } from "../../worker/engine-errors";
 import type { DroppedFile } from "../../worker/protocol";
@@ -28,7 +28,7 @@ import {
   spoken,
   type Wanted,
 } from "../state/state";
-import { carry, closeUnused, putDown } from "./list/handles";
+import { closeUnused, release, retain } from "./list/handles";
 import { afterChoice } from "./list/order";
 import {
   baseName,
@@ -44,24 +44,23 @@ import {
 
 const loads: Record<Side, AbortController | null> = { a: null, b: null };
 
-/** More models than two were dropped, and nobody has said yet which are meant. */
+/** More than two dropped models, of which two are still to be chosen. */
 export const choosing = signal<NamedSource[] | null>(null);
 
-/** A demo that an address asks for, with whatever settings. */
+/** Opens the example of an address, with the settings of the address. */
 export function demoModels({ a, b }: Demo): Record<Side, Wanted> {
   return { a: first(demoSource(a)), b: first(demoSource(b)) };
 }
 
-/** A demo that a visitor chooses, with the σ that suits it. */
+/** Opens the example that a visitor chooses, with its own σ. */
 export async function chooseDemo(chosen: Demo): Promise<void> {
   const { a, b } = demoModels(chosen);
   await openPair(a, b, forget(chosen.sigma ?? null));
 }
 
 /**
- * Both change at once, so that no comparison of an old with a new one begins between. `alongside` is
- * changed in the same step. Resolves to whether anything changed: where neither can be opened, nothing
- * does.
+ * Opens A and B together, so that no old model is compared with a new one in between. `alongside` is changed in the
+ * same step. Resolves to whether anything changed: nothing does if neither can be opened.
  */
 export async function openPair(
   a: Wanted | null,
@@ -71,16 +70,16 @@ export async function openPair(
   const opened = await Promise.all([a && load("a", a), b && load("b", b)]);
   const some = opened.some((slot) => slot !== null);
   if (some) show({ a: opened[0], b: opened[1] }, alongside);
-  putDown(opened.flatMap((slot) => slot?.model ?? []));
+  release(opened.flatMap((slot) => slot?.model ?? []));
   return some;
 }
 
-/** Lengths in use, those of the former models, say nothing of these. */
+/** Resets settings that are lengths: those of the former models do not apply to new ones. */
 export function forget(sigma: number | null = null): () => void {
   return () => change({ sigma, noise: null, differenceThreshold: null });
 }
 
-/** Files that were dropped or chosen: one model fills the slot it was meant for, two fill both. */
+/** Opens dropped or chosen files: one model as A or B as asked, two as A and B. */
 export async function openModels(files: DroppedFile[], side: Side): Promise<void> {
   if (files.length === 0) return;
   dismiss("page");
@@ -97,7 +96,7 @@ export async function openModels(files: DroppedFile[], side: Side): Promise<void
   }
 }
 
-/** What was chosen of several models; null keeps the one that is there. */
+/** Opens the two that were chosen of several models; null keeps the present one. */
 export async function openChosen(a: Source | null, b: Source | null): Promise<void> {
   choosing.value = null;
   if (a && b) await openPair(first(a), first(b), forget());
@@ -106,7 +105,7 @@ export async function openChosen(a: Source | null, b: Source | null): Promise<vo
 }
 
 async function openSource(side: Side, source: Source): Promise<void> {
-  // Whoever compares several models with one of their own keeps the σ they chose.
+  // If one of the present models stays, σ is kept.
   const alongside = demo.peek() === null ? undefined : forget();
   await reread(side, first(source), alongside);
 }
@@ -115,7 +114,7 @@ async function reread(side: Side, wanted: Wanted, alongside?: () => void): Promi
   await openPair(side === "a" ? wanted : null, side === "b" ? wanted : null, alongside);
 }
 
-/** The models that these files make; null where they cannot be looked at. */
+/** The models in these files; null if they cannot be read. */
 export async function modelsIn(
   files: DroppedFile[],
   side: Side | null,
@@ -129,7 +128,7 @@ export async function modelsIn(
   );
 }
 
-/** Which files belong together; null where they cannot be looked at. */
+/** Groups files that belong together; null if they cannot be read. */
 async function grouped(files: DroppedFile[], side: Side | null) {
   const [only] = files;
   if (only && files.length === 1) return [{ name: baseName(only.name), files: [0] }];
@@ -150,14 +149,14 @@ async function grouped(files: DroppedFile[], side: Side | null) {
   }
 }
 
-/** Another model of the same file. */
+/** Opens another part of the same file. */
 export async function choosePart(side: Side, part: string): Promise<void> {
   const slot = slots[side].value;
   if (!slot || part === slot.part) return;
   await reread(side, { source: slot.source, part, scale: slot.scale });
 }
 
-/** The shapes of a set, with or without their sizes. */
+/** Computes the model of a set of shapes again, with or without scaling them to one size. */
 export async function chooseScale(side: Side, scale: boolean): Promise<void> {
   const slot = slots[side].value;
   if (slot) await reread(side, { source: slot.source, part: slot.part, scale });
@@ -168,7 +167,7 @@ export async function openParts(source: Source, a: string, b: string): Promise<v
   await openPair(part(a), part(b), forget());
 }
 
-/** Gives up what is being opened; the former model stays. */
+/** Cancels the opening of a model; the former one stays. */
 export function cancelOpening(side: Side): void {
   loads[side]?.abort();
   spoken.value = `Opening model ${side} was cancelled.`;
@@ -187,11 +186,11 @@ function show(opened: Record<Side, Slot | null>, alongside: () => void): void {
     }
     const now = { a: slots.a.value, b: slots.b.value };
     modelList.value = afterChoice(modelList.value, before, now);
-    // Every population lies in the frame of its own first shape: side by side those mean nothing.
+    // Each population is in the frame of its own first shape: the two models must be aligned to each other.
     const populations = SIDES.every((side) => slots[side].value?.origin.kind === "shapes");
     if (populations && settings.value.align === "none") change({ align: "rigid" });
     emptyRegions.value = {};
-    // A link that opens its models brings its own.
+    // The locked range of the former models no longer applies; that of a link which opens the page stays.
     if (before.a || before.b) lockedRange.value = null;
     compared.value = null;
     painting.value = null;
@@ -202,7 +201,7 @@ function show(opened: Record<Side, Slot | null>, alongside: () => void): void {
   closeUnused();
 }
 
-/** A declared unit, a number of modes and a list of points are about one model. */
+/** Resets the settings of one model when it is replaced: unit, number of modes, list of points. */
 function replaces(side: Side, slot: Slot | null): boolean {
   const former = slots[side].value;
   if (!slot || !former) return false;
@@ -224,7 +223,7 @@ function end(side: Side, controller: AbortController): void {
   opening[side].value = null;
 }
 
-/** Null if it failed or another was asked for meanwhile; else whoever asked puts the model down. */
+/** Opens a model; null if that failed or another was requested meanwhile. The caller must release it. */
 export async function load(side: Side, wanted: Wanted): Promise<Slot | null> {
   const { source } = wanted;
   const name = nameOf(source);
@@ -248,21 +247,21 @@ export async function load(side: Side, wanted: Wanted): Promise<Slot | null> {
   }
 }
 
-/** With its geometry; one that is on the model list is not opened again. Whoever asked puts it down. */
+/** A model with its geometry; one of the model list is not opened again. The caller must release it. */
 async function openToShow(signal: AbortSignal, wanted: Wanted, onRead: OnRead): Promise<Slot> {
   const kept = reopening.peek() ? undefined : modelList.peek().find((slot) => isOpen(slot, wanted));
   const slot = kept ?? (await openWanted(signal, wanted, onRead));
-  carry(slot.model);
+  retain(slot.model);
   try {
     const geometry = slot.geometry ?? (await engineClient().geometry(signal, slot.model));
     return slot.geometry === geometry ? slot : { ...slot, geometry };
   } catch (thrown) {
-    putDown([slot.model]);
+    release([slot.model]);
     throw thrown;
   }
 }
 
-/** Gives up whatever is being opened as A or B. */
+/** Cancels the opening of A and B. */
 export function giveUpOpening(): void {
   for (const side of SIDES) loads[side]?.abort();
 }

@@ -1,4 +1,4 @@
-/** Painting which points are compared, with a round brush on the mean of A. */
+/** Paints the region of compared points with a round brush on the mean of A. */
 import { computed } from "@preact/signals";
 import { change, type PaintTool, painting, settings, slots, spoken } from "../state/state";
 import { maskCount, maskOf, rangesOf } from "../text/ranges";
@@ -21,10 +21,10 @@ export function beginPainting(): void {
     tool: "add",
     size: BRUSHES.first,
   };
-  spoken.value = "Painting: drag on the shape, or type which vertices are compared.";
+  spoken.value = "Painting: drag on the shape, or type the vertices to compare.";
 }
 
-/** Takes over what is painted; nothing, or all of it, is no region. */
+/** Compares the painted points; if none or all are painted, all points are compared. */
 export function finishPainting(): void {
   const found = painting.value;
   if (!found) return;
@@ -52,7 +52,7 @@ export function brushRadius(): number {
   return (painting.value?.size ?? 0) * (slots.a.value?.report.size ?? 0);
 }
 
-/** What comes until the next one is undone together. */
+/** Begins a stroke; a stroke is undone as a whole. */
 export function beginStroke(): void {
   if (painting.value) former = [...former, painting.value.mask.slice()].slice(-MOST_UNDO);
 }

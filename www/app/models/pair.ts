@@ -1,4 +1,4 @@
-/** Asks the engine whether the two models can be compared as they stand, and what would help. */
+/** Asks the engine whether the two models can be compared, and for remedies if not. */
 import { effect } from "@preact/signals";
 import { EngineFailure, isEngineError, wasAborted } from "../../worker/engine-errors";
 import type { EngineError, Inspection } from "../../worker/protocol";
@@ -7,12 +7,12 @@ import { latest } from "../state/latest";
 import { change, inspected, pairKey, settings, slots, spoken } from "../state/state";
 import { bytes } from "../text/format";
 
-/** Whenever the models or what is done to them first have changed. */
+/** Inspects the pair whenever the models or their preparation change. */
 export function watchPair(): void {
   const ask = latest(inspect);
   effect(() => {
     const key = pairKey.value;
-    // New handles of the same models, after a restart of the engine, are asked about only if need be.
+    // After a restart of the engine the same models need no new inspection.
     const open = slots.a.value !== null && slots.b.value !== null;
     if (key !== null && open && key !== inspected.peek()?.key) ask(key);
   });
@@ -34,7 +34,7 @@ async function inspect(key: string): Promise<void> {
   }
 }
 
-/** What is known of a pair that the engine cannot even look at. */
+/** Inspection of a pair that the engine cannot inspect: its error and the facts of the models. */
 function unknownPair({ code, message, hint }: EngineError): Inspection {
   const [a, b] = [slots.a.peek()?.report, slots.b.peek()?.report];
   return {
@@ -53,7 +53,7 @@ function unknownPair({ code, message, hint }: EngineError): Inspection {
   };
 }
 
-/** A few megabytes hold more pairs than any mesh has points. */
+/** Largest size of a list of points in bytes. */
 const LONGEST_LIST = 64e6;
 
 /** Compares only the points that a file lists. */
@@ -73,7 +73,7 @@ export async function takeList(file: File): Promise<void> {
 function tooLong(file: File): EngineFailure {
   return new EngineFailure({
     code: "list-too-long",
-    message: `“${file.name}” is no list of vertices: it has ${bytes(file.size)}.`,
+    message: `“${file.name}” is not a list of vertices: it has ${bytes(file.size)}.`,
     hint: "Choose a text file with one or two whole numbers a line.",
   });
 }

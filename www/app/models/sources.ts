@@ -1,4 +1,4 @@
-/** Where models come from, and how one of them is opened. */
+/** The sources of models (examples, files, addresses), and how a model is opened from one. */
 import { EngineFailure } from "../../worker/engine-errors";
 import type { DroppedFile, OpenedModel } from "../../worker/protocol";
 import { packagedFile } from "../state/demos";
@@ -14,7 +14,7 @@ export interface NamedSource {
 
 let fileSerial = 0;
 
-/** The first model of a source, as it is. */
+/** The first model of a source, without scaling. */
 export function first(source: Source): Wanted {
   return { source, part: null, scale: false };
 }
@@ -28,12 +28,12 @@ export function filesSource(name: string, files: DroppedFile[]): Source {
   return { kind: "files", name, files, serial: fileSerial };
 }
 
-/** What would open this model again. */
+/** Source and part with which this model can be opened again. */
 export function wantedOf({ source, part, scale }: Wanted): Wanted {
   return { source, part, scale };
 }
 
-/** Whether an open model is the one that is wanted. */
+/** Whether an open model is the wanted one. */
 export function isOpen(slot: Slot, wanted: Wanted): boolean {
   return (
     slotKey(slot) === slotKey({ ...slot, ...wanted, part: wanted.part ?? slot.parts[0] ?? "" })
@@ -48,7 +48,7 @@ export function baseName(path: string): string {
   return path.split("/").pop() ?? path;
 }
 
-/** As a run file names it: of a file of one's own, nothing. */
+/** The source as a run file states it; null for the visitor's own files. */
 export function sourceText(source: Source): string | null {
   if (source.kind === "demo") return `demo:${source.name}`;
   return source.kind === "url" ? source.url : null;
@@ -56,7 +56,7 @@ export function sourceText(source: Source): string | null {
 
 export type OnRead = (read: Reading) => void;
 
-/** Without its geometry, which only the two that are compared need. */
+/** Opens a model without its geometry, which only A and B need. */
 export async function openWanted(
   signal: AbortSignal,
   wanted: Wanted,

@@ -4,7 +4,7 @@ import { number, signed, withoutDust } from "../text/format";
 import { MAP_WORDS, mapCaption, scaleEnds } from "./map-words";
 import { mapProblem, mapRange, ownRange, shownMap } from "./maps";
 
-/** One scale for all panes, and what is coloured in words. */
+/** Colour bar of the map: one scale for all panes, with a caption. */
 export function ColorBar() {
   const range = mapRange.value;
   const map = shownMap.value;
@@ -12,7 +12,7 @@ export function ColorBar() {
   if (!range) return <p class="small">{MAP_WORDS[map.name].label}: waiting for the engine.</p>;
   const [low, high] = range;
   const own = ownRange.value;
-  // As many digits of a locked one as links hold.
+  // A locked range has as many digits as links have.
   const slack = 1e-5 * (high - low);
   const beyond = own !== null && (own[0] < low - slack || own[1] > high + slack);
   const ends = scaleEnds(map.name, map.signed);

@@ -4,7 +4,7 @@ import { NumberField } from "../ui/NumberField";
 import { MAP_WORDS } from "./map-words";
 import { chooseMap } from "./maps";
 
-/** What is coloured onto the vertices, and of which mode. */
+/** Chooses the map that colours the vertices, and its mode. */
 export function MapChooser() {
   return (
     <>
@@ -39,7 +39,7 @@ export function MapChooser() {
   );
 }
 
-/** Regions that have fewer modes are drawn plain. */
+/** Largest number of modes of a region; regions with fewer modes are drawn without colours. */
 function mostModes(): number {
   const modes = [slots.a.value?.report.modes, slots.b.value?.report.modes];
   return Math.max(1, result.value?.report.intersection.modes ?? 1, ...modes.map((m) => m ?? 1));

@@ -21,13 +21,13 @@ const TOOLS: Record<PaintTool, { label: string; key: string }> = {
   turn: { label: "Turn", key: "t" },
 };
 
-/** In place of the toolbar while the points that are compared are painted on A. */
+/** Toolbar for painting the compared points on A: tools, brush size, typed vertices. */
 export function PaintBar() {
   const found = painting.value;
   const bar = useRef<HTMLElement>(null);
-  // At once: the first key may follow the click that began this.
+  // Before the page is painted: a key may follow the click at once.
   useLayoutEffect(() => {
-    // On a small screen the shape is far from the button that begins this.
+    // On a small screen the shape may be out of view.
     bar.current?.scrollIntoView({ block: "nearest" });
     addEventListener("keydown", onKey);
     return () => removeEventListener("keydown", onKey);

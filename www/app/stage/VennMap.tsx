@@ -5,7 +5,7 @@ import { outOfDate, painting, region, result } from "../state/state";
 import { percent } from "../text/format";
 import { regionLabel } from "./names";
 
-/** The Venn diagram: two circles to scale, and five regions to go to. */
+/** Venn diagram of the total variances to scale; a click on a region shows it alone. */
 export function VennMap() {
   const report = result.value?.report;
   const venn = useComputed(() => result.value && vennOf(result.value.report)).value;
@@ -35,8 +35,8 @@ export function VennMap() {
         </text>
       </svg>
       <figcaption>
-        Areas are variances: of A, of B, and what either can make of the other’s. Choose a region to
-        look closer.
+        Areas: total variance of A, of B, and of what both can make. Choose a region to show it
+        alone.
       </figcaption>
     </figure>
   );
@@ -76,7 +76,7 @@ function Area({ name, path }: { name: Region; path: string }) {
   );
 }
 
-/** The letter stands for the whole circle. */
+/** The letter of a circle, a button for the whole model. */
 function Letter({ name, x, y, text }: { name: "a" | "b"; x: number; y: number; text: string }) {
   return (
     // biome-ignore lint/a11y/useSemanticElements: there are no buttons in SVG

@@ -10,7 +10,7 @@ import { ellipsoids, pointCount, shownMap } from "./maps";
 import { REGION_NAMES } from "./names";
 import { picking } from "./stage-controller";
 
-/** One vertex in all five regions: chosen by its number or by a click. */
+/** Numbers of one vertex in all five regions; it is chosen by its number or by a click. */
 export function VertexBar() {
   const chosen = vertex.value;
   if (tab.value !== "regions" || (view.value !== "sd" && chosen === null)) return null;
@@ -82,13 +82,13 @@ function VertexTable({ vertex: chosen }: { vertex: number }) {
   return (
     <>
       {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls must be reached by keys */}
-      <section class="vertex-table" tabIndex={0} aria-label="Figures of the vertex">
+      <section class="vertex-table" tabIndex={0} aria-label="Numbers of the vertex">
         <table class="numbers">
           <caption class="unseen">Vertex {chosen} in the five regions</caption>
           <thead>
             <tr>
               <th scope="col">
-                <span class="unseen">Figure</span>
+                <span class="unseen">Quantity</span>
               </th>
               {REGIONS.map((region) => (
                 <th key={region} scope="col">
@@ -156,7 +156,7 @@ function Cell({ value, show }: CellProps) {
   );
 }
 
-/** Of one ellipsoid, longest first. */
+/** Semi-axes of one ellipsoid, longest first. */
 function Lengths({ values, show }: { values: number[]; show: (value: number) => string }) {
   return (
     <td>

@@ -1,13 +1,13 @@
-/** What each map on the vertices shows, in words. Pure. */
+/** Names, captions and explanations of the maps that colour the vertices. Pure. */
 import type { MapName } from "../../worker/protocol";
 
 interface MapWords {
-  /** In the list of maps. */
+  /** Name in the list of maps. */
   label: string;
-  /** What a number of it is, without its unit. */
+  /** The quantity, without its unit. */
   quantity: (map: ShownAs) => string;
   help: string;
-  /** Maps of one kind can be looked at on one scale. */
+  /** Maps of one kind can share a scale. */
   kind: "deviation" | "distance" | "displacement" | "ratio";
 }
 
@@ -21,50 +21,50 @@ export const MAP_WORDS: Record<MapName, MapWords> = {
   sd: {
     label: "Standard deviation",
     quantity: () => "Standard deviation per vertex",
-    help: "How far a vertex typically lies from its mean place, in any direction.",
+    help: "Root mean square distance of a vertex from its mean position, all directions together.",
     kind: "deviation",
   },
   "sd-normal": {
     label: "SD, normal part",
     quantity: () => "Standard deviation per vertex along the normal",
-    help: "What of it is in or out of the surface. The squares of normal and tangential part add up to that of the whole.",
+    help: "Standard deviation of a vertex along the surface normal. The squares of normal and tangential part add up to the square of the whole.",
     kind: "deviation",
   },
   "sd-tangential": {
     label: "SD, tangential part",
     quantity: () => "Standard deviation per vertex within the surface",
-    help: "What of it only slides along the surface. The squares of normal and tangential part add up to that of the whole.",
+    help: "Standard deviation of a vertex within the surface. The squares of normal and tangential part add up to the square of the whole.",
     kind: "deviation",
   },
   distance: {
     label: "Distance to the other",
     quantity: () => "Distance of the region’s mean shape to the other model",
-    help: "From each vertex of the mean shape to its place in the nearest shape that the other model can make: of A and A∖B to B, of B and B∖A to A, of A∩B to the farther of the two.",
+    help: "Distance of each vertex of the mean shape to the same vertex of the nearest shape of the other model: from A and A∖B to B, from B and B∖A to A, from A∩B to the farther of the two.",
     kind: "distance",
   },
   means: {
     label: "Displacement of mean",
     quantity: ({ signed }) =>
       `Displacement of the region’s mean from the mean of A${signed ? ", along the normal" : ""}`,
-    help: "How far the mean shape of the region lies outside of that of A, or inside of it.",
+    help: "Displacement of each vertex from the mean shape of A to the mean shape of the region; along the surface normal where there is one.",
     kind: "displacement",
   },
   mode: {
     label: "Displacement by mode",
     quantity: ({ mode, signed }) =>
       `Displacement from −2 to +2 SD of mode ${mode + 1}${signed ? ", along the normal" : ""}`,
-    help: "What one mode of the region does; of A∖B and B∖A, one of the modes that only A or only B has. Its sign is arbitrary: inwards and outwards may be exchanged.",
+    help: "Displacement of each vertex by one mode of the region; for A∖B and B∖A, one of the exclusive modes of A or B. The sign of a mode is arbitrary: inwards and outwards may be exchanged.",
     kind: "displacement",
   },
   ratio: {
     label: "Variance ratio, A to B",
     quantity: () => "Variance of A over variance of B",
-    help: "1 where A varies twice as much as B, −1 where B varies twice as much as A. The same in all regions.",
+    help: "Binary logarithm of the ratio: 1 where A has twice the variance of B, −1 where B has twice the variance of A. The same in all regions.",
     kind: "ratio",
   },
 };
 
-/** What a number of a map is measured in. */
+/** Unit of a map. */
 export function mapUnit(name: MapName, unit: string): string {
   return name === "ratio" ? "log₂" : unit;
 }
@@ -73,7 +73,7 @@ export function mapCaption(name: MapName, map: ShownAs, unit: string): string {
   return `${MAP_WORDS[name].quantity(map)}, ${mapUnit(name, unit)}`;
 }
 
-/** What either end of a signed scale means; null for sizes. */
+/** Labels of the two ends of a signed scale; null for a scale from 0. */
 export function scaleEnds(name: MapName, signed: boolean): readonly [string, string] | null {
   if (!signed) return null;
   return name === "ratio" ? ["B varies more", "A varies more"] : ["inwards", "outwards"];

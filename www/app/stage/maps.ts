@@ -1,4 +1,4 @@
-/** What is coloured onto the vertices: asked of the engine for all five regions, one scale for all. */
+/** Requests the map that colours the vertices of all five regions, and computes its range. */
 import { batch, computed, effect, signal } from "@preact/signals";
 import { EngineFailure, wasAborted } from "../../worker/engine-errors";
 import type { Ellipsoid, MapName, Region, VertexMap } from "../../worker/protocol";
@@ -21,12 +21,12 @@ import { commonRange, type Palette, symmetricRange } from "../text/colormap";
 import { MAP_WORDS } from "./map-words";
 
 interface Fetched {
-  /** Of which comparison. */
+  /** Key of the comparison. */
   key: string;
   name: MapName;
   mode: number;
   maps: Partial<Record<Region, VertexMap>>;
-  /** Why there are none. */
+  /** Why there are no values. */
   problem: string | null;
 }
 
@@ -39,23 +39,23 @@ export interface ShownMap {
 }
 
 const fetched = signal<Fetched | null>(null);
-/** Set by what shows maps beside the stage. */
+/** Set by dialogs that need the map while the stage shows none. */
 export const mapIsWanted = signal(false);
 
-/** The comparison that can be asked, as it stands: another one once its run has ended. */
+/** The comparison that the engine holds; it counts as another one when its run has ended. */
 const running = computed(() => run.value !== null);
 const asked = computed(
   () => held.value && { key: held.value.key, running: running.value, result: result.value },
 );
 
-/** Only of one comparison: while the next has nothing to say yet, the last one's. */
+/** Whether fetched values are of the chosen map and comparison; those of the last comparison count until the next has some. */
 function answers(found: Fetched): boolean {
   const { name, mode, key } = found;
   if (name !== vertexMap.value || (name === "mode" && mode !== mapMode.value)) return false;
   return held.value === null || held.value.key === key;
 }
 
-/** Standard deviations, whatever is chosen: they come with the shapes. */
+/** The map of standard deviations, which comes with the shapes. */
 export const deviationMap = computed<ShownMap>(() => ({
   name: "sd",
   mode: 0,
@@ -64,7 +64,7 @@ export const deviationMap = computed<ShownMap>(() => ({
   values: deviations(),
 }));
 
-/** The map that is chosen; without values until the engine has sent them. */
+/** The chosen map, without values until the engine has sent them. */
 export const shownMap = computed<ShownMap>(() => {
   const [name, mode] = [vertexMap.value, mapMode.value];
   if (name === "sd") return deviationMap.value;
@@ -85,7 +85,7 @@ export const mapProblem = computed(() => {
   return vertexMap.value !== "sd" && found && answers(found) ? found.problem : null;
 });
 
-/** What came with the shapes: before there is a comparison, of the models. */
+/** Standard deviations that came with the shapes; before a comparison those of the models. */
 function deviations(): ShownMap["values"] {
   const values: ShownMap["values"] = {};
   for (const region of REGIONS) {
@@ -100,7 +100,7 @@ function deviations(): ShownMap["values"] {
   return values;
 }
 
-/** One range for all regions, whether or not they are on show. */
+/** One range for all regions, also those that are not shown. */
 export const ownRange = computed(() => rangeOf(shownMap.value));
 
 export const mapRange = computed(() => ownRange.value && (lockedRange.value ?? ownRange.value));
@@ -109,7 +109,7 @@ export function rangeOf({ signed, values }: ShownMap): [number, number] | null {
   return signed ? symmetricRange(Object.values(values)) : commonRange(Object.values(values));
 }
 
-/** Another quantity has another scale: it does not stay locked. */
+/** Unlocks the scale when another quantity is chosen. */
 export function chooseMap(name: MapName): void {
   batch(() => {
     if (MAP_WORDS[name].kind !== MAP_WORDS[vertexMap.value].kind) lockedRange.value = null;
@@ -125,7 +125,7 @@ interface Question {
 
 const ask = latest(async ({ key, name, mode }: Question) => {
   const { signal: never } = new AbortController();
-  // One that is the same everywhere is asked for once.
+  // A map that is the same in all regions is requested once.
   const once = name === "ratio" ? engineClient().map(never, name, "a", 0) : null;
   const maps: Fetched["maps"] = {};
   let problem: string | null = null;
@@ -144,11 +144,11 @@ const ask = latest(async ({ key, name, mode }: Question) => {
 });
 
 function sentence(thrown: unknown): string {
-  if (!(thrown instanceof EngineFailure)) return "The map could not be made.";
+  if (!(thrown instanceof EngineFailure)) return "The map could not be computed.";
   return `${thrown.message} ${thrown.hint}`.trim();
 }
 
-/** Covariances of the vertex that is looked at. */
+/** Covariances of the chosen vertex. */
 const covariances = signal<{
   key: string;
   vertex: number;
@@ -167,12 +167,12 @@ const askEllipsoids = latest(async ({ key, vertex: number }: { key: string; vert
     const found = await engineClient().ellipsoids(never, number);
     covariances.value = { key, vertex: number, found };
   } catch {
-    // A vertex that is not there has none; beside its field it says so.
+    // A vertex that does not exist has no covariance; its field says so.
     covariances.value = { key, vertex: number, found: {} };
   }
 });
 
-/** How many points the shapes on show have. */
+/** Number of points of the shown shapes. */
 export const pointCount = computed(() => {
   const dimension = slots.a.value?.report.dimension ?? 3;
   const shown = shapes.value.intersection ?? shapes.value.a;
@@ -180,7 +180,7 @@ export const pointCount = computed(() => {
   return mean ? mean.length / dimension : 0;
 });
 
-/** Asks whenever something else is chosen, or the comparison is another one. */
+/** Requests the map and the covariances whenever the choice or the comparison changes. */
 export function watchMaps(): void {
   effect(() => {
     const now = asked.value;
@@ -195,7 +195,7 @@ export function watchMaps(): void {
       askEllipsoids({ key: now.key, vertex: number });
     }
   });
-  // Its answers were of models that are opened anew.
+  // After a restart the models are opened again: the old answers are dropped.
   onEngineRestart(() => {
     fetched.value = null;
   });

@@ -1,4 +1,4 @@
-/** What the five regions are called. */
+/** Names and meanings of the five regions. */
 import type { Region } from "../../worker/protocol";
 import { exaggeration, picture, preview, run, unit, vertexMap, view } from "../state/state";
 import type { ViewMode } from "../state/view";
@@ -17,7 +17,7 @@ export function regionLabel(region: Region): string {
   return `${sign}, ${meaning}`;
 }
 
-/** What a pane shows just now: what its region means, or what else is drawn there. */
+/** What a pane shows now: the meaning of its region, or a preview or picture drawn there instead. */
 export function shownIn(region: Region): string {
   const { meaning } = REGION_NAMES[region];
   if (region === "intersection") {
@@ -35,9 +35,9 @@ const EXCLUSIVE: Record<ViewMode, string> = {
   sd: "expected residual",
 };
 
-/** What is drawn of a difference beside its draws as they are; empty where that is all. */
+/** What a difference shows other than its draws: exaggeration or exclusive modes; empty if only its draws. */
 export function differencePicture(shows: ViewMode = view.value): string {
-  // Maps other than of standard deviations are of the draws, whatever is shown of a difference.
+  // Maps other than standard deviations are always of the draws of a difference.
   const ofDraws = shows === "sd" && vertexMap.value !== "sd";
   return [
     ...(picture.value === "exclusiveModes" && !ofDraws ? [EXCLUSIVE[shows]] : []),

@@ -1,4 +1,4 @@
-/** Keeps a viewer in step with the state: which one, what it shows, and how it is turned. */
+/** Updates the viewer of the five regions when shapes, colours, camera or selection change. */
 import { computed, effect, signal } from "@preact/signals";
 import type { Region } from "../../worker/protocol";
 import { beginStroke, brushRadius, paintAt, undoStroke } from "../models/painting";
@@ -31,13 +31,13 @@ import { listen } from "../viewer/gestures";
 import { type Hit, halfHeightIn, type Rect, type Viewer } from "../viewer/viewer";
 import { ellipsoids, mapRange, type ShownMap, shownMap } from "./maps";
 
-/** What is under the pointer, with its place on the canvas. */
+/** The vertex under the pointer and its position on the canvas. */
 export const hover = signal<(Hit & { x: number; y: number }) | null>(null);
-/** The brush under the pointer: its place on the canvas and its radius there. */
+/** Position and radius of the brush on the canvas. */
 export const brush = signal<{ x: number; y: number; radius: number } | null>(null);
-/** Set while a viewer is there, for pictures. */
+/** The viewer while there is one, for figures. */
 export const viewer = signal<Viewer | null>(null);
-/** Whether a card can have its picture drawn. */
+/** Whether the pictures of the model cards can be drawn. */
 export const drawable = signal(false);
 
 export const scene = computed<Scene>(() => ({
@@ -51,7 +51,7 @@ export const scene = computed<Scene>(() => ({
   ellipsoids: tab.value === "regions" ? ellipsoids.value : {},
 }));
 
-/** Standard deviations come with what is drawn, before and after there is a comparison. */
+/** The map to draw; standard deviations come with the shapes themselves. */
 function mapOf({ name, values, palette }: ShownMap): Scene["map"] {
   return name === "sd" ? undefined : { values, palette };
 }
@@ -62,7 +62,7 @@ const regionsShown = computed<readonly Region[]>(() =>
   alone.value === null ? REGIONS : [alone.value],
 );
 
-/** What is painted on: the mean of A, and nothing else. */
+/** The scene while compared points are painted: the mean of A alone. */
 const canvasOfPaint = computed<Scene>(() => ({
   ...scene.value,
   compared: null,
@@ -72,7 +72,7 @@ const canvasOfPaint = computed<Scene>(() => ({
 }));
 const paintFrame = computed(() => sceneFrame(canvasOfPaint.value));
 
-/** The range of colours; null where shapes are drawn in plain ones. */
+/** The range of the colours; null if shapes are drawn without a map. */
 export const range = computed(() => (view.value === "sd" ? mapRange.value : null));
 
 /** Whether a click chooses a vertex instead of a region. */
@@ -80,7 +80,7 @@ export const picking = signal(false);
 
 let panes = new Map<Region, HTMLElement>();
 
-/** Takes over a canvas; returns how to let go of it. */
+/** Draws on a canvas; returns a function that ends it. */
 export function takeCanvas(
   canvas: HTMLCanvasElement,
   elements: Map<Region, HTMLElement>,
@@ -94,7 +94,7 @@ export function takeCanvas(
     viewer.value = made;
     stops.push(
       effect(() => {
-        // Shapes of another dimension wait for the viewer that replaces this one.
+        // Shapes of another dimension are drawn by the viewer that replaces this one.
         if ((dimension.value === 2) !== flat) return;
         if (painting.value) {
           const content = markedContent(canvasOfPaint.value, painting.value.mask);
@@ -142,7 +142,7 @@ export async function createViewer(canvas: HTMLCanvasElement, flat: boolean): Pr
   const made = flat
     ? new (await viewers.flat()).FlatViewer(canvas)
     : new (await viewers.space()).MeshViewer(canvas);
-  // The other one too: without a network the page still draws whatever is opened.
+  // Both viewers are loaded, so that the page can draw flat and spatial models without a network.
   viewers[flat ? "space" : "flat"]().catch(() => undefined);
   return made;
 }
@@ -165,7 +165,7 @@ function gestures(canvas: HTMLCanvasElement, made: Viewer) {
       camera.value = next;
     },
     flat: () => dimension.peek() === 2,
-    // A frame scrolls with the page around it.
+    // In a frame the wheel scrolls the page around it.
     ownsWheel: () => !embedded.peek() && (wide.matches || alone.peek() !== null),
     pixelsPerRadius: () => {
       const pane = panes.get(alone.peek() ?? "intersection");
@@ -197,7 +197,7 @@ function gestures(canvas: HTMLCanvasElement, made: Viewer) {
   };
 }
 
-/** As wide as the brush is on a surface that faces the eye. */
+/** Radius in pixels of the brush on a surface that faces the camera. */
 function showBrush(canvas: HTMLCanvasElement, x: number, y: number): void {
   const rect = layoutOf(canvas)[2].get("a");
   if (!rect) return;
@@ -224,7 +224,7 @@ export function layoutOf(
   return [whole.width, whole.height, rects];
 }
 
-/** A picture of one model for its card; null until there is something to draw with. */
+/** Picture of the mean of one model for its card; null until the viewer is loaded. */
 export function cardPicture(side: Side, size: number): HTMLCanvasElement | null {
   const geometry = slots[side].value?.geometry;
   const made = viewer.value;

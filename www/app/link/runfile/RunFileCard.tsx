@@ -12,7 +12,7 @@ import {
   useSettingsAnyway,
 } from "./run";
 
-/** Notice of a run file or a link: it waits for its models, or was taken over. */
+/** Notice about a run file or a link: its models are missing, or its settings are in use. */
 export function RunFileCard() {
   if (awaited.value) return <Awaited run={awaited.value} />;
   const shown = repeated.value;
@@ -48,7 +48,7 @@ function label({ link }: ExpectedRun): string {
 
 function Awaited({ run }: { run: ExpectedRun }) {
   const empty = SIDES.every((side) => slots[side].value === null);
-  // While one is being opened, "these" would be others a moment later.
+  // Not while a model is being opened: “these” models would change.
   const complete = SIDES.every((side) => slots[side].value && opening[side].value === null);
   const sentences = [advice.value.a, advice.value.b].flatMap((sentence) => sentence ?? []);
   return (
@@ -72,7 +72,7 @@ function Awaited({ run }: { run: ExpectedRun }) {
             </button>
           )}
           <button type="button" class={complete ? "quiet" : ""} onClick={forgetRunFile}>
-            Forget it
+            Discard
           </button>
         </div>
       </div>
@@ -80,15 +80,15 @@ function Awaited({ run }: { run: ExpectedRun }) {
   );
 }
 
-/** Whether a report was met again, number by number. */
+/** Says whether the result has the same numbers as the report. */
 function Numbers() {
   const found = reproduced.value;
   if (found === undefined || run.value || outOfDate.value) return null;
   return found === null ? (
-    <strong data-reproduced="true">Every number is that of the report.</strong>
+    <strong data-reproduced="true">All numbers are the same as in the report.</strong>
   ) : (
     <strong data-reproduced="false">
-      Not every number is that of the report: {found} differs.
+      Not all numbers are the same as in the report: {found} differs.
     </strong>
   );
 }

@@ -1,37 +1,37 @@
-/** What a run file says of its two models, and whether those that are open are the same. Pure. */
+/** Reads which models a run file or link expects, and compares them with the open ones. Pure. */
 import type { BothSides, ModelReport, Report, RunFile, Settings } from "../../../worker/protocol";
 import { completed } from "../../state/preparation";
 import { DEFAULTS, settingsOf } from "../../state/settings";
 import type { LinkState } from "../link";
 
 export interface ExpectedModel {
-  /** Null where a link leaves it out. */
+  /** Null if a link does not state it. */
   name: string | null;
   part: string | null;
   /** `demo:NAME`, an address, or null for a file of one's own. */
   source: string | null;
-  /** Hash of its content, or the start of it; reports of older engines lack it. */
+  /** Hash of its content, or the start of it; older reports have none. */
   fingerprint: string | null;
 }
 
-/** A run that waits for its models. */
+/** A run file or link whose models are not open yet. */
 export interface ExpectedRun {
   /** Name of its file; null for a link. */
   file: string | null;
-  /** What else a link says. */
+  /** The other keys of a link. */
   link: LinkState | null;
   models: BothSides<ExpectedModel>;
   settings: Settings;
-  /** Version of the engine that wrote it, where it says so. */
+  /** Version of the engine that wrote it, if stated. */
   engine: string | null;
-  /** The numbers, where it is a report. */
+  /** The report, if it is one. */
   report: Report | null;
 }
 
-/** Run files are short; a report of a few hundred modes has a few hundred kilobytes. */
+/** Largest size of a run file or report in bytes: a report of a few hundred modes has a few hundred kilobytes. */
 export const LARGEST_RUN = 16e6;
 
-/** Whether the text of a .json is that of a run file or a report, be it damaged, and no model. */
+/** Whether the text of a .json is a run file or report, possibly damaged, and not a model. */
 export function looksLikeRun(text: string): boolean {
   if (/"shapevenn"\s*:\s*\d/.test(text)) return true;
   return (
@@ -39,7 +39,7 @@ export function looksLikeRun(text: string): boolean {
   );
 }
 
-/** A run as the engine read it from `text`. */
+/** The expected models and settings of a run file that the engine has read. */
 export function expectedRun(
   file: string,
   text: string,
@@ -63,8 +63,8 @@ export function expectedRun(
 }
 
 /**
- * The settings as they were chosen: σ is left to the engine where it had chosen it. Another version of the
- * engine might choose otherwise, and is told the number.
+ * The settings as they were chosen: a recommended σ is recommended again. Another version of the engine might
+ * recommend another σ, so it gets the number.
  */
 function chosen(given: Settings & { sigmaRecommended?: boolean }, same: boolean): Settings {
   const { sigmaRecommended = false, ...rest } = given;
@@ -78,7 +78,7 @@ function chosen(given: Settings & { sigmaRecommended?: boolean }, same: boolean)
   });
 }
 
-/** "same", as far as anybody can tell; "unknown" where no fingerprint says it; "missing": nothing is open. */
+/** Whether the open model is the expected one; "unknown" without a fingerprint, "missing" if nothing is open. */
 export type Verdict = "same" | "other" | "unknown" | "missing";
 
 export interface OpenModel {
@@ -93,11 +93,11 @@ export function verdictOf(expected: ExpectedModel, open: OpenModel | null): Verd
   if (expected.fingerprint !== null && fingerprint) {
     return fingerprint.startsWith(expected.fingerprint) ? "same" : "other";
   }
-  // A run file that was written by hand names only where its models are.
+  // A run file that was written by hand may state only the sources of its models.
   return expected.source !== null && expected.source === open.source ? "same" : "unknown";
 }
 
-/** What is to be done about one of the models; null where it is the right one. */
+/** What to do about one of the models; null if it is the right one. */
 export function adviceOf(
   expected: ExpectedModel,
   open: OpenModel | null,
@@ -123,7 +123,7 @@ export function adviceOf(
   }
 }
 
-/** “male.h5” (3f2a…), with its part where it was not the only one. */
+/** “male.h5” (3f2a…), with its part if the file has several. */
 export function modelWords({ name, part, fingerprint }: ExpectedModel): string {
   const file = name === null ? "a file" : `“${name}”`;
   const named = part !== null && part !== "shape" ? `${file}, ${part}` : file;
@@ -134,13 +134,13 @@ function shortened(fingerprint: string | undefined): string {
   return fingerprint ? `${fingerprint.slice(0, 4)}…` : "unknown";
 }
 
-/** How the numbers of two reports differ: none but what took how long; null where they are the same. */
+/** Path of the first number that differs between two reports, times excepted; null if there is none. */
 export function firstDifference(one: Report, other: Report): string | null {
   return differs({ ...one, seconds: null }, { ...other, seconds: null }, "");
 }
 
 function differs(one: unknown, other: unknown, path: string): string | null {
-  // −0 is written as 0 by some programs that a report may have come through.
+  // Some programs write −0 as 0.
   if (one === other) return null;
   if (!isObject(one) || !isObject(other)) return path;
   for (const key of new Set([...Object.keys(one), ...Object.keys(other)])) {

@@ -1,4 +1,4 @@
-/** Runs again what a run file says: at once where its models are open or can be fetched, else when they are. */
+/** Repeats the comparison of a run file, as soon as its models are open. */
 import { batch, computed, effect, signal } from "@preact/signals";
 import { wasAborted } from "../../../worker/engine-errors";
 import type { DroppedFile } from "../../../worker/protocol";
@@ -47,9 +47,9 @@ import {
   verdictOf,
 } from "./expected";
 
-/** The run whose models are not both open yet. */
+/** The run file whose models are not both open yet. */
 export const awaited = signal<ExpectedRun | null>(null);
-/** The run whose settings were taken over, while they are what is chosen. */
+/** The run file whose settings are in use. */
 const taken = signal<{ run: ExpectedRun; key: string | null; same: boolean } | null>(null);
 
 export const repeated = computed(() => {
@@ -57,17 +57,17 @@ export const repeated = computed(() => {
   return found && found.key === currentKey.value ? found.run : null;
 });
 
-/** Whether its models are the very ones, too. */
+/** Whether its models are the same ones, too. */
 export const sameModels = computed(() => taken.value?.same ?? false);
 
-/** Whether what is shown has the numbers of the report: the first that differs, or null; else undefined. */
+/** Path of the first number of the result that differs from the report, null if none does; undefined if unknown. */
 export const reproduced = computed(() => {
   const [run, shown] = [repeated.value, result.value];
   if (!run?.report || !shown || shown.key !== taken.value?.key) return undefined;
   return firstDifference(run.report, shown.report);
 });
 
-/** What is to be done before the run can begin, by side. */
+/** What to do about each model before the run can start. */
 export const advice = computed(() => {
   const run = awaited.value;
   const kind = run?.link ? "link" : "run file";
@@ -80,7 +80,7 @@ function openAs(side: Side): OpenModel | null {
   return slot && { report: slot.report, source: sourceText(slot.source) };
 }
 
-/** The one of these files that is a run file, with its text. */
+/** The run file among these files, with its text. */
 export async function runAmong(
   files: DroppedFile[],
 ): Promise<{ file: DroppedFile; text: string } | null> {
@@ -92,7 +92,7 @@ export async function runAmong(
   return null;
 }
 
-/** Takes over what the file says. With `models` to come, only the settings and what to expect of them. */
+/** Opens a run file. If its models are opened too, only its settings and expectations are read. */
 export async function openRun(name: string, text: string, models: boolean): Promise<void> {
   dismiss("page");
   try {
@@ -105,22 +105,22 @@ export async function openRun(name: string, text: string, models: boolean): Prom
   }
 }
 
-/** Waits for its models, and opens those of them that can be fetched unless others are to come. */
+/** Waits for the models, and opens those that can be fetched unless other models are opened. */
 async function awaitRun(run: ExpectedRun, models = false): Promise<void> {
   awaited.value = run;
   taken.value = null;
   if (!models) await openPair(fetchable(run, "a"), fetchable(run, "b"));
 }
 
-/** Waits for the files that a link names and does not hold; null where it holds everything. */
+/** Waits for the visitor's own files that a link names; null if it names none. */
 export function awaitLink(link: LinkState): Promise<void> | null {
   const run = expectedByLink(link);
-  // Nobody waits for a former link any more.
+  // An earlier link is no longer waited for.
   if (awaited.peek()?.link) awaited.value = null;
   return run && awaitRun(run);
 }
 
-/** What the run file says where to find, unless it is open. */
+/** Opens the models whose source the run file states, unless they are open. */
 function fetchable(run: ExpectedRun, side: Side): Wanted | null {
   const { source, part } = run.models[side];
   const demo = /^demo:(.+)/.exec(source ?? "")?.[1];
@@ -133,9 +133,9 @@ function fetchable(run: ExpectedRun, side: Side): Wanted | null {
   return wanted && slot && isOpen(slot, wanted) ? null : wanted;
 }
 
-/** Whenever other models are open: whether they are those of the run that waits. */
+/** Starts the waiting run when its models are open. */
 export function watchRunFile(): void {
-  /** The step of the history in which its models were not there yet. */
+  /** The step of the history before its models were opened. */
   let waitedAt: number | null = null;
   effect(() => {
     const run = awaited.value;
@@ -143,11 +143,11 @@ export function watchRunFile(): void {
     const { a, b } = { a: openAs("a"), b: openAs("b") };
     if (run === null) waitedAt = null;
     if (run === null || busy) return;
-    // Once the step that opened them is written down.
+    // After the step that opened the models is saved.
     queueMicrotask(() => {
       if (awaited.peek() !== run) return;
       if (isSame(run.models.a, a) && isSame(run.models.b, b)) {
-        // Opening the models and what they are opened for are undone together.
+        // Opening the models and starting the run are undone together.
         takeOver(run, waitedAt === null ? null : waitedAt + 1);
       } else {
         waitedAt = currentStep();
@@ -165,7 +165,7 @@ function isSame(expected: ExpectedModel, open: OpenModel | null): boolean {
   return verdictOf(expected, open) === "same";
 }
 
-/** Its models may be open in other places: on the model list, or the other way round, or as another part of their file. */
+/** Finds the expected models elsewhere: on the model list, with A and B exchanged, or as another part of their file. */
 async function takeFromModelList(run: ExpectedRun): Promise<void> {
   const found = (side: Side): Wanted | null => {
     const expected = run.models[side];
@@ -181,7 +181,7 @@ async function takeFromModelList(run: ExpectedRun): Promise<void> {
   if (complete && (a || b)) await openPair(a, b);
 }
 
-/** The part that is expected, of an open file of that name of which only other parts are open. */
+/** The expected part of an open file of that name, of which other parts are open. */
 function partOf({ name, part }: ExpectedModel): Wanted | null {
   if (name === null || part === null) return null;
   const files = modelList.value.filter(({ source }) => nameOf(source) === name);
@@ -189,7 +189,7 @@ function partOf({ name, part }: ExpectedModel): Wanted | null {
   return file && files.every((one) => one.part !== part) ? { ...wantedOf(file), part } : null;
 }
 
-/** Its settings become those of the page, as a part of a step or as one of their own. */
+/** Applies its settings, as part of a step of undo or as a step of their own. */
 function takeOver(run: ExpectedRun, step: number | null, same = true): void {
   const change = () => {
     if (run.link) take(run.link);
@@ -199,12 +199,12 @@ function takeOver(run: ExpectedRun, step: number | null, same = true): void {
   };
   if (step === null) batch(change);
   else joinStep(change, step);
-  spoken.value = `The settings of ${run.file ?? "the link"} are taken over.`;
+  spoken.value = `The settings of ${run.file ?? "the link"} are in use.`;
 }
 
-/** Whatever models are open: its settings for them. */
+/** Applies its settings to the models that are open. */
 export function useSettingsAnyway(): void {
-  // Of other models its numbers cannot be expected.
+  // Other models cannot give the same numbers.
   if (awaited.value) takeOver({ ...awaited.value, report: null }, null, false);
 }
 

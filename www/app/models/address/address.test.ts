@@ -1,4 +1,4 @@
-/** Which file an address means, and what is refused, in words. */
+/** Tests which file an address means, and with what words addresses are refused. */
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { EngineFailure } from "../../../worker/engine-errors";

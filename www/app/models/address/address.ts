@@ -1,21 +1,21 @@
-/** Which file an address means, and whether a page may ask for it. Pure. */
+/** Turns the address of a model into that of its file, and refuses addresses that no page can read. Pure. */
 import { insecure, keptFromOthers, noAddress } from "./failures";
 
-/** Whether a value of `a=` or `b=` is an address at all: of the web, or beside the page. */
+/** Whether a value of `a=` or `b=` is an address: of the web, or relative to the page. */
 export function looksLikeAddress(text: string): boolean {
   return /^https?:\/\/./i.test(text) || (/^[^\s:]/.test(text) && !/^[^/?#]*:/.test(text));
 }
 
-/** The file that is meant; throws where no page could read it. `page` is the address of this one. */
+/** The address of the file; throws if no page can read it. `page` is the address of this page. */
 export function fileAddress(text: string, page: string): URL {
   if (!looksLikeAddress(text) || !URL.canParse(text, page)) throw noAddress(text);
   const url = itself(new URL(text, page));
-  // Of the page's own site nothing else is known than of the page.
+  // Files of the page's own site are as safe as the page.
   if (url.origin !== new URL(page).origin && !isTrustworthy(url)) throw insecure(url);
   return url;
 }
 
-/** As browsers have it: encrypted, or of this very computer. */
+/** Whether an address is secure as browsers define it: encrypted, or of this computer. */
 function isTrustworthy({ protocol, hostname }: URL): boolean {
   if (protocol === "https:") return true;
   return /^(localhost|.+\.localhost|127(\.\d+){3}|\[::1\])$/.test(hostname);
@@ -24,7 +24,7 @@ function isTrustworthy({ protocol, hostname }: URL): boolean {
 interface Rule {
   host: RegExp;
   path: RegExp;
-  /** The address of the file, by the parts of the path; or throws. */
+  /** Returns the address of the file from the parts of the path, or throws. */
   file: (parts: string[], page: URL) => string;
 }
 
@@ -98,7 +98,7 @@ function whole(path: string): string {
   return encodeURIComponent(decoded(path));
 }
 
-/** What a file is called, by the address that people see. */
+/** Name of a file, taken from its address. */
 export function fileName(address: string): string {
   const path = address.split(/[?#]/)[0] ?? "";
   const pieces = path.split("/").filter((piece) => piece !== "");

@@ -1,10 +1,10 @@
-/** Whether what is found at an address is still what the link was made with. */
+/** Checks whether the file at an address is still the one that the link was made with. */
 import { computed, effect, untracked } from "@preact/signals";
 import { dismiss, linked, notify, SIDES, type Side, slots, spoken } from "../../state/state";
 import { nameOf } from "../sources";
 import { HASH_DIGITS } from "./codec";
 
-/** What is other than it was, in a sentence for each side. */
+/** A sentence for each model that has changed since the link was made. */
 const differences = computed(() => SIDES.flatMap((side) => difference(side) ?? []));
 
 function difference(side: Side): string | null {
@@ -12,7 +12,7 @@ function difference(side: Side): string | null {
   if (slot?.source.kind !== "url" || models?.urls?.[side] !== slot.source.url) return null;
   const found = slot.report.fingerprint?.slice(0, HASH_DIGITS);
   const expected = models.hashes[side];
-  // A link asks for one part of a file; who chooses another one knows.
+  // Not checked if the visitor chose another part of the file than the link names.
   const part = models.parts[side] ?? slot.parts[0];
   if (!found || !expected || found.startsWith(expected) || slot.part !== part) return null;
   return `“${nameOf(slot.source)}” is not what the link was made with: its fingerprint is ${found}, ${expected} was expected.`;
@@ -31,7 +31,7 @@ function tell(message: string): void {
     return;
   }
   const hint =
-    "The file there was changed since. It stays open, but the numbers may differ from those of whoever made the link.";
+    "The file has changed since. It stays open, but the numbers may differ from those that the link was made with.";
   notify("content", "other-content", message, hint);
   spoken.value = `${message} ${hint}`;
 }

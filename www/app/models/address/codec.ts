@@ -1,12 +1,12 @@
 /**
- * How a link says which two models are compared: a pair that comes with the page, addresses, or the names and
- * fingerprints of files that no link can hold. Pure.
+ * Writes and reads the two models of a link: a pair that comes with the page, addresses, or names and fingerprints
+ * of the visitor's own files. Pure.
  */
 import { DEMO_MODELS } from "../../state/demos";
 import { type Each, type LinkedModels, noLinkedModels } from "../../state/linked-models";
 import { looksLikeAddress } from "./address";
 
-/** Digits of a fingerprint in a link: enough that nobody meets two models that share them. */
+/** Digits of a fingerprint in a link: enough that two models hardly ever share them. */
 export const HASH_DIGITS = 16;
 
 export function writeModels(models: LinkedModels): [string, string][] {
@@ -31,7 +31,7 @@ export function readModels(given: URLSearchParams): LinkedModels {
   const urls = each((side) => addressIn(given, side));
   const names = each((side) => (given.has(side) ? null : given.get(`name-${side}`) || null));
   const hashes = each((side) => hashIn(given.get(`hash-${side}`)));
-  // Without an address, a name or a hash nothing is said of a model.
+  // Without an address, a name or a hash the link names no model.
   const said = each(
     (side) => urls[side] ?? (given.has(side) ? null : (names[side] ?? hashes[side])),
   );
@@ -39,7 +39,7 @@ export function readModels(given: URLSearchParams): LinkedModels {
   return { urls, parts, names, hashes };
 }
 
-/** Which of the addresses that a link gives are none, as `key=value`. */
+/** The invalid addresses of a link, as `key=value`. */
 export function misreadAddresses(given: URLSearchParams): string[] {
   return (["a", "b"] as const).flatMap((side) =>
     given.has(side) && addressIn(given, side) === null ? [`${side}=${given.get(side)}`] : [],

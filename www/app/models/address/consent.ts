@@ -1,27 +1,27 @@
 /** Asks before a large file is downloaded. */
 import { signal } from "@preact/signals";
 
-/** Models of teaching size come without a question. */
+/** Files up to this size are downloaded without asking. */
 export const UNASKED_BYTES = 50e6;
 
 export interface Question {
   name: string;
   host: string;
-  /** Null where the host does not say: more than UNASKED_BYTES. */
+  /** Size; null if the host does not state it: more than UNASKED_BYTES. */
   bytes: number | null;
   answer: (yes: boolean) => void;
 }
 
 export const questions = signal<Question[]>([]);
 
-/** As long as the page lives nobody is asked twice about the same address. */
+/** Addresses that were agreed to: nobody is asked twice. */
 const allowed = new Set<string>();
 
 export function isAllowed(url: URL): boolean {
   return allowed.has(url.href);
 }
 
-/** Resolves once the download is wanted; rejects as a cancelled one does where it is not. */
+/** Resolves if the download is wanted; rejects like a cancelled one if not. */
 export async function askFirst(signal: AbortSignal, url: URL, name: string, bytes: number | null) {
   signal.throwIfAborted();
   let put: Question | null = null;

@@ -1,4 +1,4 @@
-/** What can be wrong with an address or with what it answers, in words. Pure. */
+/** Error sentences about the address of a model or the answer of its host. Pure. */
 import { EngineFailure } from "../../../worker/engine-errors";
 import { bytes as size } from "../../text/format";
 import type { Pointer } from "./lfs";
@@ -12,7 +12,7 @@ function failure(code: string, message: string, hint: string): EngineFailure {
 export function noAddress(text: string): EngineFailure {
   return failure(
     "no-address",
-    `“${text}” is no address of a file; https://host/path/model.h5 was expected.`,
+    `“${text}” is not the address of a file; https://host/path/model.h5 was expected.`,
     "Copy the address of the file itself.",
   );
 }
@@ -25,7 +25,7 @@ export function insecure({ href, hostname }: URL): EngineFailure {
   );
 }
 
-/** Hosts that are known to keep their files from other sites. */
+/** Error for hosts that are known not to let other sites read their files. */
 export function keptFromOthers({ href }: URL, host: string): EngineFailure {
   return failure(
     "not-shared",
@@ -34,7 +34,7 @@ export function keptFromOthers({ href }: URL, host: string): EngineFailure {
   );
 }
 
-/** Browsers say no more than that there was no readable answer. */
+/** Error for an answer that cannot be read; browsers do not tell the reason. */
 export function unread({ href, host }: URL, online: boolean): EngineFailure {
   if (!online) {
     return failure(
@@ -84,7 +84,7 @@ export function brokenOff({ href }: URL, arrived: number, of: number | null): En
   const whole = of === null ? "" : ` of ${size(of)}`;
   return failure(
     "broken-off",
-    `${href} broke off after ${size(arrived)}${whole}.`,
+    `The download of ${href} ended after ${size(arrived)}${whole}.`,
     "Check the connection and try again.",
   );
 }
@@ -92,7 +92,7 @@ export function brokenOff({ href }: URL, arrived: number, of: number | null): En
 export function pointerOnly({ href }: URL, pointer: Pointer): EngineFailure {
   return failure(
     "lfs-pointer",
-    `${href} is not the model but a Git LFS pointer to it: a note of ${size(pointer.size)} that are kept elsewhere.`,
+    `${href} is not the model but a Git LFS pointer to it: the file of ${size(pointer.size)} is stored elsewhere.`,
     `Use the address of the page’s own download button, or ${DROP}.`,
   );
 }
@@ -106,6 +106,6 @@ export function otherThanPointer(
   return failure(
     "lfs-content",
     `${href} is not what its Git LFS pointer says: ${what} ${expected} was expected, ${found} arrived.`,
-    "Try again; if it stays so, the repository is damaged: tell whoever keeps it.",
+    "Try again. If it fails again, the repository is damaged: tell its owner.",
   );
 }

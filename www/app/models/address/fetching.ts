@@ -1,11 +1,11 @@
-/** Downloads a model from its address, and makes sure that it is one as far as that can be told. */
+/** Downloads the file of a model from its address, after asking if it is large, and checks that it is not a web page. */
 import type { DroppedFile } from "../../../worker/protocol";
 import { fileAddress, fileName } from "./address";
 import { askFirst, isAllowed, UNASKED_BYTES } from "./consent";
 import { brokenOff, otherThanPointer, pointerOnly, refused, unread, webPage } from "./failures";
 import { behindPointer, LONGEST_POINTER, type Pointer, pointerIn } from "./lfs";
 
-/** `of` is null where the host does not say how much is to come. */
+/** `of` is null if the host does not state the size. */
 export type OnArrived = (bytes: number, of: number | null) => void;
 
 export async function fetchModel(
@@ -25,7 +25,7 @@ export async function fetchModel(
   return { name, blob: file };
 }
 
-/** Asks before it downloads what is large, also when that shows only on the way. */
+/** Downloads a file; asks before a large one, also if its size shows only during the download. */
 async function fetchWhole(
   signal: AbortSignal,
   url: URL,
@@ -36,12 +36,12 @@ async function fetchWhole(
     const most = isAllowed(url) ? Number.POSITIVE_INFINITY : UNASKED_BYTES;
     const found = await fetchUpTo(most, signal, url, onArrived);
     if (found instanceof Blob) return found;
-    // The answer is not kept waiting, since hosts give up on those who do not read.
+    // The connection is closed while the page asks, since hosts end connections that are not read.
     await askFirst(signal, url, name, found.bytes);
   }
 }
 
-/** The file, or how large it is if it is larger than that. */
+/** The file, or its size if it is larger than `most`. */
 async function fetchUpTo(
   most: number,
   signal: AbortSignal,
@@ -63,7 +63,7 @@ async function fetchUpTo(
   if (promised > most) return stop({ bytes: promised });
   const pieces: Uint8Array<ArrayBuffer>[] = [];
   let arrived = 0;
-  // What was packed for the journey is longer than was promised.
+  // A compressed response is longer than its stated size.
   const of = () => (arrived <= promised ? promised : null);
   const reader = response.body.getReader();
   for (;;) {
@@ -80,7 +80,7 @@ async function fetchUpTo(
   }
 }
 
-/** By its content: many hosts call every file a page, or no page one. */
+/** Whether the content is a web page: the content types of many hosts are wrong. */
 function isWebPage(start: Uint8Array): boolean {
   const text = new TextDecoder().decode(start.subarray(0, 512));
   return /^\s*(<!--[^>]*-->\s*)?<(!doctype\s+html|html|head)\b/i.test(text);
@@ -88,7 +88,7 @@ function isWebPage(start: Uint8Array): boolean {
 
 async function mustBe(file: Blob, { size, sha256 }: Pointer, url: URL): Promise<void> {
   if (file.size !== size) throw otherThanPointer(url, "size", `${size}`, `${file.size}`);
-  // A page that is not encrypted is given no hashes by the browser.
+  // Browsers offer no hashes to pages that are not encrypted.
   if (!isSecureContext) return;
   const digest = await crypto.subtle.digest("SHA-256", await file.arrayBuffer());
   const found = [...new Uint8Array(digest)].map((byte) => byte.toString(16).padStart(2, "0"));

@@ -1,6 +1,6 @@
 /**
- * Git LFS keeps large files beside a repository and puts a pointer in their place: a short text with the
- * SHA-256 and the size of what is meant. Pure. See github.com/git-lfs/git-lfs/blob/main/docs/spec.md.
+ * Reads Git LFS pointers: short texts with the SHA-256 and the size of a large file that is stored outside of the
+ * repository. Pure. See github.com/git-lfs/git-lfs/blob/main/docs/spec.md.
  */
 export interface Pointer {
   sha256: string;
@@ -12,7 +12,7 @@ export const LONGEST_POINTER = 1024;
 
 const FIRST_LINE = "version https://git-lfs.github.com/spec/v1\n";
 
-/** What a text points to; null where it is no pointer. */
+/** The pointer in a text; null if it is none. */
 export function pointerIn(text: string): Pointer | null {
   if (text.length >= LONGEST_POINTER || !text.startsWith(FIRST_LINE)) return null;
   const sha256 = /^oid sha256:([0-9a-f]{64})$/m.exec(text)?.[1];
@@ -20,7 +20,7 @@ export function pointerIn(text: string): Pointer | null {
   return sha256 && size ? { sha256, size: Number(size) } : null;
 }
 
-/** Where the file itself is; null where that cannot be known. The host of GitHub's sends `*` to other sites. */
+/** Address of the file itself; null if unknown. The host for GitHub lets all sites read its files. */
 export function behindPointer(url: URL): URL | null {
   if (url.host !== "raw.githubusercontent.com") return null;
   return new URL(`https://media.githubusercontent.com/media${url.pathname}`);

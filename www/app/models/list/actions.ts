@@ -1,4 +1,4 @@
-/** Putting models on the model list, taking them from it, and choosing which two of them are compared. */
+/** Adds models to the model list, removes them, and chooses which two of them are compared. */
 import { EngineFailure, sentenceOf, wasAborted } from "../../../worker/engine-errors";
 import { report } from "../../state/engine";
 import {
@@ -20,15 +20,15 @@ import {
 import { currentStep, joinStep } from "../../state/undo";
 import { choosing, forget, openPair } from "../opening";
 import { first, isOpen, type NamedSource, nameOf, openWanted, wantedOf } from "../sources";
-import { carry, closeUnused, putDown } from "./handles";
+import { closeUnused, release, retain } from "./handles";
 import { pairSettings } from "./measures";
 import { arranged, isSame, isUsed, withModels } from "./order";
 
 let opening: AbortController | null = null;
 
 /**
- * Opens models one after the other and puts them on the model list at once, so that one step undoes it: that of
- * the history given, if it still is the present one.
+ * Opens models one after the other and adds all of them to the model list in one step of undo: the given step of
+ * the history, if it still is the present one.
  */
 export async function addModels(wanted: Wanted[], step: number | null = null): Promise<void> {
   dismiss("page");
@@ -39,39 +39,39 @@ export async function addModels(wanted: Wanted[], step: number | null = null): P
   };
   if (step === null) add();
   else joinStep(add, step);
-  putDown(added.map(({ model }) => model));
+  release(added.map(({ model }) => model));
   if (added.length > 0) spoken.value = `${modelList.value.length} models are open.`;
 }
 
-/** Models that a link or a step of the history has on the model list, in its order. */
+/** Opens the models that a link or a step of the history has on the model list, in its order. */
 export async function restoreModelList(wanted: Wanted[]): Promise<void> {
   const begun = currentStep();
   const added = await openAll(wanted);
   if (added === null) return;
   joinStep(() => arrange(wanted, added), begun);
-  putDown(added.map(({ model }) => model));
+  release(added.map(({ model }) => model));
 }
 
-/** Of the models that are open, these, in this order, and the two that are compared. */
+/** Reduces the model list to these models, in this order, and the two that are compared. */
 export function arrange(wanted: Wanted[], added: readonly Slot[] = []): void {
   const open = withModels(modelList.value, added);
   const keys = wanted.flatMap((one) => open.find((slot) => isOpen(slot, one)) ?? []).map(slotKey);
   modelList.value = arranged(open, keys, { a: slots.a.value, b: slots.b.value });
 }
 
-/** Ends the opening; what is open by then stays. */
+/** Cancels the opening of further models; those that are open stay. */
 export function cancelAdding(): void {
   opening?.abort("enough");
 }
 
-/** Ends the opening, and nothing of it is wanted any more. */
+/** Cancels the opening and drops its models. */
 export function giveUpAdding(): void {
   opening?.abort("discard");
   opening = null;
   addingModels.value = null;
 }
 
-/** Those that are not on the model list yet; each is carried. Null where nobody wants them any more. */
+/** Opens the models that are not on the list yet and holds them; null if the opening was dropped. */
 async function openAll(wanted: Wanted[]): Promise<Slot[] | null> {
   giveUpAdding();
   const controller = new AbortController();
@@ -89,7 +89,7 @@ async function openAll(wanted: Wanted[]): Promise<Slot[] | null> {
     tell(null);
     try {
       const slot = await openWanted(signal, one, tell);
-      carry(slot.model);
+      retain(slot.model);
       added.push(slot);
     } catch (thrown) {
       if (!signal.aborted && !wasAborted(thrown)) failed.push({ name, thrown });
@@ -100,7 +100,7 @@ async function openAll(wanted: Wanted[]): Promise<Slot[] | null> {
     addingModels.value = null;
   }
   if (signal.reason === "discard") {
-    putDown(added.map(({ model }) => model));
+    release(added.map(({ model }) => model));
     return null;
   }
   tellFailed(failed);
@@ -119,7 +119,7 @@ function tellFailed(failed: { name: string; thrown: unknown }[]): void {
   report("page", failed.length === 1 ? one.thrown : all);
 }
 
-/** Takes one from the model list; those that are compared stay. */
+/** Removes a model from the model list; the two that are compared stay. */
 export function removeModel(slot: Slot): void {
   if (isSame(slot, slots.a.value) || isSame(slot, slots.b.value)) return;
   modelList.value = modelList.value.filter((one) => !isSame(one, slot));
@@ -127,14 +127,14 @@ export function removeModel(slot: Slot): void {
   spoken.value = `${nameOf(slot.source)} is closed. It can be undone.`;
 }
 
-/** Leaves only the two that are compared. */
+/** Removes all models but the two that are compared. */
 export function keepCompared(): void {
   const { a, b } = { a: slots.a.value, b: slots.b.value };
   modelList.value = modelList.value.filter((slot) => isSame(slot, a) || isSame(slot, b));
   closeUnused();
 }
 
-/** Compares the pair of a cell, as the cell has it, and shows its regions. */
+/** Compares the pair of a cell with the settings of the table, and shows its regions. */
 export async function comparePair(a: Slot, b: Slot): Promise<void> {
   const change = (side: Side, slot: Slot) =>
     isSame(slot, slots[side].value) ? null : wantedOf(slot);
@@ -149,7 +149,7 @@ export async function comparePair(a: Slot, b: Slot): Promise<void> {
   });
 }
 
-/** Makes a model of the model list A or B; the two change places where it was the other one. */
+/** Chooses a model of the list as A or B; if it was the other one, A and B are exchanged. */
 export async function chooseFor(side: Side, slot: Slot): Promise<void> {
   const other = side === "a" ? "b" : "a";
   const former = slots[side].value;
@@ -158,7 +158,7 @@ export async function chooseFor(side: Side, slot: Slot): Promise<void> {
   await openPair(wanted.a ?? null, wanted.b ?? null);
 }
 
-/** What was dropped goes on the model list, all of it; `a` and `b` of it are compared, null keeps what is. */
+/** Adds all dropped models to the model list; `a` and `b` of them are compared, null keeps the present one. */
 export async function openEvery(
   models: NamedSource[],
   a: Source | null,
@@ -166,15 +166,15 @@ export async function openEvery(
 ): Promise<void> {
   choosing.value = null;
   tab.value = "models";
-  // A pair that came with the page makes way; what somebody opened stays beside the rest.
+  // A pair that came with the page is removed; models that the visitor opened stay.
   const former = isUsed(modelList.value) || demo.value !== null ? [] : [...modelList.value];
-  for (const { model } of former) carry(model);
+  for (const { model } of former) retain(model);
   const begun = currentStep();
   const changed = await openPair(a && first(a), b && first(b), () => {
     forget()();
     modelList.value = withModels(former, modelList.value);
   });
-  putDown(former.map(({ model }) => model));
+  release(former.map(({ model }) => model));
   const wanted = models.map(({ source }) => first(source));
   await addModels(wanted, changed ? begun + 1 : null);
 }

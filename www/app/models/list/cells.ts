@@ -1,7 +1,7 @@
-/** Colours of cells, and how the keyboard goes from one to another. Pure. */
+/** Colours of the cells of the table of pairs, and the cell that an arrow key leads to. Pure. */
 import { viridis } from "../../text/colormap";
 
-/** Background and a colour of text that can be read on it. */
+/** Background of a cell and a colour of text with enough contrast. */
 export function colourOf(
   value: number,
   [low, high]: readonly [number, number],
@@ -21,7 +21,7 @@ export function luminance(colour: readonly [number, number, number]): number {
   return 0.2126 * (red ?? 0) + 0.7152 * (green ?? 0) + 0.0722 * (blue ?? 0);
 }
 
-/** The cell that a key leads to from another; null for keys that mean nothing here. */
+/** The cell that a key leads to; null for other keys. */
 export function moved(
   [row, column]: readonly [number, number],
   key: string,

@@ -1,12 +1,12 @@
-/** The table of several models as text that any spreadsheet reads: numbers unrounded. Pure. */
+/** Writes the table of pairs as CSV, with unrounded numbers. Pure. */
 import type { Relation } from "../../../worker/protocol";
 import { csvText } from "../../text/csv";
 import { MEASURE_NAMES, MEASURES, type MeasureName } from "./measures";
 
-/** `relation(i, j)` of the models called `names`; null where it is not known. */
+/** `relation(i, j)` of the models called `names`; null if it is not computed. */
 type Relations = (row: number, column: number) => Relation | null;
 
-/** One number for each pair, rows and columns named. */
+/** One measure as a table with a row and a column for each model. */
 export function matrixCsv(names: string[], relation: Relations, measure: MeasureName): string {
   const { label, value } = MEASURES[measure];
   return csvText([
@@ -18,7 +18,7 @@ export function matrixCsv(names: string[], relation: Relations, measure: Measure
   ]);
 }
 
-/** One line for each ordered pair, with everything that is known of it. */
+/** One line for each ordered pair, with all measures. */
 export function pairsCsv(names: string[], units: string[], relation: Relations): string {
   const lines = names.flatMap((a, row) =>
     names.flatMap((b, column) => {

@@ -1,24 +1,24 @@
-/** Closes models in the engine that nothing refers to any more: neither A, B, the model list nor who opens them. */
+/** Closes models in the engine that are no longer used: neither as A or B, nor in the model list, nor while being opened. */
 import type { Handle } from "../../../worker/protocol";
 import { engineClient } from "../../state/engine";
 import { modelList, slots } from "../../state/state";
 
 const open = new Set<Handle>();
-/** Models on their way to a place, each as often as somebody carries it. */
-const carried = new Map<Handle, number>();
+/** Models that are being opened, with the number of their users. */
+const retained = new Map<Handle, number>();
 
-/** Nobody closes this model until it is put down. */
-export function carry(model: Handle): void {
+/** Keeps a model open until it is released. */
+export function retain(model: Handle): void {
   open.add(model);
-  carried.set(model, (carried.get(model) ?? 0) + 1);
+  retained.set(model, (retained.get(model) ?? 0) + 1);
 }
 
-/** It has found its place, or nobody wanted it after all. */
-export function putDown(models: readonly Handle[]): void {
+/** Releases a model that was kept open. */
+export function release(models: readonly Handle[]): void {
   for (const model of models) {
-    const left = (carried.get(model) ?? 0) - 1;
-    if (left > 0) carried.set(model, left);
-    else carried.delete(model);
+    const left = (retained.get(model) ?? 0) - 1;
+    if (left > 0) retained.set(model, left);
+    else retained.delete(model);
   }
   closeUnused();
 }
@@ -28,14 +28,14 @@ export function closeUnused(): void {
     [slots.a.peek(), slots.b.peek(), ...modelList.peek()].map((slot) => slot?.model),
   );
   for (const model of [...open]) {
-    if (used.has(model) || carried.has(model)) continue;
+    if (used.has(model) || retained.has(model)) continue;
     open.delete(model);
     engineClient().close(model);
   }
 }
 
-/** With its worker went every model. */
+/** Forgets all handles: a new worker has no models. */
 export function forgetHandles(): void {
   open.clear();
-  carried.clear();
+  retained.clear();
 }

@@ -1,4 +1,4 @@
-/** Closed-form measures of every pair of open models, computed pair by pair while the table is on show. */
+/** Computes closed-form measures of every pair of open models, pair by pair, while the table is shown. */
 import { computed, effect, signal } from "@preact/signals";
 import {
   EngineFailure,
@@ -11,26 +11,26 @@ import { engineClient } from "../../state/engine";
 import { modelList, reopening, type Slot, settings, slotKey, tab } from "../../state/state";
 import { ITSELF, type MeasureName, pairSettings, relationKey } from "./measures";
 
-/** Which number of each pair is shown. */
+/** The measure that is shown. */
 export const measure = signal<MeasureName>("variance");
 
-/** Somebody ended the work on the table. */
+/** Whether the visitor stopped the computation of the table. */
 export const paused = signal(false);
 
 interface Known {
   relation: Relation;
-  /** Settings under which it holds, without and with those that matter to the gaussianKey only. */
+  /** Keys of the settings on which it depends, without and with those that concern the Gaussians only. */
   base: string;
   gaussianKey: string;
 }
 
-/** What each pair was last found to be, by the keys of its models. It stays until something newer is known. */
+/** The last computed relation of each pair, by the keys of its models. */
 const known = signal<ReadonlyMap<string, Known>>(new Map());
-/** Everything that was found, for settings that are chosen again. */
+/** All computed relations, for settings that are chosen again. */
 const memory = new Map<string, Relation>();
 const MOST_REMEMBERED = 5000;
 
-/** How long the table waits for the next change before it is worked out. */
+/** Milliseconds without a change after which the table is computed. */
 const SETTLE_MS = 300;
 
 const wants = computed(() => ({
@@ -45,7 +45,7 @@ function pairOf(row: Slot, column: Slot): string {
 
 export interface Cell {
   relation: Relation | null;
-  /** Found with other settings than are chosen. */
+  /** Whether it was computed with other settings than the chosen ones. */
   stale: boolean;
 }
 
@@ -67,7 +67,7 @@ const pairs = computed(() =>
   ),
 );
 
-/** How many pairs are known as the settings want them, of how many. */
+/** Number of pairs that are computed with the present settings, and of all pairs. */
 export const progress = computed(() => {
   const done = pairs.value.filter((pair) => {
     const found = known.value.get(pairOf(...pair));
@@ -76,7 +76,7 @@ export const progress = computed(() => {
   return { done: done.length, of: pairs.value.length };
 });
 
-/** Works on the table whenever it is looked at and something of it is not known. */
+/** Computes missing pairs of the table whenever it is shown. */
 export function watchMatrix(): void {
   let timer: ReturnType<typeof setTimeout> | undefined;
   let controller = new AbortController();
@@ -89,7 +89,7 @@ export function watchMatrix(): void {
     const changed = `${models.value} ${base} ${betweenGaussians ? gaussianKey : ""}`;
     clearTimeout(timer);
     controller.abort();
-    // Whoever comes back to it wants all of it.
+    // Returning to the table continues a stopped computation.
     if (tab.value !== "models") paused.value = false;
     if (!looked || changed === "") return;
     controller = new AbortController();
@@ -121,13 +121,13 @@ async function relateAll(signal: AbortSignal): Promise<void> {
       remember(memoryKey, relation);
       known.value = new Map(known.peek()).set(key, { relation, base, gaussianKey });
     } catch {
-      // Ended on purpose, or the engine is gone and says so: the rest is asked for when it is back.
+      // Cancelled, or the engine was restarted: the rest is computed later.
       return;
     }
   }
 }
 
-/** What the engine refuses outright stands in the cell like what cannot be compared. */
+/** The relation of a pair; an error of the engine becomes the problem of its cell. */
 async function relate(
   signal: AbortSignal,
   row: Slot,
@@ -158,7 +158,7 @@ const UNRELATED: Relation = {
   bhattacharyya: null,
 };
 
-/** The oldest are forgotten first. */
+/** Stores a relation; the oldest ones are dropped first. */
 function remember(memoryKey: string, relation: Relation): void {
   memory.delete(memoryKey);
   memory.set(memoryKey, relation);

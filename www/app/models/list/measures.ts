@@ -1,4 +1,4 @@
-/** What the table of several models can show of a pair, and with which settings. Pure. */
+/** The measures that the table of pairs can show, with their explanations and settings. Pure. */
 import type { Relation, Settings } from "../../../worker/protocol";
 import { UNPREPARED } from "../../state/preparation";
 import { DEFAULTS, settingsKey } from "../../state/settings";
@@ -14,22 +14,22 @@ export type MeasureName =
 
 export interface Measure {
   label: string;
-  /** What a number of it means, for row and column. */
+  /** Explanation of the measure, for row and column. */
   help: string;
-  /** The number of one pair, in a sentence. */
+  /** Sentence with the value of one pair. */
   sentence: (row: string, column: string, text: string, noise: string) => string;
   value: (relation: Relation) => number | null;
   text: (value: number, unit: string) => string;
-  /** Of its scale; lengths have that of the row's model. */
+  /** Unit; lengths have that of the row's model. */
   unit: "" | "rad" | "°" | "length";
-  /** Where its colours end, if that is known beforehand. */
+  /** Upper end of its colours, if fixed. */
   most: number | null;
 }
 
 export const MEASURES: Record<MeasureName, Measure> = {
   variance: {
     label: "Share of variance",
-    help: "How much of the variance of the row’s model the column’s can make: 100\u202f% where it can follow every variation. It is not the same the other way round.",
+    help: "Share of the variance of the row’s model that the column’s model can make; 100\u202f% if it has all directions. Not symmetric.",
     sentence: (row, column, text) => `${column} can make ${text} of the variance of ${row}.`,
     value: ({ varianceOfAInB }) => varianceOfAInB,
     text: (value) => percent(value),
@@ -38,7 +38,7 @@ export const MEASURES: Record<MeasureName, Measure> = {
   },
   grassmann: {
     label: "Grassmann distance (paper)",
-    help: "Affine Grassmann distance of the two shape spaces as the paper computes it: 0 where one lies in the other. How far apart parallel spaces are does not count.",
+    help: "Affine Grassmann distance of the two shape spaces as the paper computes it: 0 if one contains the other. The distance between parallel spaces is ignored.",
     sentence: (row, column, text) =>
       `Grassmann distance of ${row} and ${column}, as in the paper: ${text} rad.`,
     value: ({ grassmann }) => grassmann,
@@ -48,7 +48,7 @@ export const MEASURES: Record<MeasureName, Measure> = {
   },
   "grassmann-affine": {
     label: "Grassmann distance, affine",
-    help: "The same as Lim, Wong and Ye define it: how far apart the spaces are counts too.",
+    help: "Affine Grassmann distance as Lim, Wong and Ye define it: the distance between parallel spaces is included.",
     sentence: (row, column, text) =>
       `Affine Grassmann distance of ${row} and ${column}: ${text} rad.`,
     value: ({ grassmannAffine }) => grassmannAffine,
@@ -58,9 +58,9 @@ export const MEASURES: Record<MeasureName, Measure> = {
   },
   angle: {
     label: "Smallest principal angle",
-    help: "Angle between the two most alike variations of both models: 0° where they share one.",
+    help: "Smallest angle between a direction of one model and one of the other: 0° if they share a direction.",
     sentence: (row, column, text) =>
-      `The most alike variations of ${row} and ${column} are ${text} apart.`,
+      `Smallest principal angle between ${row} and ${column}: ${text}.`,
     value: ({ anglesDegrees }) => anglesDegrees[0] ?? null,
     text: (value) => degrees(value),
     unit: "°",
@@ -70,7 +70,7 @@ export const MEASURES: Record<MeasureName, Measure> = {
     label: "Distance of the means",
     help: "Mean distance between corresponding points of the two mean shapes, in the unit of the row’s model.",
     sentence: (row, column, text) =>
-      `The means of ${row} and ${column} are ${text} apart, a point.`,
+      `The means of ${row} and ${column} are ${text} apart, on average per point.`,
     value: ({ meanToMean }) => meanToMean,
     text: (value, unit) => length(value, unit),
     unit: "length",
@@ -78,7 +78,7 @@ export const MEASURES: Record<MeasureName, Measure> = {
   },
   bhattacharyya: {
     label: "Bhattacharyya distance",
-    help: "How little the two laws overlap, each with noise τ added: 0 where they are the same.",
+    help: "Distance between the two Gaussian distributions, each with noise τ added: 0 if they are the same, larger the less they overlap.",
     sentence: (row, column, text, noise) =>
       `Bhattacharyya distance of ${row} and ${column}: ${text}, with noise τ = ${noise}.`,
     value: ({ bhattacharyya }) => bhattacharyya,
@@ -90,39 +90,39 @@ export const MEASURES: Record<MeasureName, Measure> = {
 
 export const MEASURE_NAMES = Object.keys(MEASURES) as MeasureName[];
 
-/** What is only rounding error is none. */
+/** Shows rounding error as 0. */
 function radians(value: number): string {
   return value < 1e-9 ? "0" : number(value);
 }
 
-/** The settings of a pair that is opened from the table: without what was done to single models. */
+/** The settings of a pair of the table: without the settings of single models. */
 export function pairSettings(settings: Settings): Settings {
   const { subsample } = settings.prepare;
   return { ...settings, prepare: { ...UNPREPARED, subsample } };
 }
 
-/** Settings under which two models relate the same way; the noise counts for the gaussians only. */
+/** Key of the settings on which the relation of two models depends; σ and noise matter between Gaussians only. */
 export function relationKey(settings: Settings, betweenGaussians: boolean): string {
   const { align, modes, plausibility, sigma, noise, prepare } = pairSettings(settings);
   const noiseSettings = betweenGaussians ? { sigma, noise } : {};
   return settingsKey({ ...DEFAULTS, align, modes, plausibility, prepare, ...noiseSettings });
 }
 
-/** Whether something was done to A or B alone, which no other pair could have. */
+/** Whether there are settings of A or B alone, which do not apply to other pairs. */
 export function leavesOut(settings: Settings): boolean {
   return relationKeyOf(settings) !== relationKeyOf(pairSettings(settings));
 }
 
 const relationKeyOf = ({ prepare }: Settings) => settingsKey({ ...DEFAULTS, prepare });
 
-/** Where 0 … 1 of a measure's colours lie for these values. */
+/** Range of the colours of a measure for these values. */
 export function rangeOf(measure: Measure, values: readonly number[]): [number, number] {
   if (measure.most !== null) return [0, measure.most];
   const most = Math.max(0, ...values.filter(Number.isFinite));
   return [0, most > 0 ? most : 1];
 }
 
-/** Of a model with itself everything is known. */
+/** Relation of a model with itself. */
 export const ITSELF: Relation = {
   problem: null,
   points: 0,

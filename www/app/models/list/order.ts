@@ -1,16 +1,16 @@
-/** Which models are open, in which order. Pure. */
+/** Order and names of the open models. Pure. */
 import { type Side, type Slot, slotKey } from "../../state/state";
 
 export type Compared = Record<Side, Slot | null>;
 
-/** Whether more models are kept than two that are compared. */
+/** Whether the list has more models than the two that are compared. */
 export function isUsed(models: readonly Slot[]): boolean {
   return models.length > 2;
 }
 
 /**
- * The list once `now` are compared in place of `before`. What was compared stays on a model list that is in
- * use; else it makes way, and what comes instead takes its place.
+ * The list after `now` are compared instead of `before`. On a model list that is in use the former models stay;
+ * else each is replaced by the new one.
  */
 export function afterChoice(models: readonly Slot[], before: Compared, now: Compared): Slot[] {
   const stays = isUsed(models);
@@ -27,14 +27,14 @@ export function afterChoice(models: readonly Slot[], before: Compared, now: Comp
   return list.map((slot) => [now.a, now.b].find((one) => isSame(slot, one)) ?? slot);
 }
 
-/** With others at the end, each model once. */
+/** Appends models to a list, each model once. */
 export function withModels(models: readonly Slot[], added: readonly Slot[]): Slot[] {
   const next = [...models];
   for (const slot of added) if (indexIn(next, slot) < 0) next.push(slot);
   return next;
 }
 
-/** Those of `keys` that there are, in that order, and the two that are compared in any case. */
+/** The models with these keys, in that order, and always the two that are compared. */
 export function arranged(open: readonly Slot[], keys: readonly string[], now: Compared): Slot[] {
   const wanted = keys.flatMap((key) => open.find((slot) => slotKey(slot) === key) ?? []);
   return withModels(
@@ -51,7 +51,7 @@ function indexIn(list: readonly (Slot | null)[], wanted: Slot): number {
   return list.findIndex((slot) => slot !== null && isSame(wanted, slot));
 }
 
-/** What each model is called beside the others: with its part where its file has several. */
+/** Names of the models: with the part if a file has several, numbered if two files have one name. */
 export function namesOf(models: readonly Slot[], name: (slot: Slot) => string): string[] {
   const names = models.map((slot) => {
     const own = name(slot);

@@ -1,4 +1,4 @@
-/** After the engine was replaced every model is opened anew: the two that are compared first. */
+/** Opens all models again after a restart of the engine, the two that are compared first. */
 import { batch } from "@preact/signals";
 import { onEngineRestart, report } from "../../state/engine";
 import {
@@ -12,16 +12,16 @@ import {
 } from "../../state/state";
 import { load } from "../opening";
 import { openWanted, wantedOf } from "../sources";
-import { carry, forgetHandles, putDown } from "./handles";
+import { forgetHandles, release, retain } from "./handles";
 
 export function watchEngine(): void {
   onEngineRestart(() => void reopen());
 }
 
-/** How often the engine was replaced, so that what was begun before is not finished. */
+/** Number of restarts of the engine: work from before a restart is dropped. */
 let engines = 0;
 
-/** The old handles died with the old worker; what is done to the models stays. */
+/** Opens A and B again; the old handles are invalid, the settings stay. */
 async function reopen(): Promise<void> {
   engines += 1;
   const mine = engines;
@@ -37,11 +37,11 @@ async function reopen(): Promise<void> {
     if (a) slots.a.value = a;
     if (b) slots.b.value = b;
   });
-  putDown([a, b].flatMap((slot) => slot?.model ?? []));
+  release([a, b].flatMap((slot) => slot?.model ?? []));
   await reopenModelList(() => mine === engines);
 }
 
-/** Those that are not compared, one after the other. */
+/** Opens the other models again, one after the other. */
 async function reopenModelList(isWanted: () => boolean): Promise<void> {
   for (const former of modelList.peek()) {
     const key = slotKey(former);
@@ -51,14 +51,14 @@ async function reopenModelList(isWanted: () => boolean): Promise<void> {
     const slot = shown ?? (await openAgain(former, isWanted));
     if (!isWanted()) return;
     if (!slot) continue;
-    carry(slot.model);
+    retain(slot.model);
     modelList.value = modelList.peek().map((one) => (slotKey(one) === key ? slot : one));
-    putDown([slot.model]);
+    release([slot.model]);
   }
   reopening.value = false;
 }
 
-/** Null where it cannot be opened any more: it then leaves the model list, unless the engine was replaced again. */
+/** Opens a model again; null if that fails: it is removed from the list, unless the engine was restarted again. */
 async function openAgain(former: Slot, isWanted: () => boolean): Promise<Slot | null> {
   try {
     return await openWanted(new AbortController().signal, wantedOf(former), () => {});

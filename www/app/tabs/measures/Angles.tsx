@@ -5,7 +5,7 @@ import { Chart } from "../../ui/Chart";
 import { Curves } from "../../ui/Curves";
 import { DataTable } from "../../ui/DataTable";
 
-/** Principal angles between the two spaces, smallest first. */
+/** Plot and table of the principal angles between the two shape spaces, smallest first. */
 export function Angles({ report }: { report: Report }) {
   const angles = report.overlap.principalAnglesDegrees;
   return (

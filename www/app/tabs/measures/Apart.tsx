@@ -4,7 +4,7 @@ import { length, number } from "../../text/format";
 import { DataTable } from "../../ui/DataTable";
 import { Phrase } from "../../ui/Phrase";
 
-/** What is only rounding error is none. */
+/** Shows rounding error as 0. */
 const radians = (value: number) => (value < 1e-9 ? "0" : number(value, 4));
 
 const ROWS = [
@@ -13,7 +13,7 @@ const ROWS = [
   { head: "A∩B and the union of A and B", name: "toUnion" },
 ] as const;
 
-/** How far apart the spaces are, as geometry has it. */
+/** Table of the Grassmann distances between A, B, A∩B and their union. */
 export function GrassmannDistances({
   report,
   relation,
@@ -31,9 +31,10 @@ export function GrassmannDistances({
     <section class="chart half" data-chart="grassmann">
       <h3>Grassmann distance</h3>
       <p class="small">
-        Between spaces of shapes, from their principal angles, alike both ways. The paper’s leaves
-        out how far a space lies from the origin and compares as many modes as the smaller one has;
-        the affine one (Lim, Wong &amp; Ye) counts both.
+        Symmetric distance between two shape spaces, computed from their principal angles. The
+        paper’s variant ignores the distance of a space from the origin and compares only as many
+        modes as the smaller space has; the affine variant (Lim, Wong &amp; Ye) takes account of
+        both.
       </p>
       <DataTable
         file="grassmann-distances"
@@ -57,7 +58,7 @@ export function GrassmannDistances({
   );
 }
 
-/** How far apart the two laws are. */
+/** Table of the Bhattacharyya distance and the Kullback–Leibler divergences of the two Gaussians. */
 export function Divergences({ report }: { report: Report }) {
   const { bhattacharyya, bhattacharyyaNoise, kullbackLeibler } = report.overlap;
   const rows = [
@@ -91,7 +92,7 @@ export function Divergences({ report }: { report: Report }) {
       </p>
       <DataTable
         file="divergences"
-        caption={`Between the laws of A and B, in nats, at τ = ${length(bhattacharyyaNoise, report.models.a.unit)}`}
+        caption={`Between the Gaussians of A and B, in nats, at τ = ${length(bhattacharyyaNoise, report.models.a.unit)}`}
         corner="Measure"
         columns={[{ title: "Value", show: divergence, metric: (row) => all[row]?.path }]}
         rows={all.map(({ head, value }) => ({ head, values: [value] }))}

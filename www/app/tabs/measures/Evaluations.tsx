@@ -14,15 +14,16 @@ import { type Curve, CurveLegend, Curves } from "../../ui/Curves";
 import { DataTable } from "../../ui/DataTable";
 import { FileButton } from "../../ui/FileButton";
 
-/** Generalization and specificity of each model, by test shapes or by those that it was made of. */
+/** Computes generalization and specificity of each model, with test shapes or with its training shapes. */
 export function Evaluations() {
   return (
     <section class="evaluations" aria-label="Generalization and specificity">
       <h3>Generalization and specificity</h3>
       <p class="small">
-        How well a model reaches shapes it has not seen, and how close its own random shapes are to
-        real ones, by the number of modes (Davies). Both need shapes: meshes or landmarks with the
-        model’s points in the model’s order.
+        Generalization: how close a model comes to shapes that it was not computed from.
+        Specificity: how close its random shapes are to real ones. Both by the number of modes
+        (Davies), and both need shapes: meshes or landmarks with the model’s points in the same
+        order.
       </p>
       <div class="charts">
         {SIDES.map((side) => (
@@ -66,14 +67,14 @@ function OfSide({ side }: { side: Side }) {
             disabled={busy}
             onClick={() => void evaluate(side, training, true)}
           >
-            Use the shapes {name} was made of
+            Use the training shapes of {name}
           </button>
         )}
       </div>
       {busy && <p class="small">Reading the shapes and testing {name}…</p>}
       {found && (
         <div data-stale={old || busy}>
-          {old && <span class="stale-chip">Of the model before</span>}
+          {old && <span class="stale-chip">Of the previous model</span>}
           <Found found={found} side={side} />
         </div>
       )}

@@ -10,7 +10,7 @@ import { Evaluations } from "./Evaluations";
 import { Compactness, ExclusiveSpectrum } from "./Spectra";
 import { VarianceBars } from "./VarianceBars";
 
-/** The measures of a pair: first what both models share, then what sets them apart. */
+/** The tab Measures: shared variance, angles, distances, spectra and quality of the two models. */
 export function Measures() {
   const found = result.value;
   return (
@@ -28,7 +28,7 @@ export function Measures() {
 function OfPair({ found }: { found: Result }) {
   const { report, nouns } = found;
   const [a, b] = [slots.a.value?.model, slots.b.value?.model];
-  // What stands in the table beside the report's numbers is about the same pair.
+  // The relation in the table must be of the same pair as the report.
   const asks =
     run.value === null && !outOfDate.value && held.value?.key === found.key && a !== undefined;
   const relation = useAnswer(asks && b !== undefined ? { found, a, b } : null, (signal, pair) =>
@@ -48,7 +48,7 @@ function OfPair({ found }: { found: Result }) {
   );
 }
 
-/** Beside the set difference, the baseline that knows moments only. */
+/** Compares the set difference with Hall's linear splitting, a baseline from moments only. */
 function Splitting({ report }: { report: Report }) {
   if (!hasSplitting(report)) return null;
   return (

@@ -7,7 +7,7 @@ import { type Curve, CurveLegend, Curves } from "../../ui/Curves";
 import { DataTable } from "../../ui/DataTable";
 import { Phrase } from "../../ui/Phrase";
 
-/** Compactness and spectra of both models and of what they share. */
+/** Compactness curves of A, B and A∩B. */
 export function Compactness({ report }: { report: Report }) {
   const found = report.compactness;
   if (!found) return null;
@@ -23,7 +23,7 @@ export function Compactness({ report }: { report: Report }) {
     <Chart
       name="compactness"
       title="Compactness"
-      about={`Share of its variance that the first so many modes of each model hold. ${sentence}`}
+      about={`Share of the variance that the first modes of each model explain. ${sentence}`}
       label={`Compactness curves of A, B and A∩B. ${sentence}`}
       height={() => 226}
       draw={(width) => (
@@ -42,7 +42,7 @@ export function Compactness({ report }: { report: Report }) {
       table={() => (
         <DataTable
           file="compactness"
-          caption="Share of the variance that the first so many modes hold"
+          caption="Share of the variance that the first modes explain"
           corner="Modes"
           columns={names.map((name, i) => ({
             title: curves[i]?.label ?? name,
@@ -59,7 +59,7 @@ export function Compactness({ report }: { report: Report }) {
   );
 }
 
-/** What either model can do and the other cannot, direction by direction. */
+/** Exclusive spectrum: for each exclusive mode of a model, the residual of one SD in the other model. */
 export function ExclusiveSpectrum({ report }: { report: Report }) {
   const { aWithoutB, bWithoutA } = report.differences;
   const [a, b] = [aWithoutB.exclusive?.residualSd ?? [], bWithoutA.exclusive?.residualSd ?? []];
@@ -76,8 +76,8 @@ export function ExclusiveSpectrum({ report }: { report: Report }) {
       title="Exclusive spectrum"
       about={
         <>
-          Directions ordered by how far one standard deviation along them leaves the other model,
-          RMS over the points.{" "}
+          Directions of each model ordered by the part of one standard deviation that the other
+          model cannot make, RMS over the points.{" "}
           {sentences.map(
             (sentence, i) =>
               sentence && (

@@ -12,7 +12,7 @@ const SHARES = [
 
 const [ROW, BAR] = [46, 20];
 
-/** Share of the variance of either model that the other can make. */
+/** Bars of the share of each model's variance that the other model can make. */
 export function VarianceBars({ report, nouns }: { report: Report; nouns: Nouns }) {
   const { varianceOfAInB, varianceOfBInA } = report.overlap;
   const values = { a: varianceOfAInB, b: varianceOfBInA };

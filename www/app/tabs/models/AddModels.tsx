@@ -8,7 +8,7 @@ import { DEMO_GROUPS } from "../../state/demos";
 import { addingModels, modelList } from "../../state/state";
 import { FileButton } from "../../ui/FileButton";
 
-/** What puts models on the model list beside the two that are compared. */
+/** Buttons that add models to the model list: files, folders and examples. */
 export function AddModels() {
   const used = isUsed(modelList.value);
   return (
@@ -32,13 +32,13 @@ export function AddModels() {
 function Hint() {
   return (
     <p class="small">
-      A and B are here already. Add more models, of the same points in the same order, to see how
-      each lies to each other one; any cell opens as a comparison.
+      A and B are in the list. Add more models with the same points in the same order to compare
+      every pair; each cell opens as a comparison.
     </p>
   );
 }
 
-/** How far the opening is, and the way out of it. */
+/** Progress of opening models, with a button to cancel. */
 function Adding() {
   const found = addingModels.value;
   if (!found) return null;
@@ -82,7 +82,7 @@ function Opener({ label, name, folder = false, primary = false }: OpenerProps) {
   );
 }
 
-/** The models of the examples, one by one or a group at once. */
+/** Adds models of the examples, one or a group at once. */
 function Examples() {
   const open = new Set(
     modelList.value.flatMap(({ source }) => (source.kind === "demo" ? source.name : [])),

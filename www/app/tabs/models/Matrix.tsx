@@ -23,10 +23,10 @@ import { saveText } from "../../ui/download";
 import { MatrixTable } from "./MatrixTable";
 import { listNames } from "./ModelListTable";
 
-/** Table of every pair of open models: one measure a pair. */
+/** Table of one measure for every pair of open models, with its legend and downloads. */
 export function Matrix() {
   const shown = MEASURES[measure.value];
-  /** The sentence of the cell under the pointer or the focus. */
+  /** The sentence about the cell under the pointer or the focus. */
   const told = useSignal<string | null>(null);
   const range = rangeOf(shown, valuesShown(measure.value));
   return (
@@ -83,7 +83,7 @@ function AlignmentChoice() {
   return (
     <select
       aria-label="Align B to A"
-      title="What is done to each pair first; the same setting as beside the models"
+      title="How each pair is aligned before it is compared; the same setting as for A and B"
       value={settings.value.align}
       onChange={(event) => change({ align: event.currentTarget.value as Alignment })}
     >
@@ -107,7 +107,7 @@ function Save() {
   const units = models.map(({ report }) => report.unit);
   return (
     <fieldset class="download-row">
-      <legend class="unseen">Take the table away</legend>
+      <legend class="unseen">Save the table</legend>
       <button
         type="button"
         title="The table as it is shown, unrounded"
@@ -140,16 +140,16 @@ function Progress() {
   return (
     <div class="working">
       <p class="run-state">
-        {paused.value ? "Stopped at" : "Working out"} {done} of {of} pairs
+        {paused.value ? "Stopped at" : "Computing"} {done} of {of} pairs
       </p>
-      <progress class="bar" value={done} max={of} aria-label="Pairs that are worked out" />
+      <progress class="bar" value={done} max={of} aria-label="Computed pairs" />
       {paused.value ? (
         <button type="button" onClick={continueMatrix}>
-          Go on
+          Continue
         </button>
       ) : (
         <button type="button" onClick={cancelMatrix}>
-          Cancel<span class="unseen"> working out the table</span>
+          Cancel<span class="unseen"> computing the table</span>
         </button>
       )}
     </div>
@@ -174,7 +174,7 @@ function Legend({ range: [low, high] }: { range: [number, number] }) {
   );
 }
 
-/** What is to be known about the numbers, and which pairs have none. */
+/** Notes about the numbers of the table: settings, units, and pairs that cannot be compared. */
 function Notes() {
   const names = listNames();
   const units = new Set(modelList.value.map(({ report }) => report.unit));
@@ -188,8 +188,8 @@ function Notes() {
     <>
       {leavesOut(settings.value) && (
         <p class="small">
-          Every pair as it stands: what was done to A and B alone (units, modes, points) is left out
-          here.
+          The settings of A or B alone (units, modes, points) do not apply to the pairs of the
+          table.
         </p>
       )}
       {units.size > 1 && (

@@ -11,11 +11,11 @@ import { listNames } from "./ModelListTable";
 
 interface Props {
   range: readonly [number, number];
-  /** Says what the cell under the pointer or the focus means. */
+  /** Sets the sentence about the cell under the pointer or the focus. */
   tell: (sentence: string | null) => void;
 }
 
-/** Rows are A, columns are B. One cell is in the order of Tab; arrow keys go from cell to cell. */
+/** The cells of the table: rows are A, columns are B. Tab reaches one cell, arrow keys go from cell to cell. */
 export function MatrixTable({ range, tell }: Props) {
   const names = listNames();
   const models = modelList.value;
@@ -81,7 +81,7 @@ interface HeadProps {
   side: "a" | "b";
 }
 
-/** Marked where it is what is compared now. */
+/** Name of a row or column, marked if its model is compared now. */
 function Head({ slot, name, scope, side }: HeadProps) {
   const compared = isSame(slot, slots[side].value);
   return (
@@ -91,7 +91,7 @@ function Head({ slot, name, scope, side }: HeadProps) {
   );
 }
 
-/** The table is gone once the pair is open: the keyboard goes on where its regions are chosen. */
+/** Opens the pair of a cell and moves the focus to the choice of regions, since the table is then hidden. */
 async function compare(a: Slot, b: Slot): Promise<void> {
   await comparePair(a, b);
   await new Promise(requestAnimationFrame);

@@ -16,12 +16,12 @@ import {
 import { count } from "../../text/format";
 import { CloseIcon } from "../../ui/icons";
 
-/** What every model of the model list is called, in its order. */
+/** Names of the models of the model list, in its order. */
 export function listNames(): string[] {
   return namesOf(modelList.value, (slot) => nameOf(slot.source));
 }
 
-/** The models that are open: what they are, and which two of them are compared. */
+/** Table of the open models: points, modes, and which two of them are compared. */
 export function ModelListTable() {
   const names = listNames();
   return (
@@ -82,7 +82,7 @@ function ModelRow({ slot, name }: { slot: Slot; name: string }) {
             aria-label={`Close ${name}`}
             title={`Close ${name}`}
             onClick={(event) => {
-              // The button goes with its row: the keyboard goes on at the next one.
+              // The button disappears with its row: the focus moves to the next row.
               const row = event.currentTarget.closest("tr");
               const next = row?.nextElementSibling ?? row?.previousElementSibling;
               removeModel(slot);
@@ -121,7 +121,7 @@ function OtherParts({ slot, name }: { slot: Slot; name: string }) {
   const others = slot.parts.filter(
     (part) => !modelList.value.some((one) => sourceKey(one.source) === key && one.part === part),
   );
-  // Once for each file: at its first model.
+  // Shown once for each file, at its first model.
   const leads = modelList.value.find((one) => sourceKey(one.source) === key) === slot;
   if (others.length === 0 || !leads) return null;
   return (

@@ -3,7 +3,7 @@ import { AddModels } from "./AddModels";
 import { Matrix } from "./Matrix";
 import { ModelListTable } from "./ModelListTable";
 
-/** Several models: the list of those that are open, and a table of every pair. */
+/** The tab Models: the list of open models and the table of all pairs. */
 export function ModelTable() {
   return (
     <section class="tab several" aria-label="Models">

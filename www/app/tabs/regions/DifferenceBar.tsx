@@ -26,11 +26,11 @@ function shownNow(): DifferencePicture {
 }
 
 function choose(name: DifferencePicture): void {
-  // All at once: one step of Back undoes it.
+  // In one change, so that one step of Back undoes it.
   batch(() => {
     if (name === "exclusiveModes") {
       picture.value = name;
-      // One shape for each mode: the mean alone shows none of them.
+      // Each shape shows one mode; the mean shows none of them.
       if (view.value === "mean") view.value = "samples";
       return;
     }
@@ -41,7 +41,7 @@ function choose(name: DifferencePicture): void {
   });
 }
 
-/** What counts as a difference, and how strongly it is drawn. */
+/** Chooses the definition of the difference and how much it is exaggerated. */
 export function DifferenceBar() {
   const shown = shownNow();
   const report = result.value?.report;
@@ -52,7 +52,7 @@ export function DifferenceBar() {
         <p class="difference-same">
           <Phrase parts={same} />{" "}
           <button type="button" class="as-link" onClick={() => choose("relative")}>
-            Show the relative one
+            Show the relative difference
           </button>
         </p>
       )}
@@ -64,7 +64,7 @@ export function DifferenceBar() {
           </span>
         </summary>
         <fieldset class="segments">
-          <legend class="unseen">What counts as a difference</legend>
+          <legend class="unseen">Definition of the difference</legend>
           {PICTURES.map((name) => (
             <label key={name} data-on={shown === name} title={DEFINITIONS[name].help}>
               <input
@@ -111,7 +111,7 @@ function ExclusiveModes() {
   );
 }
 
-/** Takes effect when it is let go: the differences are drawn anew. */
+/** Slider of the share that a difference leaves out; on release the differences are drawn again. */
 function Quantile() {
   const { differenceQuantile, differenceThreshold } = settings.value;
   return (

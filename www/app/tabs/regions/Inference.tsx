@@ -9,7 +9,7 @@ import { ShowNumbers } from "../../ui/ShowNumbers";
 
 const SIDES = ["a", "b"] as const;
 
-/** Which sampler ran on each side, and why. */
+/** Which sampler ran for each model, and why. */
 export function Inferred({ report }: { report: Report }) {
   const [a, b] = [inferred(report, "a"), inferred(report, "b")];
   if (a === null || b === null) return null;
@@ -39,14 +39,14 @@ const PLOTS: { statistic: Statistic; title: string; limit: number }[] = [
   { statistic: "essTail", title: "Tail ESS", limit: ESS },
 ];
 
-/** R-hat and effective sample sizes of every mode, both sides, with the limits drawn. */
+/** Plots of R-hat and effective sample sizes of every mode of both models, with their limits. */
 export function ModePlots({ report }: { report: Report }) {
   const both = report.intersection.coefficients;
   const worst = worstModes(report);
   if (!both || !worst) return null;
   return (
     <figure class="mode-figures">
-      <figcaption>Every mode: A round, B square, the limit dashed</figcaption>
+      <figcaption>Every mode: circles for A, squares for B, the limit dashed</figcaption>
       {PLOTS.map(({ statistic, title, limit }) =>
         both.a[statistic].length + both.b[statistic].length === 0 ? null : (
           <ModePlot key={statistic} both={both} statistic={statistic} title={title} limit={limit} />

@@ -6,7 +6,7 @@ import { SaveTable } from "../../ui/SaveTable";
 import { Scree } from "../../ui/Scree";
 import { ShowNumbers } from "../../ui/ShowNumbers";
 
-/** The modes of the intersection model: how large each is, and how well it is known. */
+/** Standard deviations of the modes of the intersection model, with their standard errors. */
 export function Modes({ report }: { report: Report }) {
   const { standardDeviations: deviations, accuracy } = report.intersection;
   if (deviations.length === 0) return null;
@@ -31,13 +31,13 @@ export function Modes({ report }: { report: Report }) {
       {sentence && <p class="unsettled">{sentence}</p>}
       {accuracy && (
         <p class="small">
-          The covariance is known to{" "}
+          Relative standard error of the covariance:{" "}
           <Metric
             path="intersection.accuracy.covariance"
             value={accuracy.covariance}
             text={percent(accuracy.covariance)}
-          />{" "}
-          of itself (standard error). <GrassmannError report={report} />
+          />
+          . <GrassmannError report={report} />
         </p>
       )}
       <ShowNumbers>{() => <ModesTable report={report} doubtful={doubtful} />}</ShowNumbers>
@@ -92,8 +92,8 @@ function ModesTable({ report, doubtful }: { report: Report; doubtful: Set<number
               {accuracy && (
                 <>
                   <th scope="col">± error</th>
-                  <th scope="col">may turn</th>
-                  <th scope="col">settled</th>
+                  <th scope="col">direction ±</th>
+                  <th scope="col">determined</th>
                 </>
               )}
             </tr>

@@ -3,7 +3,7 @@ import { type Group, valueAt } from "../../comparison/numbers";
 import { Metric } from "../../ui/Phrase";
 import { SaveTable } from "../../ui/SaveTable";
 
-/** A table of numbers; a row of which the report says nothing is left out. */
+/** A table of numbers of the report; rows that the report does not have are left out. */
 export function Numbers({ group, report }: { group: Group; report: Report }) {
   const rows = group.rows
     .map((row) => ({ ...row, values: row.metrics.map((path) => valueAt(report, path)) }))

@@ -18,6 +18,7 @@ import { Numbers } from "./Numbers";
 import { Sweep } from "./Sweep";
 import { TwoSides } from "./TwoSides";
 
+/** The first sentence of the results: how much of the variance each model can make of the other. */
 export function Headline() {
   const held = result.value;
   return (
@@ -31,9 +32,10 @@ function waiting(): string {
   const open = SIDES.filter((side) => slots[side].value || opening[side].value);
   return linked.value?.urls && open.length < 2
     ? "Waiting for the models of the link."
-    : "Comparing two models of shape.";
+    : "Comparing two shape models.";
 }
 
+/** Sentences, warnings and tables of the comparison. */
 export function Results() {
   const held = result.value;
   if (!held) return null;
@@ -67,7 +69,7 @@ export function Results() {
       <Modes report={report} />
       <TwoSides report={report} />
       <details class="more believed">
-        <summary>Can these draws be believed?</summary>
+        <summary>Have the draws converged?</summary>
         <Inferred report={report} />
         <Numbers group={DIAGNOSTICS} report={report} />
         <p class="small">

@@ -36,7 +36,7 @@ import { Toolbar } from "./Toolbar";
 const ORDER: (Region | "map")[] = ["a", "intersection", "b", "aWithoutB", "map", "bWithoutA"];
 
 export function Stage() {
-  // A canvas cannot change from a 2-D to a WebGL context: another kind of model gets another one.
+  // A canvas cannot change from a 2-D to a WebGL context: flat and spatial models get different ones.
   const kind = dimension.value;
   const paints = painting.value !== null;
   return (
@@ -159,13 +159,13 @@ function PaneNote({ name }: { name: Region }) {
     return <p class="pane-note">{isEmpty(name) ? "Empty: there is no such shape." : empty}</p>;
   if (drawn) {
     const guess = shapes.value[name]?.source === "fit" && run.value;
-    return guess ? <p class="pane-note">first guess</p> : null;
+    return guess ? <p class="pane-note">Gaussian fit</p> : null;
   }
   const loads = !slots.a.value && SIDES.some((side) => opening[side].value);
   return <p class="pane-note">{run.value ? "waiting for draws" : loads ? "loading" : ""}</p>;
 }
 
-/** A difference that has no shapes, rather than none yet. */
+/** Whether a finished difference has no shapes. */
 function isEmpty(name: Region): boolean {
   if (name !== "aWithoutB" && name !== "bWithoutA") return false;
   return result.value?.report.differences[name].diagnostics.draws === 0;
@@ -186,7 +186,7 @@ function Tooltip() {
   );
 }
 
-/** What the map says of a vertex, with its unit; beside mean shapes, how far it varies. */
+/** Value of the map at a vertex, with its unit; for mean shapes its standard deviation. */
 function valueAt(name: Region, vertex: number): string | null {
   if (view.value === "samples") return null;
   if (view.value === "sd") {
@@ -203,7 +203,7 @@ function valueAt(name: Region, vertex: number): string | null {
   return deviation === undefined ? null : `SD ${number(deviation)} ${unit.value}`;
 }
 
-/** How far the brush reaches. */
+/** Circle that shows the radius of the brush. */
 function Brush() {
   const found = brush.value;
   if (!found || !painting.value) return null;

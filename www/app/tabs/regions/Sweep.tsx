@@ -13,14 +13,14 @@ import { SweepLegend, SweepLines, SweepTable } from "./SweepPlot";
 
 const [WIDTH, HEIGHT] = [320, 190];
 
-/** What was asked of which models and settings; whoever looks at it again need not wait again. */
+/** The computed sweep and the comparison that it belongs to, kept to be shown again. */
 const swept = signal<{ base: string | null; points: SweepPoint[]; done: boolean }>({
   base: null,
   points: [],
   done: false,
 });
 
-/** The paper's ablation of σ, by the fit alone: asked for when it is looked at, one σ at a time. */
+/** Computes how A∩B depends on σ, by the Gaussian fit alone, one σ after the other, while the plot is open. */
 function useSweep(open: boolean) {
   const base = held.value?.base ?? null;
   const middle = recommended.value ?? result.value?.report.settings.sigma ?? null;
@@ -37,7 +37,7 @@ function useSweep(open: boolean) {
       }
       swept.value = { ...swept.peek(), done: true };
     })().catch((thrown: unknown) => {
-      // The engine says what stopped it; the sweep begins anew with the next comparison.
+      // The engine reports the error; the sweep starts again with the next comparison.
       if (!wasAborted(thrown)) swept.value = { ...swept.peek(), base: null };
     });
     return () => controller.abort();
@@ -47,11 +47,11 @@ function useSweep(open: boolean) {
 }
 
 function waiting(done: boolean): string {
-  if (done) return "The fit breaks down at every σ that was tried.";
-  return canPreview.value ? "Trying other σ…" : "Shown once the comparison is finished.";
+  if (done) return "The Gaussian fit fails at every σ.";
+  return canPreview.value ? "Computing other σ…" : "Shown once the comparison is finished.";
 }
 
-/** Beside the results; where the draws are diagnosed it is among their plots. */
+/** The σ sweep among the results; the tab Diagnostics has it among its plots instead. */
 export function Sweep() {
   const open = useSignal(false);
   const elsewhere = tab.value === "diagnostics";
@@ -80,7 +80,7 @@ export function Sweep() {
   );
 }
 
-/** The same in the room of the diagnostics, with what it says of the σ in use. */
+/** The σ sweep in the tab Diagnostics, with advice on the σ in use. */
 export function SweepChart() {
   const { points, done, current } = useSweep(true);
   const used = settings.value.sigma ?? recommended.value;
@@ -98,7 +98,7 @@ export function SweepChart() {
       <Chart
         name="sweep"
         title="How A∩B depends on σ"
-        about="What the Gaussian fit alone predicts of A∩B at other tolerances σ, without a draw."
+        about="A∩B at other tolerances σ as the Gaussian fit alone predicts it, without draws."
         label={
           first && last
             ? `At σ ${length(first.sigma, unit.value)} A∩B varies by ${length(first.vertexSd, unit.value)} per vertex, at σ ${length(last.sigma, unit.value)} by ${length(last.vertexSd, unit.value)}.`

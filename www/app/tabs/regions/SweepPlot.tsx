@@ -20,7 +20,7 @@ interface Props {
   height: number;
 }
 
-/** Three lengths over σ, with the σ that is recommended and the one in use. */
+/** Plot of distance, nearest common shape and SD per vertex over σ, with the recommended σ and the one in use. */
 export function SweepLines({ points, width, height }: Props) {
   const sigmas = points.map((point) => point.sigma);
   const x = logarithmic(Math.min(...sigmas), Math.max(...sigmas), BOX.left, width - BOX.right);
@@ -93,7 +93,7 @@ export function SweepLegend() {
   return <CurveLegend curves={SERIES} />;
 }
 
-/** The two labels lean away from one another. */
+/** Alignment of the two labels, away from one another. */
 function anchor(
   kind: string,
   used: number | null,
