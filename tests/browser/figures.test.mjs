@@ -229,7 +229,7 @@ test("the way from A to B as WebM, and a film that is given up saves nothing", a
 
     await fill(dialog, "Seconds", 30);
     await save.click();
-    await dialog.getByRole("progressbar", { name: "Making the film" }).waitFor();
+    await dialog.getByRole("progressbar", { name: "Saving the animation" }).waitFor();
     await dialog.getByRole("button", { name: "Cancel" }).click();
     await dialog.getByText("Cancelled; nothing was saved.").waitFor();
   });

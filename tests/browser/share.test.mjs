@@ -58,7 +58,7 @@ test("two models by address are compared, and the link says which content they h
     const link = await linkIn(dialog);
     assert.ok(link.includes(`&hash-a=${models.a.fingerprint.slice(0, 16)}&`), link);
     assert.ok(link.includes(`&hash-b=${models.b.fingerprint.slice(0, 16)}&`), link);
-    await dialog.getByText("The link holds the models, every setting").waitFor();
+    await dialog.getByText("The link contains the models, all settings").waitFor();
 
     // The same content later: nothing to say. Another one: it is told, and stays open.
     const later = await another();

@@ -1,7 +1,7 @@
 import { useSignal } from "@preact/signals";
 import { bibTeX, methods } from "../comparison/methods";
 import { saveAsOffered } from "../pictures/FigureDialog";
-import { taking } from "../pictures/Taking";
+import { pictureDialog } from "../pictures/PictureDialogs";
 import { result } from "../state/state";
 import { plain } from "../text/phrase";
 import { copyText } from "../ui/download";
@@ -35,7 +35,7 @@ export function Pictures({ ready }: { ready: boolean }) {
           type="button"
           disabled={!ready}
           onClick={() => {
-            taking.value = "figure";
+            pictureDialog.value = "figure";
           }}
         >
           other…<span class="unseen"> figure</span>
@@ -48,7 +48,7 @@ export function Pictures({ ready }: { ready: boolean }) {
           disabled={!ready}
           title="A mode that swings, or the way from A to B, as GIF or WebM"
           onClick={() => {
-            taking.value = "film";
+            pictureDialog.value = "film";
           }}
         >
           Animation…

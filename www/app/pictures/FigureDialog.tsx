@@ -33,7 +33,7 @@ function set(part: Partial<FigureOptions>): void {
   figureOptions.value = { ...figureOptions.value, ...part };
 }
 
-/** The paper's figures, at the size they are wanted. */
+/** Dialog that saves the paper's figures as PNG, at any size. */
 export function FigureDialog({ onClose }: { onClose: () => void }) {
   const options = figureOptions.value;
   const across = widthInPixels(options);
@@ -100,7 +100,7 @@ export function FigureDialog({ onClose }: { onClose: () => void }) {
       <div class="modal-foot">
         <span class="small grow" role="status">
           {fits
-            ? `${across} pixels wide, seen as the page shows it now`
+            ? `${across} pixels wide, with the camera and colours of the page`
             : `A figure is ${SMALLEST_PX} to ${LARGEST_PX} pixels wide; this would be ${across}.`}
         </span>
         <button
@@ -143,7 +143,7 @@ function Size({ options }: { options: FigureOptions }) {
         aria-label="Unit of the width"
         value={unit}
         onChange={(event) => {
-          // The same size in the other unit, so far as whole numbers go.
+          // Converts the width to the other unit, rounded to whole numbers.
           const across = widthInPixels(options);
           const millimetres = Math.max(1, Math.round((25.4 * across) / dpi));
           if (event.currentTarget.value === "px") set({ unit: "px", width: across });
@@ -166,7 +166,7 @@ function Size({ options }: { options: FigureOptions }) {
 
 function Count({ value }: { value: number }) {
   const flat = scene.value.geometry.a?.segments !== null && scene.value.geometry.a !== null;
-  // Drawings lie over one another, as many as the page shows.
+  // Outlines are overlaid, as many as the page shows.
   if (flat) return null;
   return (
     <label class="number-field">
@@ -200,7 +200,7 @@ function Check({ label, part }: { label: string; part: "labels" | "bar" | "capti
 
 const PREVIEW_PX = 680;
 
-/** The whole figure, small: drawn as it will be saved. */
+/** Preview of the figure as it will be saved. */
 function Preview({ options }: { options: FigureOptions }) {
   const place = useRef<HTMLDivElement>(null);
   const problem = useSignal("");
@@ -217,7 +217,7 @@ function Preview({ options }: { options: FigureOptions }) {
     }),
   );
   const [map, drawn] = [shownMap.value, shapes.value];
-  // Also when there is something else to draw by the same options.
+  // Drawn again also when the shapes change.
   useEffect(() => draw.current(options), [options, map, drawn]);
   return (
     <div
@@ -232,7 +232,7 @@ function Preview({ options }: { options: FigureOptions }) {
   );
 }
 
-/** One click in the list of downloads: as it would first be offered. */
+/** Saves a figure with its default options, for the buttons among the downloads. */
 export async function saveAsOffered(shows: FigureKind): Promise<void> {
   await saveFigure({ ...FIRST_OPTIONS, shows });
   closeOffscreen();

@@ -28,10 +28,10 @@ const SUBJECTS: [Subject, string][] = [
   ["morph", "From A to B"],
 ];
 
-/** How often the bar moves: drawing the page takes time that the film needs. */
+/** Milliseconds between updates of the progress bar: rendering the page slows the animation down. */
 const PROGRESS_STEP = 0.02;
 
-/** A mode that swings, or the way from A to B, as a film. */
+/** Dialog that saves an animation of a mode, or of the change from A to B, as GIF or WebM. */
 export function FilmDialog({ onClose }: { onClose: () => void }) {
   const options = useSignal<FilmOptions>({ ...FIRST_FILM, format: canRecord() ? "webm" : "gif" });
   const set = (part: Partial<FilmOptions>) => {
@@ -148,7 +148,7 @@ export function FilmDialog({ onClose }: { onClose: () => void }) {
       <div class="modal-foot">
         {making.value ? (
           <>
-            <progress aria-label="Making the film" max={1} value={making.value.share} />
+            <progress aria-label="Saving the animation" max={1} value={making.value.share} />
             <button type="button" onClick={() => making.value?.controller.abort()}>
               Cancel
             </button>
@@ -176,7 +176,7 @@ function modesOf(subject: Exclude<Subject, "morph">): number {
   return Math.min(modes ?? Number.POSITIVE_INFINITY, report.models[subject].modes);
 }
 
-/** One moment of it, chosen by a slider: nothing plays by itself. */
+/** Preview of one moment of the animation, chosen by a slider. */
 function Still({ options }: { options: FilmOptions }) {
   const place = useRef<HTMLDivElement>(null);
   const reel = useSignal<Reel | null>(null);

@@ -1,20 +1,20 @@
-/** What is said under a figure. Pure. */
+/** Writes the caption of a figure. Pure. */
 import type { Report } from "../../worker/protocol";
 import { DEFINITIONS } from "../comparison/words";
 import { completed, preparationWords } from "../state/preparation";
 import { count, length } from "../text/format";
 
-/** What the five blocks hold: the two figures of the paper, and what else the page draws. */
+/** What the five blocks show: the two figures of the paper, and other views of the page. */
 export type FigureKind = "shapes" | "variance" | "map" | "means";
 
 export interface Shown {
   shows: FigureKind;
-  /** What is coloured, with its unit. */
+  /** The coloured quantity with its unit. */
   map: string;
-  /** Shapes in each block; all over one another where `overlaid`. */
+  /** Shapes in each block; drawn on top of each other if `overlaid`. */
   shapes: number;
   overlaid: boolean;
-  /** What is drawn of the differences beside their draws as they are; empty where that is all. */
+  /** What the differences show other than their draws; empty if only their draws. */
   differences: string;
   /** The vertex whose ellipsoid is drawn, how many SD, and in how many dimensions. */
   vertex: { number: number; deviations: number; dimension: 2 | 3 } | null;

@@ -1,6 +1,6 @@
 /**
- * Animations as files: WebM as the browser records it from a canvas, in real time; GIF by gifenc
- * (Matt DesLauriers, MIT), frame by frame. Both let go between frames, and can be given up.
+ * Encodes animations: WebM recorded by the browser from a canvas in real time; GIF by gifenc (Matt DesLauriers, MIT),
+ * frame by frame. Both pause between frames and can be cancelled.
  */
 import { applyPalette, GIFEncoder, quantize } from "gifenc";
 import { type FilmOptions, FRAMES_PER_SECOND, frameCount } from "./film";
@@ -11,7 +11,7 @@ type OnProgress = (share: number) => void;
 const GIF_COLOURS = 256;
 const FRAME_MS = 1000 / FRAMES_PER_SECOND;
 const WEBM = "video/webm";
-/** Bits per pixel and second: little is lost. */
+/** Bits per pixel and second of WebM. */
 const BITS = 12;
 
 export function canRecord(): boolean {
@@ -31,7 +31,7 @@ export async function encodeGif(
   const frames = frameCount(options);
   const draw = framesOf(reel, options);
   const encoder = GIFEncoder();
-  // One palette for all, from the beginning, the middle and the end: colours do not flicker.
+  // One palette for all frames, from the first, middle and last one: colours do not flicker.
   const palette = quantize(
     together([0, frames >> 2, frames >> 1].map((i) => draw(i).data)),
     GIF_COLOURS,
@@ -59,7 +59,7 @@ function together(found: Uint8ClampedArray[]): Uint8ClampedArray {
   return all;
 }
 
-/** By the clock: a computer that is slow drops frames instead of stretching the film. */
+/** Records in real time: a slow computer drops frames, the duration stays. */
 export async function recordWebm(
   signal: AbortSignal,
   reel: Reel,
@@ -81,7 +81,7 @@ export async function recordWebm(
   recorder.ondataavailable = ({ data }) => parts.push(data);
   const stopped = new Promise<void>((resolve, reject) => {
     recorder.onstop = () => resolve();
-    recorder.onerror = () => reject(new Error("The browser could not record the film."));
+    recorder.onerror = () => reject(new Error("The browser could not record the animation."));
   });
   const show = (moment: number) => {
     reel.draw(pen, moment);

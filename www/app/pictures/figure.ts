@@ -1,4 +1,4 @@
-/** The paper's figures: five blocks of random shapes, and five maps with one colour bar. */
+/** Draws the paper's figures: five blocks of random shapes, or five maps with one colour bar. */
 import { signal } from "@preact/signals";
 import type { Region, RegionShapes } from "../../worker/protocol";
 import { shapeCount } from "../comparison/run";
@@ -52,13 +52,13 @@ export interface FigureOptions extends FigureSize {
   labels: boolean;
   bar: boolean;
   caption: boolean;
-  /** Shapes in a block, where they stand side by side. */
+  /** Shapes in a block, if they are side by side. */
   shapes: number;
   /** Size of the lettering, in points. */
   points: number;
 }
 
-/** As wide as a page of the paper, in print. */
+/** Default options: the width of a page of the paper. */
 export const FIRST_OPTIONS: FigureOptions = {
   shows: "shapes",
   width: 174,
@@ -72,10 +72,10 @@ export const FIRST_OPTIONS: FigureOptions = {
   points: 8,
 };
 
-/** Kept while the page is open. */
+/** The chosen options, kept while the page is open. */
 export const figureOptions = signal<FigureOptions>(FIRST_OPTIONS);
 
-/** Everything but its size in pixels. */
+/** Contents of a figure without its size in pixels. */
 interface Figure {
   layout: FigureLayout;
   contents: PaneContent[];
@@ -98,7 +98,7 @@ type Shapes = Partial<Record<Region, RegionShapes>>;
 
 let kept: { key: string; shapes: Shapes } | null = null;
 
-/** As many shapes as are wanted: those on show, or others of the same seed. */
+/** The shapes of a figure: those of the page, or requested ones of the same seed if more are wanted. */
 async function shapesFor({ shows, shapes: count }: FigureOptions): Promise<Shapes> {
   const shown = shapes.peek();
   if (shows !== "shapes" || isOverlaid() || count === shapeCount()) return shown;
@@ -116,7 +116,7 @@ async function shapesFor({ shows, shapes: count }: FigureOptions): Promise<Shape
   return found;
 }
 
-/** Whether all shapes of a block are drawn over one another. */
+/** Whether all shapes of a block are overlaid. */
 function isOverlaid(): boolean {
   return contentsOf({ ...scene.peek(), mode: "samples" }, REGIONS).some((one) => one.overlaid);
 }
@@ -178,7 +178,7 @@ function captionLines(text: string, width: number, em: number): string[] {
   return wrapped(text, width - 2 * em, (part) => pen.measureText(part).width);
 }
 
-/** Drawn in one task, at so many pixels across; null where there is nothing to draw. */
+/** Draws a figure in one task at a width in pixels; null if there is nothing to draw. */
 export async function drawFigure(
   options: FigureOptions,
   across: number,
@@ -234,7 +234,7 @@ function mapFor(shows: FigureKind): ShownMap {
   return shows === "variance" ? deviationMap.value : shownMap.value;
 }
 
-/** The scale of a map, for pictures; locked where that on the page is. */
+/** The colour range of a map in a figure; locked if that of the page is. */
 export function barOf(map: ShownMap): Bar | null {
   const range = map.name === shownMap.peek().name ? mapRange.peek() : rangeOf(map);
   return (
@@ -247,7 +247,7 @@ export function barOf(map: ShownMap): Bar | null {
   );
 }
 
-/** Draws it at its size and hands it over. */
+/** Draws a figure at its size and saves it. */
 export async function saveFigure(options: FigureOptions): Promise<void> {
   try {
     const canvas = await drawFigure(options, widthInPixels(options));

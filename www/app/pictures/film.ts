@@ -1,8 +1,8 @@
-/** What an animation shows at each moment. Pure. */
+/** Computes what an animation shows at each moment: keyframes, interpolation, label. Pure. */
 import type { Report } from "../../worker/protocol";
 import { number } from "../text/format";
 
-/** A mode of one of the models, or the way from A’s mean through that of A∩B to B’s. */
+/** What is animated: a mode of a model, or the change from A’s mean through that of A∩B to B’s. */
 export type Subject = "a" | "b" | "intersection" | "morph";
 export type Format = "gif" | "webm";
 
@@ -14,7 +14,7 @@ export interface FilmOptions {
   /** Width in pixels. */
   size: number;
   seconds: number;
-  /** Ends where it began, and GIFs begin again. */
+  /** Whether it ends where it began, and a GIF repeats. */
   loops: boolean;
   label: boolean;
   background: "white" | "dark";
@@ -33,24 +33,24 @@ export const FIRST_FILM: FilmOptions = {
 
 export const SIZES = { least: 120, most: 1920 } as const;
 export const SECONDS = { least: 1, most: 30 } as const;
-/** GIFs count hundredths of a second: 25 frames are four of them each. */
+/** Frames per second; GIFs count hundredths of a second, so a frame is four of them. */
 export const FRAMES_PER_SECOND = 25;
-/** How far a mode goes, in standard deviations. */
+/** Largest coefficient of a mode, in standard deviations. */
 export const REACH_SD = 3;
 
 export function frameCount({ seconds }: FilmOptions): number {
   return Math.round(seconds * FRAMES_PER_SECOND);
 }
 
-/** The moment of a frame: the last of a film that loops comes just before the first. */
+/** Time of a frame as a share of the duration; the last frame of a loop is just before the first. */
 export function momentOf(options: FilmOptions, frame: number): number {
   const frames = frameCount(options);
   return frame / (options.loops ? frames : Math.max(1, frames - 1));
 }
 
 /**
- * Where the film is after a share of its time, 0 … 1: standard deviations of a mode, −3 … 3; or of
- * a morph 0 at A, 1 at A∩B, 2 at B. It slows down where it turns.
+ * Position of the animation after a share of its time, 0 … 1: standard deviations of a mode, −3 … 3; or of a morph
+ * 0 at A, 1 at A∩B, 2 at B. It slows down where it turns.
  */
 export function positionAt({ subject, loops }: FilmOptions, moment: number): number {
   const swing = -Math.cos((loops ? 2 : 1) * Math.PI * moment);
@@ -65,7 +65,7 @@ export interface Keyframe {
   tint: Rgb;
 }
 
-/** Between two keyframes everything is mixed; models are linear, so that this is their own shape. */
+/** Shape between two keyframes by linear interpolation, which is exact since models are linear. */
 export function blend(keys: readonly Keyframe[], position: number): Omit<Keyframe, "at"> | null {
   const beyond = keys.findIndex(({ at }) => at >= position);
   const next = beyond === -1 ? keys.length - 1 : Math.max(1, beyond);
@@ -82,7 +82,7 @@ export function blend(keys: readonly Keyframe[], position: number): Omit<Keyfram
 
 const SIGNS = { a: "A", b: "B", intersection: "A∩B" } as const;
 
-/** What stands above the shape at a moment. */
+/** Label above the shape at a moment. */
 export function labelAt(options: FilmOptions, position: number): string {
   const { subject, mode } = options;
   if (subject === "morph") {
@@ -94,7 +94,7 @@ export function labelAt(options: FilmOptions, position: number): string {
   return `${SIGNS[subject]}, mode ${mode + 1}: ${deviations} SD`;
 }
 
-/** What the film is, in one sentence. */
+/** Describes the animation in one sentence. */
 export function filmSentence(options: FilmOptions, report: Report): string {
   const { subject, mode, loops } = options;
   const { a, b } = report.models;

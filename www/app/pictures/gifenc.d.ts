@@ -1,9 +1,9 @@
-/** What is used of gifenc, which has no types of its own. */
+/** Types of the parts of gifenc that are used; it has none of its own. */
 declare module "gifenc" {
   type Palette = number[][];
   type Format = "rgb565" | "rgb444" | "rgba4444";
   interface FrameOptions {
-    /** Of all frames, where only the first has one. */
+    /** Palette of all frames, if only the first has one. */
     palette?: Palette;
     /** Milliseconds. */
     delay?: number;

@@ -1,9 +1,9 @@
-/** Where everything in a figure of five blocks is. Pure; lengths in 144ths of an inch. */
+/** Computes the layout of a figure of five blocks. Pure; lengths in 144ths of an inch. */
 import type { Region } from "../../worker/protocol";
 import { REGIONS } from "../state/view";
 import type { Frame, Rect } from "../viewer/viewer";
 
-/** Two units to a point: lines that are one pixel wide on the page are half a point in print. */
+/** Units per point: lines of one pixel on the page are half a point in print. */
 export const UNITS_PER_INCH = 144;
 export const MM_PER_INCH = 25.4;
 export const LARGEST_PX = 8192;
@@ -12,12 +12,12 @@ export const SMALLEST_PX = 200;
 export interface FigureSize {
   width: number;
   unit: "px" | "mm";
-  /** Pixels per inch; of a width in pixels, what lettering is measured by. */
+  /** Pixels per inch; of a width in pixels, used for the size of the lettering. */
   dpi: number;
 }
 
 export interface FigureParts {
-  /** Height of a letter's em. */
+  /** Font size. */
   em: number;
   /** Shapes side by side in a block. */
   cells: number;
@@ -41,9 +41,9 @@ export function widthInPixels({ width, unit, dpi }: FigureSize): number {
   return Math.round(unit === "px" ? width : (width / MM_PER_INCH) * dpi);
 }
 
-/** In lines of text. */
+/** Height in lines of text. */
 const LINE = { label: 1.7, bar: 3.4, caption: 1.4, gap: 1.2 };
-/** Blocks of long thin shapes stay within reason. */
+/** Limits of the aspect ratio of a block, for long thin shapes. */
 const ASPECTS = [0.25, 4] as const;
 
 export function layoutFigure(width: number, frame: Frame, parts: FigureParts): FigureLayout {
@@ -77,7 +77,7 @@ export function captionLine(layout: FigureLayout, em: number, line: number): num
   return layout.caption + (line + 0.9) * LINE.caption * em;
 }
 
-/** Words in lines that are no wider than `width`. */
+/** Wraps words into lines that are no wider than `width`. */
 export function wrapped(text: string, width: number, measure: (text: string) => number): string[] {
   const lines: string[] = [];
   let line = "";

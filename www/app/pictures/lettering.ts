@@ -1,4 +1,4 @@
-/** Text and colour bars on a canvas, for every picture that is taken away. */
+/** Draws text and colour bars on the canvas of a figure or animation. */
 import { colourOf, type Palette, shareIn } from "../text/colormap";
 import { number, signed, withoutDust } from "../text/format";
 
@@ -8,9 +8,9 @@ export const INK = { light: "#20242c", dark: "#e9e7e2" } as const;
 export interface Bar {
   range: readonly [number, number];
   palette: Palette;
-  /** What is coloured, with its unit. */
+  /** The coloured quantity with its unit. */
   caption: string;
-  /** What the two ends mean, of a signed scale. */
+  /** Labels of the two ends of a signed scale. */
   ends: readonly [string, string] | null;
 }
 
@@ -18,14 +18,14 @@ interface Place {
   left: number;
   top: number;
   width: number;
-  /** Height of a letter's em. */
+  /** Font size. */
   em: number;
 }
 
-/** The most of the width that a bar takes, and its height, in em. */
+/** Largest width of a bar, and its height, in font sizes. */
 const [LONGEST, HEIGHT] = [24, 1];
 
-/** Two lines: what is coloured, and the scale with its ends. */
+/** Draws two lines: the coloured quantity, and the bar with its ends. */
 export function drawBar(pen: CanvasRenderingContext2D, bar: Bar, place: Place): void {
   const { left, top, width, em } = place;
   const ink = pen.fillStyle;

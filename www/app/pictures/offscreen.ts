@@ -1,6 +1,6 @@
 /**
- * A viewer of its own for pictures that are taken away: drawing them at their size would make the
- * stage draw itself anew after each, dozens of times for an animation.
+ * Viewer for figures and animations, separate from that of the page: drawing them with the page's viewer would
+ * redraw the page after each frame.
  */
 import { createViewer, dimension } from "../stage/stage-controller";
 import type { Viewer } from "../viewer/viewer";
@@ -14,7 +14,7 @@ export function offscreenViewer(): Promise<Viewer> {
   return open.viewer;
 }
 
-/** Lets go of its memory, and of its WebGL context, of which a page may have only a few. */
+/** Frees the memory and the WebGL context of the viewer; a page may have only a few contexts. */
 export function closeOffscreen(): void {
   open?.viewer.then(
     (viewer) => viewer.dispose(),

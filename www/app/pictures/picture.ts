@@ -1,4 +1,4 @@
-/** The panes as a picture, with labels, colour bar and caption. */
+/** Draws the panes of the page as one picture, with labels, colour bar and caption. */
 
 import { VENN_BOX, vennOf } from "../comparison/venn";
 import { headline, settingsSentence } from "../comparison/words";
@@ -13,10 +13,10 @@ import { barOf } from "./figure";
 import { drawBar, FONT, INK } from "./lettering";
 
 const SCALE = 2;
-/** Height of what stands below the shapes: more where there is a colour bar. */
+/** Height of the texts below the shapes; more with a colour bar. */
 const FOOT = { bar: 48, words: 48 };
 
-/** White on the light theme; transparent on the dark one, with light lettering. */
+/** Background and lettering: white on the light theme, transparent with light letters on the dark one. */
 export async function savePicture(): Promise<void> {
   const canvas = document.querySelector<HTMLCanvasElement>("canvas.shapes");
   const made = viewer.peek();
@@ -53,7 +53,7 @@ const HUES = {
   dark: { a: "#7aaaff", b: "#ffab5c", ab: "#dc92e6" },
 } as const;
 
-/** The Venn diagram, where it stands on the page. */
+/** Draws the Venn diagram at its position on the page. */
 function drawMap(pen: CanvasRenderingContext2D, canvas: HTMLCanvasElement, dark: boolean): void {
   const report = result.peek()?.report;
   const box = document.querySelector(".venn svg")?.getBoundingClientRect();

@@ -1,9 +1,9 @@
 /**
- * How large a PNG is meant to be printed: a chunk that canvases leave out (PNG specification, third
- * edition, 11.3.4.3: pHYs, in pixels per metre). Pure.
+ * Adds the resolution to a PNG: a chunk that canvases leave out (PNG specification, third edition, 11.3.4.3: pHYs,
+ * in pixels per metre). Pure.
  */
 
-/** Behind the signature and the header, which is always the first chunk. */
+/** Offset behind the signature and the header, which is always the first chunk. */
 const AFTER_HEADER = 8 + 25;
 
 export function withResolution(png: Uint8Array, dpi: number): Uint8Array<ArrayBuffer> {
@@ -23,7 +23,7 @@ export function withResolution(png: Uint8Array, dpi: number): Uint8Array<ArrayBu
   return whole;
 }
 
-/** CRC-32, as every chunk ends with. */
+/** CRC-32, the checksum at the end of every chunk. */
 function checksum(bytes: Uint8Array): number {
   let crc = 0xffffffff;
   for (const byte of bytes) {

@@ -1,4 +1,4 @@
-/** Asks for the shapes of an animation and draws its frames. */
+/** Requests the shapes of an animation and draws its frames. */
 
 import type { Region, Space } from "../../worker/protocol";
 import { scene } from "../stage/stage-controller";
@@ -22,11 +22,11 @@ import { offscreenViewer } from "./offscreen";
 export interface Reel {
   width: number;
   height: number;
-  /** Onto a canvas of its size. */
+  /** Draws a moment on a canvas of its size. */
   draw(pen: CanvasRenderingContext2D, moment: number): void;
 }
 
-/** Lettering and lines are made for pictures of this width. */
+/** Width in pixels for which lettering and lines are designed. */
 const DESIGNED_FOR = 480;
 const LABEL = { top: 22, labelHeight: 30, size: 14 };
 
@@ -49,7 +49,7 @@ export async function reelOf(signal: AbortSignal, options: FilmOptions): Promise
   const aspect = Math.min(3, Math.max(1 / 3, frame.halfWidth / frame.halfHeight));
   const scale = options.size / DESIGNED_FOR;
   const labelHeight = options.label ? LABEL.labelHeight : 0;
-  // Codecs want even numbers.
+  // Codecs need even sizes.
   const even = (value: number) => 2 * Math.round(value / 2);
   const [width, height] = [even(options.size), even(options.size / aspect + labelHeight * scale)];
   const viewer = await offscreenViewer();
@@ -97,7 +97,7 @@ function drawMoment(pen: CanvasRenderingContext2D, reel: Drawn, moment: number):
   pen.fillText(labelAt(options, position), width / 2, LABEL.top * scale);
 }
 
-/** What its shapes are drawn with, and the shapes between which all others lie. */
+/** The surface and the keyframes of an animation. */
 async function keyframesOf(
   signal: AbortSignal,
   options: FilmOptions,
@@ -127,7 +127,7 @@ async function keyframesOf(
   return [contentIn("a"), keys];
 }
 
-/** A canvas of its size, with one of its moments. */
+/** Draws one moment of an animation on a new canvas. */
 export function stillOf(reel: Reel, moment: number): HTMLCanvasElement {
   const canvas = document.createElement("canvas");
   canvas.width = reel.width;
@@ -137,7 +137,7 @@ export function stillOf(reel: Reel, moment: number): HTMLCanvasElement {
   return canvas;
 }
 
-/** The pixels of a frame, drawn on a canvas that is there for being read. */
+/** The pixels of a frame, read from a canvas of its own. */
 export function framesOf(reel: Reel, options: FilmOptions): (frame: number) => ImageData {
   const canvas = document.createElement("canvas");
   canvas.width = reel.width;

@@ -3,7 +3,7 @@ import { useEffect, useRef } from "preact/hooks";
 import { CloseIcon } from "../ui/icons";
 import type { QrCode } from "./qr";
 
-/** The QR code of a link, beside it and as large as the window. */
+/** QR code of a link, small beside it or as large as the window. */
 export function Qr({ text }: { text: string }) {
   const code = useSignal<QrCode | "too long" | "unavailable" | null>(null);
   const full = useSignal(false);
@@ -25,8 +25,8 @@ export function Qr({ text }: { text: string }) {
   if (found === "too long" || found === "unavailable") {
     const why =
       found === "too long"
-        ? "This link is too long for a code that cameras can read from afar."
-        : "The part of the page that draws codes cannot be loaded: load the page again.";
+        ? "This link is too long for a QR code that cameras can read from a distance."
+        : "The part of the page that draws QR codes cannot be loaded: load the page again.";
     return <p class="small share-qr">{why}</p>;
   }
   return (
@@ -53,7 +53,7 @@ export function Qr({ text }: { text: string }) {
   );
 }
 
-/** Dark on white whatever the theme: many cameras read no other codes. */
+/** The code in dark on white in both themes: many cameras read no others. */
 function Drawing({ code: { size, path } }: { code: QrCode }) {
   return (
     <svg

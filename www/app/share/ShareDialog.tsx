@@ -9,7 +9,7 @@ import { type Line, type Subject, subject } from "./subject";
 
 export const sharing = signal(false);
 
-/** What is on show, for somebody else: as a link, a code to photograph, a frame, a command. */
+/** Dialog that shares what the page shows: as a link, a QR code, a frame for other pages, a command. */
 export function ShareDialog() {
   if (!sharing.value) return null;
   const address = sharedAddress();
@@ -75,7 +75,7 @@ function LinkPart({ address, shared: { holds, copied, lost } }: Props) {
   );
 }
 
-/** What is in a link is sent to no server, but links are passed on. */
+/** Chooses whether links contain the names of the visitor's files. */
 function Names() {
   return (
     <label class="check">
@@ -91,7 +91,7 @@ function Names() {
   );
 }
 
-/** By the system's own dialog. Who closes that has changed their mind: nothing went wrong. */
+/** Shares a link with the dialog of the system. Closing that dialog is no error. */
 async function sendOn(url: string): Promise<void> {
   await navigator.share({ title: document.title, url }).catch(() => undefined);
 }
@@ -122,8 +122,8 @@ function AsCommand({ command: { text, files, missing } }: { command: Line }) {
         )}
         {missing.length > 0 && (
           <p class="small">
-            It cannot say {missing.join(" and ")}: take a run file instead, and{" "}
-            <code>shapevenn compare --run</code>.
+            The command does not contain {missing.join(" and ")}: use a run file with{" "}
+            <code>shapevenn compare --run</code> instead.
           </p>
         )}
       </div>

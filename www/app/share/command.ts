@@ -1,20 +1,20 @@
-/** The comparison on show as a line for the command line. Pure. */
+/** Writes the shown comparison as a command for the terminal. Pure. */
 import type { BothSides, Settings, SidePreparation } from "../../worker/protocol";
 import { budgetOf, DEFAULTS } from "../state/settings";
 
-/** A model as the command line names it. */
+/** A model as an argument of the command line. */
 export interface CommandModel {
   /** `demo:NAME`, or the name of a file. */
   source: string;
   /** Null for the first of the file. */
   part: string | null;
-  /** Whether the shapes of a set were brought to one size. */
+  /** Whether the shapes of a set were scaled to one size. */
   scale: boolean;
 }
 
 export interface Command {
   line: string;
-  /** What the line cannot say; a run file can. */
+  /** Settings that the command line has no flag for; a run file has them. */
   missing: string[];
 }
 
@@ -53,7 +53,7 @@ export function commandOf(settings: Settings, models: BothSides<CommandModel>): 
   return { line: words.map(quoted).join(" "), missing };
 }
 
-/** Steps before the comparison; what cannot be said goes to `missing`. */
+/** Flags for the preparation of the models; settings without a flag go to `missing`. */
 function preparation({ prepare }: Settings, missing: string[]): string[] {
   const { a, b, convert, points, subsample } = prepare;
   const words: string[] = [];
@@ -80,7 +80,7 @@ function modelWord({ source, part }: CommandModel): string {
   return part === null ? source : `${source}#${part}`;
 }
 
-/** As a POSIX shell reads it. */
+/** Quotes a word for a POSIX shell. */
 function quoted(word: string): string {
   return /^[\w./:@%+=,-]+$/.test(word) ? word : `'${word.replaceAll("'", "'\\''")}'`;
 }

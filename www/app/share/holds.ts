@@ -1,30 +1,30 @@
-/** What a link holds and what it does not, in words. Pure. */
+/** Sentences about what a link contains and what it does not. Pure. */
 
 export interface Unlinkable {
-  /** Sides that are files of the visitor's own. */
+  /** Which of A and B are the visitor's own files. */
   files: ("a" | "b")[];
-  /** Whether other such models are open besides. */
+  /** Whether other models of the visitor are open. */
   modelList: boolean;
-  /** Whether the points that are compared are a list too long for a link. */
+  /** Whether the compared points are a list too long for a link. */
   points: boolean;
 }
 
-/** In a line, once it is copied. */
+/** Message after copying a link. */
 export function copiedWords({ files, modelList, points }: Unlinkable): string {
   if (files.length > 0) return "Link copied; it holds no files";
-  return modelList || points ? "Link copied; not all is in it" : "Link copied";
+  return modelList || points ? "Link copied; it does not contain everything" : "Link copied";
 }
 
 export function holdsSentences({ files, modelList, points }: Unlinkable): string[] {
   const said = [holds(files)];
-  if (modelList) said.push("Models of your own beside A and B are not in it.");
+  if (modelList) said.push("Your own models other than A and B are not in the link.");
   if (points) said.push("Which points are compared is a list too long for a link: use a run file.");
   return said;
 }
 
 function holds(files: Unlinkable["files"]): string {
   if (files.length === 0) {
-    return "The link holds the models, every setting and how it is looked at: whoever opens it sees the same numbers.";
+    return "The link contains the models, all settings and the view: everyone who opens it sees the same numbers.";
   }
   const [which, them, are] =
     files.length === 2

@@ -1,18 +1,18 @@
-/** A link as a QR code. Loaded only when somebody looks at one. */
+/** Encodes a link as a QR code. Loaded only when one is shown. */
 import { encode } from "uqr";
 
 export interface QrCode {
-  /** Modules on a side, the white rim of four included, without which cameras do not find it. */
+  /** Modules per row, including the white rim of four that cameras need. */
   size: number;
   /** The dark modules as an SVG path. */
   path: string;
 }
 
-/** Longer ones have modules too small for a camera in a lecture hall. */
+/** Longest link in a QR code: longer ones have modules too small for a camera in a lecture hall. */
 export const LONGEST_QR = 1200;
 
 export function qrCode(text: string): QrCode {
-  // Screens are not torn or stained: the least redundancy gives the largest modules.
+  // The least redundancy gives the largest modules; screens have no damage to correct.
   const { size, data } = encode(text, { ecc: "L", border: 4 });
   const path = data.flatMap((row, y) =>
     runs(row).map(([x, length]) => `M${x} ${y}h${length}v1h-${length}z`),
@@ -20,7 +20,7 @@ export function qrCode(text: string): QrCode {
   return { size, path: path.join("") };
 }
 
-/** Where the dark modules of a row begin, and how many they are. */
+/** Start and length of the runs of dark modules in a row. */
 function runs(row: boolean[]): [number, number][] {
   const found: [number, number][] = [];
   row.forEach((dark, x) => {

@@ -1,4 +1,4 @@
-/** What is given to somebody else, as text. That the command does the same is tested in the browser. */
+/** Tests the texts of sharing. That the command computes the same is tested in the browser. */
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Settings } from "../../worker/protocol";
@@ -59,7 +59,7 @@ test("steps before the comparison are flags; what there is no flag for is told",
 
 test("what a link holds is said for files, for more models and for lists of points", () => {
   const none = { files: [], modelList: false, points: false };
-  assert.match(holdsSentences(none).join(" "), /^The link holds the models, every setting/);
+  assert.match(holdsSentences(none).join(" "), /^The link contains the models, all settings/);
   assert.equal(
     holdsSentences({ ...none, files: ["a", "b"] })[0],
     "The link has all settings and the fingerprints of your two files, not the files. Whoever opens it drops the same files, and the page checks that they are the same.",

@@ -1,4 +1,4 @@
-/** What is pasted into another page to show this comparison there. Pure. */
+/** HTML that shows this comparison in another web page. Pure. */
 
 /** A custom element from our own host; without JavaScript the link inside it stays. */
 export function elementSnippet(address: string, title: string): string {
@@ -11,7 +11,7 @@ export function elementSnippet(address: string, title: string): string {
   ].join("\n");
 }
 
-/** For pages that take no scripts. `address` is that of the frame. */
+/** Frame for pages that allow no scripts. `address` is that of the frame. */
 export function frameSnippet(address: string, title: string): string {
   return `<iframe src="${escaped(address)}" title="${escaped(title)}" width="100%" height="420" style="border: 0" allow="fullscreen; clipboard-write" loading="lazy"></iframe>`;
 }

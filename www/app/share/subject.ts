@@ -1,4 +1,4 @@
-/** What is shared: the comparison, the scene of a lesson, or the gallery. */
+/** Describes what the share dialog shares: the comparison, the scene of a lesson, or the gallery. */
 
 import { headline } from "../comparison/words";
 import { titleOf } from "../learn/scenes";
@@ -11,26 +11,26 @@ import { type CommandModel, commandOf } from "./command";
 import { copiedWords, holdsSentences, type Unlinkable } from "./holds";
 
 export interface Subject {
-  /** Of the dialog. */
+  /** Title of the dialog. */
   title: string;
-  /** Of a frame, for those who do not see it. */
+  /** Accessible name of a frame. */
   name: string;
   /** What a frame shows. */
   framed: string;
-  /** What the link holds. */
+  /** What the link contains. */
   holds: string[];
   copied: string;
-  /** What a link cannot hold. */
+  /** What a link cannot contain. */
   lost: Unlinkable;
   command: Line | null;
 }
 
-/** A line for a terminal, and what there is to know about it. */
+/** A command for the terminal, with the files that it needs and what it does not contain. */
 export interface Line {
   text: string;
-  /** Files that must be at hand. */
+  /** Files that it needs. */
   files: string[];
-  /** What the line cannot say. */
+  /** Settings that it does not contain. */
   missing: string[];
 }
 
@@ -45,7 +45,7 @@ const GALLERY: Subject = {
   title: "Share the gallery",
   name: "Shapevenn: gallery",
   framed: "A frame with the gallery.",
-  holds: ["The link leads to the gallery."],
+  holds: ["The link opens the gallery."],
   copied: copiedWords(NOTHING),
   lost: NOTHING,
   command: null,
@@ -58,9 +58,9 @@ function scenePart(): Subject {
   return {
     title: "Share this scene",
     name: `Shapevenn: ${title}`,
-    framed: "A frame with the scene, which plays there too, and a link to here.",
+    framed: "A frame with the animated scene and a link to this page.",
     holds: [
-      "The link holds the scene, its seed and what was set: whoever opens it sees the same numbers.",
+      "The link contains the scene, its seed and its settings: everyone who opens it sees the same numbers.",
     ],
     copied: copiedWords(NOTHING),
     lost: NOTHING,
@@ -75,7 +75,7 @@ function comparison(): Subject {
   return {
     title: "Share this comparison",
     name: `Shapevenn: ${nouns.value.a} and ${nouns.value.b}`,
-    framed: `A frame with the shapes${sentence ?? ""} and a link to here.`,
+    framed: `A frame with the shapes${sentence ?? ""} and a link to this page.`,
     holds: holdsSentences(lost),
     copied: copiedWords(lost),
     lost,

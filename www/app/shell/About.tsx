@@ -14,13 +14,13 @@ export function About() {
             Approximating Intersections and Differences Between Linear Statistical Shape Models
             Using Markov Chain Monte Carlo
           </cite>
-          , WACV 2024, with a faster sampler by default; the published one can be chosen. A shape
-          counts as one the other model can make when it lies about σ or less from its nearest shape
-          there, on average per point.
+          , WACV 2024, with a faster sampler by default; the published one can be chosen. A model
+          can make a shape of the other one if its nearest shape lies within about σ of it, on
+          average per point.
         </p>
         <p>
-          What the overlap of two models says that the Bhattacharyya distance of their laws does not
-          is studied over the bundled pairs in docs/overlap-study.md of the source.
+          How the overlap of two models relates to the Bhattacharyya distance is studied for the
+          bundled pairs in docs/overlap-study.md of the source.
         </p>
         <p>Everything is computed in this page. Your files stay on this computer.</p>
       </details>

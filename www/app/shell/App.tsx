@@ -7,7 +7,7 @@ import { ModelCard } from "../panels/ModelCard";
 import { PairCard } from "../panels/PairCard";
 import { RunPanel } from "../panels/RunPanel";
 import { SettingsPanel } from "../panels/SettingsPanel";
-import { Taking } from "../pictures/Taking";
+import { PictureDialogs } from "../pictures/PictureDialogs";
 import { ShareDialog } from "../share/ShareDialog";
 import { demo, embedded, page, result, spoken, tab } from "../state/state";
 import { wide } from "../state/wide";
@@ -44,14 +44,14 @@ function WholePage() {
       <PageShown framed={false} />
       <DropOverlay />
       <Chooser />
-      <Taking />
+      <PictureDialogs />
       <ShareDialog />
       <Spoken />
     </>
   );
 }
 
-/** What the page is for just now; of a comparison, in a frame only the shapes. */
+/** The shown page: comparison, lessons or gallery; in a frame a comparison shows only its shapes. */
 function PageShown({ framed }: { framed: boolean }) {
   switch (page.value) {
     case "learn":
@@ -67,7 +67,7 @@ const learn = () => import("./Learn").then(({ Learn }) => Learn);
 const gallery = () => import("../gallery/Gallery").then(({ Gallery }) => Gallery);
 
 function Comparison() {
-  // Before anything is compared, what a link waits for is all that there is.
+  // A link whose models are missing is shown in the centre as long as nothing was compared.
   const linkIsAll = Boolean(awaited.value?.link) && result.value === null;
   const explores = tab.value === "explore";
   return (
@@ -109,7 +109,7 @@ function Comparison() {
   );
 }
 
-/** For screen readers. */
+/** Messages for screen readers. */
 function Spoken() {
   return (
     <p class="unseen" aria-live="polite">
@@ -118,7 +118,7 @@ function Spoken() {
   );
 }
 
-/** Out of the way of the sliders. */
+/** The results folded, so that the sliders of the explorer are in view. */
 function FoldedResults() {
   return (
     <details class="more">

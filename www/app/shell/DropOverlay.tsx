@@ -1,6 +1,6 @@
 import { dropSide } from "./drop";
 
-/** Two halves while files are dragged over the window. */
+/** Overlay while files are dragged over the window: one half for A, one for B. */
 export function DropOverlay() {
   const side = dropSide.value;
   if (side === null) return null;
@@ -13,8 +13,8 @@ export function DropOverlay() {
         </div>
       ))}
       <p class="drop-note">
-        Two models at once fill both, more make a table; a folder of meshes makes one. Your files
-        stay on this computer.
+        Two models are opened as A and B, more as a table of pairs; a folder of meshes is one model.
+        Your files stay on this computer.
       </p>
     </div>
   );

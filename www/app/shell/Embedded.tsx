@@ -14,7 +14,7 @@ import { Stage } from "../tabs/regions/Stage";
 import { percent } from "../text/format";
 import { Notices } from "../ui/Notices";
 
-/** The page as a frame in another page: one tab, one line of caption, and the way out of the frame. */
+/** The page as a frame in another page: one tab, a caption, and a link to the whole page. */
 export function Embedded() {
   return (
     <main class="embedded" data-tab={tab.value}>
@@ -42,7 +42,7 @@ export function Embedded() {
   );
 }
 
-/** Why the two cannot be compared; the remedies are a click away in the whole page. */
+/** Why the two models cannot be compared; the remedies are in the whole page. */
 function Problem() {
   const problem = inspection.value?.problem;
   return problem ? (
@@ -55,7 +55,7 @@ function Problem() {
   ) : null;
 }
 
-/** Whose, and what of them. */
+/** Caption: names of the models and what is shown of them. */
 function shown(): string {
   const { a, b } = nouns.value;
   const whose = `A: ${a}. B: ${b}.`;

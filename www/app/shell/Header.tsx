@@ -48,7 +48,7 @@ export function Header() {
 
 const MAC = /Mac|iPhone|iPad/.test(navigator.platform);
 
-/** While something is painted its own bar undoes strokes. */
+/** Buttons for undo and redo; disabled while painting, which has its own. */
 function UndoButtons() {
   const paints = painting.value !== null;
   return (

@@ -1,4 +1,4 @@
-// Before those of the scenes, which have the last word.
+// Imported before the styles of the scenes, which override it.
 import "../learn/learn.css";
 import { useEffect, useRef } from "preact/hooks";
 import { useHands } from "../learn/hands";
@@ -11,13 +11,13 @@ import { sharedAddress } from "../link/history";
 import { embedded } from "../state/state";
 import { Notices } from "../ui/Notices";
 
-/** The lessons: one scene at a time, each a link. */
+/** The page Learn: one scene of the lessons at a time. */
 export function Learn() {
   const top = useRef<HTMLElement>(null);
   const name = scene.value;
   useKeys();
   useHands();
-  // A new scene is read from its top.
+  // A new scene is shown from its top.
   useEffect(() => {
     top.current?.scrollTo(0, 0);
   }, [name]);
@@ -49,7 +49,7 @@ export function Learn() {
   );
 }
 
-/** Of a frame in another page. */
+/** Link from a frame to the whole page. */
 function WayOut() {
   return (
     <footer class="scene-along">

@@ -7,7 +7,7 @@ const NAMES: Record<PageName, string> = {
   gallery: "Gallery",
 };
 
-/** What the page is for. Links, so that each can be opened in a window of its own. */
+/** Navigation between comparison, lessons and gallery. Links, so that each can be opened in a new window. */
 export function Pages() {
   return (
     <nav class="pages" aria-label="Pages">
@@ -19,7 +19,7 @@ export function Pages() {
           data-page={name}
           onClick={(event) => {
             if (event.ctrlKey || event.metaKey || event.shiftKey) return;
-            // A comparison that was begun is gone back to, not begun anew.
+            // Returns to the present comparison instead of starting a new one.
             if (name === "compare" && !begun.value) return;
             event.preventDefault();
             if (painting.value === null) page.value = name;

@@ -1,4 +1,4 @@
-/** Opens the page: numbers first, then the engine, the models and their shapes. */
+/** Starts the page: shows the stored numbers first, then loads the engine, the models and their shapes. */
 import { batch, effect } from "@preact/signals";
 import { storedResult, watchChoices, watchPictures } from "../comparison/run";
 import { titleOf } from "../learn/scenes";
@@ -49,7 +49,7 @@ export function boot(): void {
     return;
   }
   keepLink(waits);
-  // Other pages need none of it, until somebody turns to the comparison.
+  // The other pages need none of it until the comparison is opened.
   const stop = effect(() => {
     if (page.value !== "compare") return;
     queueMicrotask(() => {
@@ -60,7 +60,7 @@ export function boot(): void {
   });
 }
 
-/** Whether what a link compares must be brought first. */
+/** Whether the visitor must open files before the link can be compared. */
 const waits = (link: LinkState) => awaitLink(link) !== null;
 
 async function bootComparison(link: LinkState): Promise<void> {
@@ -70,7 +70,7 @@ async function bootComparison(link: LinkState): Promise<void> {
   const models = openModels(link);
   const stored = await fetchStored();
   if (stored && wants(link, settingsKey(stored.settings))) {
-    // Whoever restores sees whether this failed; until then it is not unhandled.
+    // A failure is handled when the comparison is restored.
     stored.draws().catch(() => undefined);
     batch(() => {
       settings.value = stored.settings;
@@ -89,7 +89,7 @@ async function bootComparison(link: LinkState): Promise<void> {
   await models;
 }
 
-/** Whether the address asks for the stored comparison, as an address that says nothing does. */
+/** Whether the address opens the stored comparison, as an empty one does. */
 function wants(link: LinkState, storedKey: string): boolean {
   if (link.urls || link.demo !== FIRST_DEMO.id) return false;
   const asked = new URLSearchParams(location.hash.slice(1));
@@ -97,7 +97,7 @@ function wants(link: LinkState, storedKey: string): boolean {
   return silent || settingsKey(link.settings) === storedKey;
 }
 
-/** A link of a newer page may ask for what this one does not have. */
+/** Reports keys and values of a link that this page does not know, as from a newer page. */
 function tellMisread(): void {
   const found = misread(location.hash);
   if (found.length === 0) return;
@@ -116,7 +116,7 @@ async function openModels(link: LinkState): Promise<void> {
   await openPair(a, b);
 }
 
-/** What the document itself shows of the state. */
+/** Writes the state to attributes and title of the document. */
 function watchDocument(): void {
   effect(() => {
     document.documentElement.dataset.state =

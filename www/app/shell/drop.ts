@@ -1,4 +1,4 @@
-/** The whole window takes files, always. A miss never navigates away. */
+/** Opens files that are dropped anywhere on the window; a drop never leaves the page. */
 import { signal } from "@preact/signals";
 import type { DroppedFile } from "../../worker/protocol";
 import { openFiles } from "../panels/dropped-files";
@@ -42,14 +42,14 @@ async function take(dropped: DataTransfer, side: Side): Promise<void> {
       "page",
       code,
       message,
-      "Drop models, or folders with the shapes of one population each.",
+      "Drop models, or folders that each hold the shapes of one population.",
     );
-  if (files.length === 0) refuse("no-files", "There is no file in what was dropped.");
+  if (files.length === 0) refuse("no-files", "There was no file in the drop.");
   else if (files.length < MOST_FILES) await openFiles(files, side);
   else refuse("too-many-files", `More than ${count(MOST_FILES)} files were dropped.`);
 }
 
-/** Once the drop is over the browser takes its list away, so entries are asked for at once. */
+/** Reads the entries of a drop at once: the browser clears the list after the event. */
 function droppedFiles(dropped: DataTransfer): Promise<DroppedFile[]> {
   const items = [...dropped.items].filter(({ kind }) => kind === "file");
   const entries = items.flatMap((item) => item.webkitGetAsEntry?.() ?? []);
@@ -62,7 +62,7 @@ function holdsFiles(event: DragEvent): boolean {
   return event.dataTransfer?.types.includes("Files") ?? false;
 }
 
-/** Halves lie side by side on wide windows and over one another on tall ones, as drawn. */
+/** The half under the pointer: side by side on wide windows, one above the other on tall ones. */
 function sideAt(event: DragEvent): Side {
   const wide = innerWidth >= innerHeight;
   const share = wide ? event.clientX / innerWidth : event.clientY / innerHeight;

@@ -1,6 +1,6 @@
 import { resample } from "../../comparison/run";
+import { pictureDialog } from "../../pictures/PictureDialogs";
 import { savePicture } from "../../pictures/picture";
-import { taking } from "../../pictures/Taking";
 import { MapChooser } from "../../stage/MapChooser";
 import { HOME } from "../../state/camera";
 import { camera, outOfDate, region, view } from "../../state/state";
@@ -68,7 +68,7 @@ export function Toolbar() {
         type="button"
         class="quiet"
         onClick={() => {
-          taking.value = "figure";
+          pictureDialog.value = "figure";
         }}
       >
         Figure…
