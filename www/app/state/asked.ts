@@ -1,20 +1,20 @@
-/** Requests to the engine whose latest answer is shown. */
+/** Hook that sends a question to the engine and returns its latest answer. */
 import { useSignal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 import { EngineFailure, wasAborted } from "../../worker/engine-errors";
 import { latest } from "./latest";
 
 export interface Answer<Q, A> {
-  /** What was asked. */
+  /** The question. */
   question: Q;
   answer: A | null;
-  /** Why there is none. */
+  /** The error, if there is no answer. */
   problem: { message: string; hint: string } | null;
 }
 
 /**
- * The latest answer. A new question, by its fields, is asked as soon as the engine has answered the one before;
- * null asks nothing and leaves what is there.
+ * Returns the latest answer. A new question, compared by its fields, is sent when the one before is answered;
+ * null sends nothing and keeps the last answer.
  */
 export function useAnswer<Q extends object, A>(
   question: Q | null,
@@ -30,7 +30,7 @@ export function useAnswer<Q extends object, A>(
           shown.value = { question: asked, answer, problem: null };
         } catch (thrown) {
           if (wasAborted(thrown) || !(thrown instanceof EngineFailure)) return;
-          // After a restart of the engine what it said before still holds.
+          // Answers from before a restart of the engine are still valid.
           if (thrown.code === "engine-stopped") return;
           shown.value = { question: asked, answer: null, problem: thrown };
         }

@@ -1,12 +1,12 @@
-/** One camera for all panes, as plain numbers that fit in a link. */
+/** The camera of all panes, as numbers that a link can hold. */
 export interface Camera {
-  /** Radians round the upright axis; 0 looks the shape in the face. */
+  /** Radians about the vertical axis; 0 is the front view. */
   yaw: number;
-  /** Radians above the horizon. */
+  /** Radians above the horizontal plane. */
   pitch: number;
   /** 1 shows a whole shape in its pane. */
   zoom: number;
-  /** Shift in the picture, in radii of the shape. */
+  /** Shift in the image, in radii of the shape. */
   x: number;
   y: number;
 }

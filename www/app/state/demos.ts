@@ -1,6 +1,6 @@
-/** The pairs of models that come with the page. */
+/** The example pairs of models that come with the page. */
 
-/** What two models, and the shapes that they make, are called in a sentence. */
+/** Names of two models and of their shapes, for sentences. */
 export interface Nouns {
   a: string;
   b: string;
@@ -13,14 +13,14 @@ export function nounsOf(a: string, b: string): Nouns {
 }
 
 export interface Demo {
-  /** As in the link. */
+  /** Name in links. */
   id: string;
   label: string;
   a: string;
   b: string;
   nouns: Nouns;
   note: string;
-  /** Where the recommended σ would hide what the example is to show. */
+  /** σ of the example, where the recommended one would not show its point. */
   sigma?: number;
 }
 
@@ -76,7 +76,7 @@ export const DEMO_GROUPS: { label: string; demos: Demo[] }[] = [
   { label: "Geometry", demos: [planes] },
 ];
 
-/** The models of all pairs, each by itself. */
+/** The models of all pairs. */
 export const DEMO_MODELS: string[] = DEMO_GROUPS.flatMap(({ demos }) =>
   demos.flatMap(({ a, b }) => [a, b]),
 );
@@ -90,7 +90,7 @@ export function findDemo(id: string): Demo | undefined {
   return DEMO_GROUPS.flatMap((group) => group.demos).find((demo) => demo.id === id);
 }
 
-/** The packaged file of a demo model; none where the engine makes it by code. */
+/** The file of an example model; null if the engine computes it. */
 export function packagedFile(model: string): string | null {
   return model.startsWith("heads-") ? `demos/${model}.npz` : null;
 }

@@ -20,7 +20,7 @@ export function engineClient(): EngineClient {
         "page",
         "engine-stopped",
         reason,
-        "The engine starts again and opens your models anew.",
+        "The engine is restarted and your models are opened again.",
       );
       for (const listener of restarted) listener();
     },
@@ -37,7 +37,7 @@ export function engineClient(): EngineClient {
   return client;
 }
 
-/** Every handle is void after a restart. */
+/** Calls a function after each restart of the engine, which makes all handles invalid. */
 export function onEngineRestart(listener: () => void): void {
   restarted.add(listener);
 }
@@ -55,7 +55,7 @@ function spawn(serial: boolean): Worker {
   });
 }
 
-/** Shows what went wrong beside what it concerns; what was there stays. */
+/** Shows an error next to the part of the page that it concerns. */
 export function report(
   place: Notice["place"],
   thrown: unknown,

@@ -1,30 +1,29 @@
 /**
- * What is explored, as plain state and as a part of the link:
- * `explore=a,modes,1:2.5,4:-1`, of the fourth axis −1 standard deviation. A value without a number
- * belongs to the axis after the one before it. Pure.
+ * State of the explorer and its part of the link: in `explore=a,modes,1:2.5,4:-1` the fourth axis has −1 standard
+ * deviation. A value without a number belongs to the next axis. Pure.
  */
 import type { AxesKind, Space } from "../../worker/protocol";
 import { parseSeed } from "./settings";
 
 export type SurfaceStyle = "smooth" | "flat" | "wireframe";
-/** All three panes, or one of them: the middle, in which shapes lie over one another, or a side. */
+/** Layout of the panes: all three, the middle one with both models overlaid, or A or B alone. */
 export type ExploreLayout = "side" | "overlaid" | "a" | "b";
 
 export interface ExplorerState {
-  /** The model that is driven, and along which directions. */
+  /** The model whose shape is set, and the directions of the sliders. */
   space: Space;
   kind: AxesKind;
   /** The random shape to which `own` is added; null for the mean. */
   seed: string | null;
   /** Coefficients of single axes, from 0, in standard deviations. */
   own: Readonly<Record<number, number>>;
-  /** How many times the deviation from the mean is drawn. */
+  /** Factor by which deviations from the mean are magnified. */
   magnify: number;
   style: SurfaceStyle;
   layout: ExploreLayout;
-  /** Whether what the other model misses is coloured. */
+  /** Whether the residual in the other model is coloured. */
   heat: boolean;
-  /** Between the shapes of a principal angle, 0 for A's and 1 for B's. */
+  /** Interpolation between the shapes of a principal angle, 0 for A's and 1 for B's. */
   morph: number;
 }
 
@@ -33,9 +32,9 @@ export const KINDS: AxesKind[] = ["modes", "exclusive", "relative", "angles"];
 export const STYLES: SurfaceStyle[] = ["smooth", "flat", "wireframe"];
 export const LAYOUTS: ExploreLayout[] = ["side", "overlaid", "a", "b"];
 
-/** As the sliders have it. */
+/** Largest coefficient of the sliders, in standard deviations. */
 export const REACH_SD = 3;
-/** As far as can be typed, or dragged. */
+/** Largest coefficient that can be typed or dragged. */
 export const MOST_SD = 20;
 export const MOST_MAGNIFY = 10;
 const MOST_AXES = 10_000;
@@ -55,7 +54,7 @@ export function defaultExplorer(): ExplorerState {
   };
 }
 
-/** As links hold it, so that a link opened again is the same shape. */
+/** Rounds a coefficient as links do, so that an opened link has the same shape. */
 export function rounded(coefficient: number): number {
   const bounded = Math.min(MOST_SD, Math.max(-MOST_SD, coefficient));
   return Number(bounded.toFixed(DIGITS)) + 0;
@@ -83,7 +82,7 @@ export function randomCoefficients(seed: string, count: number): number[] {
   });
 }
 
-/** One for each of `count` axes; what a link says of more axes than there are is left out. */
+/** A coefficient for each of `count` axes; values of a link for further axes are ignored. */
 export function coefficientsOf({ seed, own }: ExplorerState, count: number): number[] {
   const base = seed === null ? [] : randomCoefficients(seed, count);
   return Array.from({ length: count }, (_, i) => own[i] ?? base[i] ?? 0);
@@ -123,7 +122,7 @@ export function readExplorer(given: URLSearchParams): ExplorerState {
   const seed = parseSeed(given.get("random") ?? "");
   return {
     space,
-    // What sets two models apart is asked of one of them.
+    // Directions that compare two models belong to A or B, not to A∩B.
     kind: space === "intersection" ? "modes" : kind,
     seed: seed === "invalid" ? null : seed,
     own: readOwn(rest),

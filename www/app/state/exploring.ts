@@ -1,15 +1,15 @@
-/** State of the explorer: axes, coefficients, the answer of the engine. */
+/** State of the explorer: directions, coefficients, and the answer of the engine. */
 import { batch, computed, signal } from "@preact/signals";
 import type { Axes, AxesKind, Explored, Space } from "../../worker/protocol";
 import { coefficientsOf, defaultExplorer, type ExplorerState, rounded } from "./explorer";
 import { held, result, run } from "./state";
 
-/** Under the sliders: it moves with every frame. */
+/** The state that the sliders show; it changes with every frame. */
 export const explorer = signal<ExplorerState>(defaultExplorer());
-/** Where the sliders were last let go: in the link, and a step that Back undoes. */
+/** The state when a slider was last released: it is in the link and a step of undo. */
 export const settledExplorer = signal<ExplorerState>(defaultExplorer());
 
-/** The directions that the sliders have, and the shape from which they go. */
+/** The directions of the sliders and the shape from which they start. */
 export interface Basis {
   key: string;
   axes: Axes;
@@ -17,7 +17,7 @@ export interface Basis {
 }
 export const basis = signal<Basis | null>(null);
 
-/** What the engine said of one position of the sliders. */
+/** Answer of the engine to one position of the sliders. */
 export interface Answer {
   key: string;
   space: Space;
@@ -25,26 +25,26 @@ export interface Answer {
   seed: string | null;
   own: ExplorerState["own"];
   explored: Explored;
-  /** The shape of the other model, as far along the partner of each angle. */
+  /** The partner shape of a principal angle in the other model. */
   partner: Explored | null;
 }
 export const answer = signal<Answer | null>(null);
-/** Why the engine could not answer. */
+/** The error, if the engine could not answer. */
 export const trouble = signal<string | null>(null);
 
-/** A vertex that is held, and the shape from which it is moved. */
+/** A dragged vertex and the shape from which it is moved. */
 export interface Grab {
   space: Space;
   vertex: number;
-  /** Coefficients in the modes, and where the vertex was with them. */
+  /** Coefficients in the modes, and the position of the vertex for them. */
   base: number[];
   from: number[];
   to: number[];
-  /** What the last answer left the sliders at: with anything else the grab is void. */
+  /** Coefficients of the last answer; if the sliders have others, the drag has ended. */
   own: ExplorerState["own"];
 }
 export const grab = signal<Grab | null>(null);
-/** Whether a drag on the shape moves a vertex instead of turning. */
+/** Whether dragging on the shape moves a vertex instead of turning the camera. */
 export const dragTool = signal(false);
 /** Upper end of the colours while it is locked. */
 export const lockedHeat = signal<number | null>(null);
@@ -57,8 +57,8 @@ const prepared = computed(() => {
 });
 
 /**
- * Of the comparison that the engine can be asked about; null before there is one. A and B can be
- * asked as soon as they are prepared; A∩B changes while it is drawn.
+ * Key of the comparison that can be explored; null before there is one. A and B can be explored as soon as they are
+ * prepared; A∩B changes while it is sampled.
  */
 export const askable = computed(() => {
   const key = held.value?.key ?? (prepared.value ? runningKey.value : null);
@@ -66,16 +66,16 @@ export const askable = computed(() => {
   return explorer.value.space === "intersection" ? `${key}\n${runStage.value ?? "done"}` : key;
 });
 
-/** The key of the run that goes on, before `held` has it. */
+/** Key of the present run, before `held` has it. */
 export const runningKey = signal<string | null>(null);
 
-/** σ that L_D is about. */
+/** The σ of the likelihood L_D. */
 export const sigmaInUse = computed(() => {
   const running = run.value?.progress?.sigma;
   return running ?? result.value?.report.settings.sigma ?? null;
 });
 
-/** The directions on the sliders, where they are those that are chosen. */
+/** The directions of the sliders, if they are the chosen ones. */
 export const currentAxes = computed(() => {
   const axes = basis.value?.axes;
   const { space, kind } = explorer.value;
@@ -86,7 +86,7 @@ export const coefficients = computed(() =>
   coefficientsOf(explorer.value, currentAxes.value?.values.length ?? 0),
 );
 
-/** Changes what is explored, without a step of undo. */
+/** Changes the explored shape, without a step of undo. */
 export function explore(part: Partial<ExplorerState>): void {
   explorer.value = { ...explorer.value, ...part };
 }
@@ -94,19 +94,19 @@ export function explore(part: Partial<ExplorerState>): void {
 let timer: ReturnType<typeof setTimeout> | undefined;
 const SETTLE_MS = 400;
 
-/** What is explored now is a step that Back undoes. */
+/** Makes the present state a step of undo. */
 export function settle(): void {
   clearTimeout(timer);
   settledExplorer.value = explorer.value;
 }
 
-/** The same, once nothing more comes: keys on a slider come one by one. */
+/** Makes a step of undo after a pause: keys on a slider come one by one. */
 export function settleSoon(): void {
   clearTimeout(timer);
   timer = setTimeout(settle, SETTLE_MS);
 }
 
-/** One choice, and a step at once. */
+/** Changes one choice, as a step of undo. */
 export function choose(part: Partial<ExplorerState>): void {
   batch(() => {
     explore(part);
@@ -114,7 +114,7 @@ export function choose(part: Partial<ExplorerState>): void {
   });
 }
 
-/** As a link or a step of Back has it. */
+/** Sets the state from a link or a step of Back. */
 export function applyExplorer(state: ExplorerState): void {
   clearTimeout(timer);
   explorer.value = state;
@@ -130,7 +130,7 @@ export function toMean(): void {
   choose({ seed: null, own: {} });
 }
 
-/** The next random shape; its number is in the link. */
+/** Shows the next random shape; its seed is in the link. */
 export function toRandom(): void {
   const next = (BigInt(explorer.value.seed ?? "0") + 1n).toString();
   choose({ seed: next, own: {} });
@@ -142,7 +142,7 @@ export function chooseSpace(space: Space): void {
   choose({ space, kind, seed: null, own: {} });
 }
 
-/** Modes can make any shape of the model; of other directions, the mean comes first. */
+/** Changes the directions: modes can represent the present shape, other directions start at the mean. */
 export function chooseKind(kind: AxesKind): void {
   const { space } = explorer.value;
   const found = answer.value;
@@ -150,7 +150,7 @@ export function chooseKind(kind: AxesKind): void {
   choose({ kind, seed: null, own: kept });
 }
 
-/** Coefficients as what was set of single axes. */
+/** Coefficients as the list of the axes that are not 0. */
 export function ownOf(values: ArrayLike<number>): Record<number, number> {
   const own: Record<number, number> = {};
   for (let i = 0; i < values.length; i += 1) {

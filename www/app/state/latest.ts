@@ -1,6 +1,5 @@
 /**
- * Questions that come faster than answers: one at a time, and of those that wait only the latest.
- * The answer to a question that was overtaken is passed on too, so that a picture moves along.
+ * Runs one asynchronous call at a time; of the calls that are requested meanwhile only the latest follows.
  */
 export function latest<T>(ask: (value: T) => Promise<void>): (value: T) => void {
   let asking = false;
@@ -13,7 +12,7 @@ export function latest<T>(ask: (value: T) => Promise<void>): (value: T) => void 
       waiting = null;
       if (then) next(then.value);
     };
-    // Whoever asks says what went wrong; here it only is over.
+    // The caller reports errors.
     ask(value).then(done, done);
   };
   return (value) => {

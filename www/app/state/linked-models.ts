@@ -1,19 +1,19 @@
-/** Which two models a link is about. */
+/** Type of the two models of a link. */
 export type Each<T> = Record<"a" | "b", T>;
 
 export const NONE: Each<null> = { a: null, b: null };
 
 export interface LinkedModels {
   /**
-   * `https:…`, an address beside the page, or `demo:NAME` of one model that comes with it; null for a file of
-   * one's own. Null as a whole for a pair that comes with the page.
+   * `https:…`, an address relative to the page, or `demo:NAME` of an example model; null for the visitor's own file.
+   * Null as a whole for an example pair.
    */
   urls: Each<string | null> | null;
   /** Parts of the files at these addresses; null for the first. */
   parts: Each<string | null>;
-  /** What files of one's own are called, unless that is left out. */
+  /** Names of the visitor's own files, unless they are left out. */
   names: Each<string | null>;
-  /** Start of each fingerprint, to tell whether what is opened is the same. */
+  /** Start of each fingerprint, to check the opened models. */
   hashes: Each<string | null>;
 }
 

@@ -1,4 +1,4 @@
-/** What is done to the models before they are compared: defaults, patches, words. Pure. */
+/** Preparation of the models before a comparison (units, modes, points, alignment): defaults, changes, words. Pure. */
 import type {
   PointSelection,
   Preparation,
@@ -22,10 +22,10 @@ export const UNPREPARED: Preparation = {
 /** Units that can be declared. */
 export const UNITS = ["µm", "mm", "cm", "dm", "m"] as const;
 
-/** As the engine says that a file states none. */
+/** The unit that the engine gives if a file states none. */
 export const UNSTATED = "units";
 
-/** Settings with some of them changed. */
+/** Returns settings with some of them changed. */
 export function patched(settings: Settings, patch: SettingsPatch): Settings {
   const { prepare, ...rest } = patch;
   const { a, b, ...shared } = prepare ?? {};
@@ -37,13 +37,13 @@ export function patched(settings: Settings, patch: SettingsPatch): Settings {
   };
 }
 
-/** A preparation of which parts may be missing, as in an older report. */
+/** Completes a preparation with missing parts, as in an older report. */
 export function completed(given: SettingsPatch["prepare"] | null | undefined): Preparation {
   const { a, b, ...shared } = given ?? {};
   return { ...UNPREPARED, ...shared, a: { ...AS_IT_IS, ...a }, b: { ...AS_IT_IS, ...b } };
 }
 
-/** What belongs to one model alone ends with it; which points are compared belongs to both. */
+/** Resets the settings of a replaced model, and the points, which belong to both. */
 export function withoutSides(prepare: Preparation, sides: Record<"a" | "b", boolean>): Preparation {
   return {
     ...prepare,
@@ -59,19 +59,19 @@ export function selectsPoints(prepare: Preparation): boolean {
   return prepare.points !== null || prepare.subsample !== null;
 }
 
-/** Which points are compared, in words. */
+/** The compared points in words. */
 export function pointsText(points: PointSelection): string {
   switch (points.by) {
     case "region":
       return `a region of ${plural(rangeCount(points.ranges), "point")}`;
     case "map":
-      return "the points of the crop, by its own index map";
+      return "the points of the crop, by its index map";
     case "list":
       return `${plural(points.a.length, "pair")} of points from a list`;
   }
 }
 
-/** What a finished comparison did to the models, as short phrases. */
+/** The preparation of a finished comparison in short phrases. */
 export function preparationWords(prepare: Preparation): string[] {
   const words: string[] = [];
   for (const side of ["a", "b"] as const) {
@@ -89,7 +89,7 @@ export function preparationWords(prepare: Preparation): string[] {
   return words;
 }
 
-/** How many of the modes a choice keeps, largest first. */
+/** Number of modes that the settings keep, largest first. */
 export function keptModes(deviations: number[], side: SidePreparation): number {
   const most = Math.min(side.modes ?? deviations.length, deviations.length);
   if (side.variance === null) return most;
@@ -97,7 +97,7 @@ export function keptModes(deviations: number[], side: SidePreparation): number {
   let held = 0;
   const enough = deviations.findIndex((deviation) => {
     held += deviation ** 2;
-    // The whole is all of it, whatever rounding says.
+    // A share of 1 keeps all modes, despite rounding.
     return held >= (side.variance ?? 1) * total * (1 - 1e-12);
   });
   return Math.min(most, enough === -1 ? deviations.length : enough + 1);

@@ -29,66 +29,66 @@ export const DEFAULTS: Settings = {
   prepare: UNPREPARED,
 };
 
-/** Choices of one setting, the default first. */
+/** The choices of a setting with their explanations, the default first. */
 export type Options<T extends string> = Record<T, { label: string; help: string }>;
 
 export const SAMPLERS: Options<SamplerName> = {
   auto: {
     label: "Auto",
-    help: "Independence where the Gaussian fit is good, else Hamiltonian; the results say which ran and why.",
+    help: "Independence if the Gaussian fit is good, else Hamiltonian; the results state which ran and why.",
   },
   variational: {
     label: "Gaussian fit alone",
-    help: "No chains: shapes drawn from the Gaussian N(μ, Λ⁻¹) that lies closest to the target.",
+    help: "No chains: shapes are drawn from the Gaussian N(μ, Λ⁻¹) closest to the target.",
   },
   independence: {
     label: "Independence",
-    help: "Each proposal is a fresh draw from the Gaussian fit, accepted by the ratio of target to fit: nearly independent draws.",
+    help: "Each proposal is an independent draw from the Gaussian fit, accepted by the ratio of target to fit: nearly independent draws.",
   },
   hmc: {
     label: "Hamiltonian",
-    help: "Shapes glide along the gradient of the target; the Gaussian part of the path is followed exactly.",
+    help: "Hamiltonian Monte Carlo with the gradient of the target; the Gaussian part of each trajectory is computed exactly.",
   },
   mala: {
     label: "Langevin",
-    help: "A random step plus half a step along the gradient, scaled by the fit, then accepted or not.",
+    help: "MALA: a random step plus half a step along the gradient, scaled by the fit, then accepted or rejected.",
   },
   pcn: {
     label: "Crank–Nicolson",
-    help: "μ + √(1−β²)·(a−μ) + β·noise: steps that keep the Gaussian fit and are accepted by what it misses.",
+    help: "Proposals μ + √(1−β²)·(a−μ) + β·noise leave the Gaussian fit invariant and are accepted by the ratio of target to fit.",
   },
   paper: {
     label: "Paper’s random walk",
-    help: "As published: a random-walk mixture whose scaling move is accepted as if it were symmetric.",
+    help: "As published: a mixture of random-walk proposals whose scaling move is accepted as if it were symmetric.",
   },
   "paper-corrected": {
     label: "Paper’s, corrected",
-    help: "The same random walk with the factor that its scaling move needs.",
+    help: "The same random walk with the Hastings factor that its scaling move needs.",
   },
 };
 
 export const FITS: Options<FitChoice> = {
-  auto: { label: "Auto", help: "Variational, unless a few trial draws show another to be better." },
+  auto: { label: "Auto", help: "Variational, unless trial draws show that another fit is better." },
   variational: {
     label: "Variational",
     help: "The Gaussian closest to the target, with the distance averaged over the Gaussian itself.",
   },
   reweighted: {
     label: "Reweighted",
-    help: "The mean distance replaced by a weighted sum of squares, weighted anew until it settles.",
+    help: "The mean distance is replaced by a weighted sum of squares, with weights updated until they converge.",
   },
   laplace: {
     label: "Laplace",
-    help: "The most plausible shape, and the curvature of the target there.",
+    help: "The mode of the target and the curvature of its logarithm there.",
   },
   rms: {
     label: "RMS",
-    help: "The mean distance replaced by the root mean square: exact algebra, rough.",
+    help: "The mean distance is replaced by the root mean square: closed form, less accurate.",
   },
 };
 
 export const SIDES_USED: Options<Pooling> = {
-  both: { label: "Both", help: "Shapes of A near B and shapes of B near A, in equal shares." },
+  both: { label: "Both", help: "Shapes of A near B and shapes of B near A, in equal numbers." },
   a: { label: "A alone", help: "Only shapes of A that lie near B." },
   b: { label: "B alone", help: "Only shapes of B that lie near A." },
 };
@@ -96,24 +96,27 @@ export const SIDES_USED: Options<Pooling> = {
 export const PLAUSIBILITIES: Options<Plausibility> = {
   product: {
     label: "Product",
-    help: "The paper’s: both plausibilities multiplied. A model compared with itself keeps half its variance.",
+    help: "As in the paper: the plausibilities in A and in B are multiplied. The intersection of a model with itself has half its variance.",
   },
   idempotent: {
     label: "Idempotent",
-    help: "Their geometric mean: a model compared with itself stays itself.",
+    help: "The geometric mean of the plausibilities in A and in B: the intersection of a model with itself is the model.",
   },
 };
 
-/** What each means is said in words.ts. */
+/** The definitions of the difference; comparison/words.ts explains them. */
 export const DIFFERENCES: DifferenceName[] = ["soft", "distance", "relative", "outside"];
 
 export const ALIGNMENTS: Options<Alignment> = {
-  none: { label: "As they stand", help: "The models already share one coordinate frame." },
-  rigid: { label: "Rigid", help: "Turn and shift B onto A; keep its size." },
-  similarity: { label: "With scale", help: "Turn, shift and scale B onto A." },
+  none: {
+    label: "As they stand",
+    help: "No alignment: the models already share one coordinate frame.",
+  },
+  rigid: { label: "Rigid", help: "B is rotated and translated onto A; its size stays." },
+  similarity: { label: "With scale", help: "B is rotated, translated and scaled onto A." },
 };
 
-/** What each sampler runs unless told otherwise: the random walk has the paper’s budget. */
+/** Default numbers of chains, draws and steps of each sampler; the random walk has those of the paper. */
 export function budgetOf(
   sampler: SamplerName,
 ): Pick<Settings, "chains" | "draws" | "burnIn" | "thin"> {
@@ -141,19 +144,19 @@ export const RANGES = {
   modes: [1, 100_000],
 } as const;
 
-/** Fewer points than this say nothing of a shape. */
+/** Smallest and largest number of compared points. */
 export const SUBSAMPLE = [3, 10_000_000] as const;
 
 export const MOST_DRAWS = 10_000_000;
 
-/** Each chain has at least eight draws. */
+/** Least number of draws: eight for each chain. */
 export function leastDraws(chains: number): number {
   return 8 * chains;
 }
 
 export const SEED_LIMIT = 2n ** 64n;
 
-/** A positive length or ratio; null where nothing is typed. */
+/** Reads a positive length or ratio; null if nothing is typed. */
 export function parsePositive(text: string): number | null | "invalid" {
   const trimmed = text.trim().replace(",", ".");
   if (trimmed === "" || trimmed === "auto") return null;
@@ -161,14 +164,14 @@ export function parsePositive(text: string): number | null | "invalid" {
   return Number.isFinite(value) && value > 0 ? value : "invalid";
 }
 
-/** A share typed as per cent, from 0 to below 100. */
+/** Reads a share typed as per cent, from 0 to below 100. */
 export function parsePercent(text: string): number | "invalid" {
   const trimmed = text.replace("%", "").trim().replace(",", ".");
   const value = trimmed === "" ? Number.NaN : Number(trimmed);
   return value >= 0 && value < 100 ? Number((value / 100).toPrecision(12)) : "invalid";
 }
 
-/** As it is typed. */
+/** A share as it is typed. */
 export function percentText(share: number): string {
   return String(Number((100 * share).toPrecision(12)));
 }
@@ -189,19 +192,19 @@ export function parseCount(text: string, least: number, most: number): number | 
 
 const KEYS = Object.keys(DEFAULTS).sort() as (keyof Settings)[];
 
-/** Two runs with the same models and the same key draw the same. */
+/** Key of settings: two runs with the same models and key have the same draws. */
 export function settingsKey(settings: Settings): string {
   return JSON.stringify(KEYS.map((key) => sorted(settings[key])));
 }
 
-/** The same with the names of every object in order, whoever wrote it. */
+/** A value with the keys of every object sorted. */
 function sorted(value: unknown): unknown {
   if (typeof value !== "object" || value === null || Array.isArray(value)) return value;
   const entries = Object.entries(value).sort(([one], [other]) => (one < other ? -1 : 1));
   return entries.map(([name, inner]) => [name, sorted(inner)]);
 }
 
-/** The settings that led to a report: σ is left to the engine where it had chosen it. */
+/** The settings of a report as they were chosen: null for a recommended σ. */
 export function settingsOf(
   report: Partial<Settings> & { sigma: number | null; sigmaRecommended: boolean },
 ): Settings {

@@ -1,4 +1,4 @@
-/** The one store: every view reads from here, every action writes here. */
+/** State of the page as signals: models, settings, run, result, view. Components read it, actions change it. */
 import { computed, type Signal, signal } from "@preact/signals";
 import type { EngineInfo } from "../../worker/client";
 import type {
@@ -32,12 +32,12 @@ export type Source =
   | { kind: "files"; name: string; files: DroppedFile[]; serial: number }
   | { kind: "url"; url: string };
 
-/** Which model of a source, read in which way. */
+/** A model of a source: which part, and whether scaled. */
 export interface Wanted {
   source: Source;
-  /** The first that can be read, where it is null. */
+  /** Part of the file; null for the first that can be read. */
   part: string | null;
-  /** Whether the shapes of a set are also brought to one size. */
+  /** Whether the shapes of a set are also scaled to one size. */
   scale: boolean;
 }
 
@@ -49,7 +49,7 @@ export interface Slot extends OpenedModel {
   geometry: Geometry | null;
 }
 
-/** What is being opened, and how much of it is read. */
+/** A model that is being opened, with its progress. */
 export interface Opening {
   name: string;
   read: Reading | null;
@@ -57,21 +57,21 @@ export interface Opening {
 
 export interface Reading {
   bytes: number;
-  /** Null where nobody knows how much is to come. */
+  /** Total size; null if unknown. */
   of: number | null;
-  /** Whether it comes from another computer. */
+  /** Whether it is downloaded. */
   arrives?: boolean;
 }
 
 export interface Result {
   report: Report;
-  /** As downloaded. */
+  /** The report as text, for download. */
   text: string;
   key: string;
   nouns: Nouns;
-  /** Where its models are from, as a run file says it. */
+  /** Sources of its models, as a run file states them. */
   sources: BothSides<string | null>;
-  /** Made beforehand, by the same engine. */
+  /** Whether it is the result stored with the page. */
   stored: boolean;
   cancelled: boolean;
 }
@@ -88,7 +88,7 @@ export interface Notice {
   code: string;
   message: string;
   hint: string;
-  /** Tries the same again, where that may help. */
+  /** Tries again, if that may help. */
   again: (() => void) | null;
 }
 
@@ -97,70 +97,70 @@ export type PaintTool = "add" | "erase" | "turn";
 export type Theme = "system" | "light" | "dark";
 
 export const slots: Record<Side, Signal<Slot | null>> = { a: signal(null), b: signal(null) };
-/** All models that are open, in the order of their table; the two that are compared among them. */
+/** All open models in the order of their table, including A and B. */
 export const modelList = signal<Slot[]>([]);
-/** What is being put on the model list, and how many of how many are done. */
+/** Progress of adding models to the model list. */
 export const addingModels = signal<(Opening & { done: number; of: number }) | null>(null);
-/** While models of a former engine are opened anew, their handles are void. */
+/** Whether models are being opened again after a restart of the engine; their handles are invalid. */
 export const reopening = signal(false);
 export const opening: Record<Side, Signal<Opening | null>> = { a: signal(null), b: signal(null) };
 
 export const settings = signal<Settings>(DEFAULTS);
 export const result = signal<Result | null>(null);
 export const run = signal<RunState | null>(null);
-/** The run that failed, so that it is not tried again and again. */
+/** Key of the run that failed, so that it is not started again. */
 export const failedKey = signal<string | null>(null);
 export const notices = signal<Notice[]>([]);
 export const engine = signal<EngineInfo | null>(null);
-/** What a screen reader is told. */
+/** Message for screen readers. */
 export const spoken = signal("");
 
 export const page = signal<PageName>(FIRST_VIEW.page);
-/** Whether anything was compared yet: other pages do without. */
+/** Whether the comparison was opened; the other pages do not need it. */
 export const begun = signal(false);
 /** Whether the page is a frame in another page. */
 export const embedded = signal(FIRST_VIEW.embed);
-/** Whether links say what the visitor's own files are called. */
+/** Whether links contain the names of the visitor's own files. */
 export const namesInLinks = signal(true);
-/** What the address said of the models when it was followed: not all of them may be open. */
+/** The models that the link named; not all of them may be open. */
 export const linked = signal<LinkedModels | null>(null);
-/** The part of the page that is looked at. */
+/** The shown tab. */
 export const tab = signal<Tab>(FIRST_VIEW.tab);
 export const view = signal<ViewMode>(FIRST_VIEW.view);
-/** What is coloured onto the vertices, and of which mode where it is of one. */
+/** The map that colours the vertices, and its mode. */
 export const vertexMap = signal<MapName>(FIRST_VIEW.map);
 export const mapMode = signal(FIRST_VIEW.mapMode);
-/** The vertex that is looked at, as a number of the points that are compared. */
+/** The chosen vertex, as an index into the compared points. */
 export const vertex = signal<number | null>(FIRST_VIEW.vertex);
-/** Whose draws are diagnosed, and which coefficient; null for the worst. */
+/** Model and coefficient of the diagnostic plots; null for the one with the worst diagnostics. */
 export const diagnosedSide = signal<Side | null>(FIRST_VIEW.side);
 export const diagnosedMode = signal<number | null>(FIRST_VIEW.coefficient);
 export const region = signal<Region | null>(null);
 export const shapesSeed = signal(FIRST_VIEW.shapes);
-/** What is shown of the differences, and how far they are exaggerated. */
+/** What the differences show, and how much they are exaggerated. */
 export const picture = signal(FIRST_VIEW.picture);
 export const exaggeration = signal(FIRST_VIEW.exaggeration);
-/** The same once its slider was let go: one step to undo, however far it went. */
+/** The exaggeration when its slider was last released: one step of undo for a whole drag. */
 export const settledExaggeration = signal(FIRST_VIEW.exaggeration);
 export const camera = signal<Camera>(HOME);
 export const shapes = signal<Partial<Record<Region, RegionShapes>>>({});
-/** What the engine predicts at the σ that is being tried, until a run replaces it. */
+/** Prediction for the previewed σ, until a run replaces it. */
 export const preview = signal<Prediction | null>(null);
-/** The σ under the slider while it moves. */
+/** The previewed σ while its slider moves. */
 export const tried = signal<number | null>(null);
-/** The models as the run compares them, where those are other points than the models have. */
+/** Geometry of the compared points, if they differ from those of the models. */
 export const compared = signal<BothSides<Geometry> | null>(null);
-/** Why a region has no shapes. */
+/** Reason why a region has no shapes. */
 export const emptyRegions = signal<Partial<Record<Region, string>>>({});
-/** While the points that are compared are painted: 1 for each of A that is. */
+/** The painted mask while compared points are painted: 1 for each painted vertex of A. */
 export const painting = signal<{ mask: Uint8Array; tool: PaintTool; size: number } | null>(null);
-/** The region that fills the stage, if one does: A while it is painted on. */
+/** The region that is shown alone, if any: A while painting. */
 export const alone = computed<Region | null>(() => (painting.value ? "a" : region.value));
-/** Colour range of the standard deviations while it is locked. */
+/** Colour range of the map while it is locked. */
 export const lockedRange = signal<[number, number] | null>(null);
 export const theme = signal<Theme>("system");
 
-/** The demo pair on show, if it is one. */
+/** The example pair that is open, if it is one. */
 export const demo = computed(() => {
   const [a, b] = [slots.a.value?.source, slots.b.value?.source];
   if (!a && !b) return linked.value?.urls ? null : FIRST_DEMO;
@@ -172,7 +172,7 @@ export const demo = computed(() => {
   return found?.b === b.name ? found : null;
 });
 
-/** Whether both are heads that come with the page, whatever pair they make. */
+/** Whether both models are head models of the page. */
 export const packagedHeads = computed(() =>
   SIDES.every((side) => {
     const source = slots[side].value?.source;
@@ -189,7 +189,7 @@ export const nouns = computed<Nouns>(() => {
   return one ? nounsOf(partName(a.part), partName(b.part)) : nounsOf("model A", "model B");
 });
 
-/** Of a pair that comes with the page, the other way round. */
+/** Names of an example pair with A and B exchanged. */
 function turnedNouns(a: Source, b: Source): Nouns | null {
   if (a.kind !== "demo" || b.kind !== "demo") return null;
   const found = DEMO_GROUPS.flatMap(({ demos }) => demos).find(
@@ -200,7 +200,7 @@ function turnedNouns(a: Source, b: Source): Nouns | null {
   return { a: nouns.b, b: nouns.a, shapesOfA: nouns.shapesOfB, shapesOfB: nouns.shapesOfA };
 }
 
-/** What a part of a file is called in a sentence. */
+/** Name of a part of a file in a sentence. */
 export function partName(part: string): string {
   return part === "shape" ? "identity" : part === "color" ? "colour" : part;
 }
@@ -210,7 +210,7 @@ export function sourceKey(source: Source): string {
   return source.kind === "url" ? source.url : `file:${source.serial}:${source.name}`;
 }
 
-/** Two models with the same key are the same; of a source, the first part goes without a name. */
+/** Key of a model: two models with the same key are the same; the first part of a source has no name in it. */
 export function modelKey(source: Source, part: string, scale: boolean): string {
   return `${sourceKey(source)}#${part}${scale ? " in one size" : ""}`;
 }
@@ -229,32 +229,32 @@ function keyWith(chosen: Settings): string | null {
   return comparisonKey(slotKey(a), slotKey(b), chosen);
 }
 
-/** What the chosen models and settings would draw; null until both models are there. */
+/** Key of the comparison of the chosen models and settings; null until both models are open. */
 export const currentKey = computed(() => keyWith(settings.value));
-/** The same at whatever σ. */
+/** The same key without σ. */
 export const currentBase = computed(() => keyWith({ ...settings.value, sigma: null }));
 
-/** Of what decides whether the two can be compared: the models and what is done to them first. */
+/** Key of the models and their preparation, which decide whether they can be compared. */
 export const pairKey = computed(() => {
   const { prepare, align, modes } = settings.value;
   return keyWith({ ...DEFAULTS, prepare, align, modes });
 });
-/** What the engine found when it last looked at a pair. */
+/** The last inspection of a pair by the engine. */
 export const inspected = signal<{ key: string; inspection: Inspection } | null>(null);
-/** The same, where it is about the pair that is chosen now. */
+/** The inspection, if it is of the chosen pair. */
 export const inspection = computed(() =>
   inspected.value?.key === pairKey.value ? (inspected.value?.inspection ?? null) : null,
 );
 
-/** The comparison that the engine holds, of which regions, previews and files can be asked. */
+/** The comparison that the engine holds and can answer requests about. */
 export const held = signal<{
   key: string;
   base: string | null;
-  /** Whether its points are others than the models have. */
+  /** Whether it compares a selection of the models' points. */
   selects: boolean;
 } | null>(null);
 
-/** Whether the engine holds the models and settings that are chosen, at whatever σ, and is free. */
+/** Whether another σ can be previewed: the engine holds the chosen models and settings and does not run. */
 export const canPreview = computed(
   () => run.value === null && held.value !== null && held.value.base === currentBase.value,
 );
@@ -271,7 +271,7 @@ export const unit = computed(
     "units",
 );
 
-/** σ that the engine recommends for the models on show, where it has said so. */
+/** The recommended σ of the shown models, if the engine has computed it. */
 export const recommended = computed(() => {
   const report = result.value?.report;
   if (!report) return null;
@@ -279,7 +279,7 @@ export const recommended = computed(() => {
   return report.intersection.tolerance?.recommended ?? (sigmaRecommended ? sigma : null);
 });
 
-/** As `document.documentElement.dataset.state`. */
+/** State of the page, as in `document.documentElement.dataset.state`. */
 export const pageState = computed(() => {
   if (run.value) return "running";
   if (opening.a.value !== null || opening.b.value !== null) return "loading";
@@ -289,7 +289,7 @@ export const pageState = computed(() => {
   return result.value && !outOfDate.value && shapes.value.intersection ? "done" : "ready";
 });
 
-/** Changes some of the settings; the run that this asks for begins by itself. */
+/** Changes some of the settings; a run then starts by itself. */
 export function change(part: SettingsPatch): void {
   settings.value = patched(settings.value, part);
 }

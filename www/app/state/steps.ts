@@ -1,5 +1,5 @@
 /**
- * The page's own steps in the browser's history, so that Undo is Back and never leads out of the page.
+ * Keeps the steps of undo in the browser's history, so that Undo is Back and never leaves the page.
  *
  * The browser does not say how far it can go in either direction: every entry carries its number, and
  * what no address can hold is kept here beside it. Entries of an earlier life of the page (before it was
@@ -21,15 +21,15 @@ export class Steps<Snapshot> {
   #snapshots = new Map<number, Snapshot>();
   #at = signal(0);
   #top = signal(0);
-  /** The browser is on its way to another entry. */
+  /** Whether the browser is going to another entry. */
   #travelling = false;
-  /** Steps that were asked for meanwhile. */
+  /** Steps that were requested meanwhile. */
   #queued = 0;
 
   readonly undoable = computed(() => this.#at.value > 0);
   readonly redoable = computed(() => this.#at.value < this.#top.value);
 
-  /** `life` tells this page from what it was before it was loaded anew. */
+  /** `life` distinguishes this page from the same page before a reload. */
   constructor(entries: Entries, life: number) {
     this.#entries = entries;
     this.#life = life;
@@ -54,7 +54,7 @@ export class Steps<Snapshot> {
     this.#entries.pushState(this.#mark(step), "", address);
   }
 
-  /** What came after a step belongs to it: they are undone together. */
+  /** Changes the present step, so that the change is undone with it. */
   join(snapshot: Snapshot, address: string): void {
     this.#snapshots.set(this.#at.peek(), snapshot);
     this.#entries.replaceState(this.#mark(this.#at.peek()), "", address);
@@ -68,13 +68,13 @@ export class Steps<Snapshot> {
     this.#travel(1);
   }
 
-  /** Where the browser has come to; null where only the address says what was there. */
+  /** Handles the arrival at an entry: returns its snapshot; null if only its address is known. */
   arrive(state: unknown): Snapshot | null {
     this.#travelling = false;
     const mark = state as Mark | null;
     if (mark?.life === this.#life) this.#at.value = mark.step;
     else if (mark) {
-      // An entry from before the page was loaded anew, or after it: nothing is undone from there.
+      // An entry from before a reload, or after one: nothing can be undone from there.
       this.#at.value = 0;
     } else {
       // Somebody typed another address.
@@ -88,7 +88,7 @@ export class Steps<Snapshot> {
     return mark?.life === this.#life ? (this.#snapshots.get(mark.step) ?? null) : null;
   }
 
-  /** One journey at a time: browsers drop all but one of several that are asked for at once. */
+  /** Goes through the history one call at a time: browsers drop all but one of several at once. */
   #travel(by: 1 | -1): void {
     this.#queued += by;
     if (!this.#travelling) this.#leap();

@@ -1,4 +1,4 @@
-/** The comparison that is stored with the page: made by the same engine, shown before it runs. */
+/** Loads the comparison that is stored with the page, which is shown before the engine has started. */
 import type { Report, Settings } from "../../worker/protocol";
 import { FIRST_DEMO } from "./demos";
 import { settingsOf } from "./settings";
@@ -23,7 +23,7 @@ function fetchDraws(): Promise<ArrayBuffer> {
   return draws;
 }
 
-/** Null where there is none: the page then simply runs. */
+/** The stored comparison; null if there is none: the page then runs it. */
 export async function fetchStored(): Promise<Stored | null> {
   try {
     const response = await fetch("first/report.json");

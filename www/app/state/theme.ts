@@ -1,4 +1,4 @@
-/** Light, dark, or as the system has it. */
+/** The theme: light, dark, or that of the system. */
 import { effect, signal } from "@preact/signals";
 import { type Theme, theme } from "./state";
 
@@ -39,6 +39,6 @@ function remember(name: Theme): void {
   try {
     localStorage.setItem(STORE, name);
   } catch {
-    // As above: the choice then lasts as long as the page.
+    // Without storage the choice lasts until the page is closed.
   }
 }

@@ -1,10 +1,10 @@
-/** The steps that can be undone, and what joins one of them instead of being a step of its own. */
+/** The steps of undo, and changes that are joined to a step instead of making one. */
 import { batch } from "@preact/signals";
 import type { PointSelection } from "../../worker/protocol";
 import type { Side, Wanted } from "./state";
 import { Steps } from "./steps";
 
-/** What a step of the history holds that no address can: files, and long lists of points. */
+/** State of a step that no address can hold: files, and long lists of points. */
 export interface Snapshot {
   models: Record<Side, Wanted> | null;
   modelList: Wanted[];
@@ -13,14 +13,14 @@ export interface Snapshot {
 
 export const steps = new Steps<Snapshot>(history, performance.timeOrigin);
 
-/** What changes just now belongs to the step before. */
+/** Whether present changes belong to the step before. */
 let joining = false;
 
 export function joins(): boolean {
   return joining;
 }
 
-/** Changes something as a part of a step that was taken, unless others were taken since. */
+/** Makes a change as part of the step `of`, if that is still the last one. */
 export function joinStep(change: () => void, of: number): void {
   joining = steps.at === of;
   try {
@@ -30,7 +30,7 @@ export function joinStep(change: () => void, of: number): void {
   }
 }
 
-/** What changes until this is over belongs to the present step. */
+/** Joins all changes until the promise is resolved to the present step. */
 export async function joinUntil(over: Promise<void>): Promise<void> {
   joining = true;
   try {

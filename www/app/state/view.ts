@@ -1,4 +1,4 @@
-/** What is shown, as far as a link says it: page, tab, view, map, region, camera; and what is shown first. */
+/** Types and defaults of the view in a link: page, tab, map, region, camera. */
 import type { MapName, Picture, Region, Settings } from "../../worker/protocol";
 import { type Camera, HOME } from "./camera";
 import { FIRST_DEMO } from "./demos";
@@ -6,13 +6,13 @@ import { DEFAULTS } from "./settings";
 
 export type ViewMode = "mean" | "samples" | "sd";
 export const VIEW_MODES: ViewMode[] = ["mean", "samples", "sd"];
-/** What the page is for: to compare, to learn how that is done, to choose from what there is to see. */
+/** The pages: comparison, lessons, gallery. */
 export type PageName = "compare" | "learn" | "gallery";
 export const PAGES: PageName[] = ["compare", "learn", "gallery"];
-/** Parts of the page, each with its own look at the same comparison. */
+/** The tabs of a comparison. */
 export type Tab = "regions" | "explore" | "measures" | "diagnostics" | "models";
 export const TABS: Tab[] = ["regions", "explore", "measures", "diagnostics", "models"];
-/** What can be coloured onto the vertices in the view "sd", which older links know by that name alone. */
+/** The maps of the view "sd"; older links have only that of standard deviations. */
 export const MAPS: MapName[] = [
   "sd",
   "sd-normal",
@@ -24,33 +24,33 @@ export const MAPS: MapName[] = [
 ];
 export const REGIONS: Region[] = ["a", "aWithoutB", "intersection", "bWithoutA", "b"];
 export const PICTURES: Picture[] = ["draws", "exclusiveModes"];
-/** As the slider has it. */
+/** Largest exaggeration of the slider. */
 export const MOST_EXAGGERATION = 5;
 
-/** What is looked at. */
+/** The view. */
 export interface ViewState {
   page: PageName;
-  /** Whether the page is a frame in another page: shapes and a caption, and nothing to set. */
+  /** Whether the page is a frame in another page, with shapes and a caption but without settings. */
   embed: boolean;
-  /** A pair that comes with the page, unless the models are said one by one. */
+  /** An example pair, unless the models are given one by one. */
   demo: string;
   settings: Settings;
   tab: Tab;
   view: ViewMode;
   map: MapName;
-  /** Which mode the map "mode" is of, from 0. */
+  /** Mode of the map "mode", from 0. */
   mapMode: number;
-  /** The vertex that is looked at. */
+  /** The chosen vertex. */
   vertex: number | null;
   /** Range of the colours while it is locked. */
   scale: [number, number] | null;
-  /** Whose draws are diagnosed, and which coefficient, from 0; null for the worst. */
+  /** Model and coefficient, from 0, of the diagnostic plots; null for the worst. */
   side: "a" | "b" | null;
   coefficient: number | null;
   /** The region shown alone, if one is. */
   region: Region | null;
   picture: Picture;
-  /** How much further a shape of a difference is pushed away from the other model. */
+  /** How much of what the other model misses is added to a shape of a difference. */
   exaggeration: number;
   /** Seed of the shapes shown in “Samples”. */
   shapes: string;

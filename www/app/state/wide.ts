@@ -1,4 +1,4 @@
-/** Whether the page has its three columns, as shell/page.css has it. */
+/** Whether the window is wide enough for three columns, as in shell/page.css. */
 import { signal } from "@preact/signals";
 
 const query = matchMedia("(min-width: 1100px)");

@@ -1,6 +1,6 @@
 /**
- * Numbers as colours, by straight lines between a few colours of a published map. Neither relies on
- * telling red from green.
+ * Colour maps: numbers to colours by linear interpolation between a few colours of a published map. Neither map
+ * requires telling red from green.
  *
  * Sizes: viridis (Smith & van der Walt, Matplotlib 2.0, CC0). Signed numbers: orange to blue by the
  * construction of Moreland, “Diverging color maps for scientific visualization” (ISVC 2009): polar
@@ -10,7 +10,7 @@
 
 export type Rgb = readonly [number, number, number];
 
-/** How numbers become colours: sizes, or what goes both ways from 0. */
+/** Colour maps: viridis for values from 0, diverging for signed values. */
 export type Palette = "viridis" | "diverging";
 
 const STOPS: Record<Palette, readonly [Rgb, Rgb, ...Rgb[]]> = {
@@ -41,7 +41,7 @@ const STOPS: Record<Palette, readonly [Rgb, Rgb, ...Rgb[]]> = {
   ],
 };
 
-/** Of a number that is none. */
+/** Colour of NaN. */
 const UNKNOWN: Rgb = [140, 140, 140];
 
 /** The colour of `share` in 0 … 1, as sRGB from 0 to 255. */
@@ -61,12 +61,12 @@ export function viridis(share: number): Rgb {
   return colourOf("viridis", Number.isNaN(share) ? 0 : share);
 }
 
-/** Where a number lies in a range, 0 … 1. */
+/** Position of a number in a range, 0 … 1. */
 export function shareIn([low, high]: readonly [number, number], value: number): number {
   return (value - low) / Math.max(high - low, 1e-30);
 }
 
-/** A CSS gradient from left to right. */
+/** A colour map as a CSS gradient from left to right. */
 export function gradientOf(palette: Palette): string {
   const colours = STOPS[palette].map((stop) => `rgb(${stop.join(" ")})`);
   return `linear-gradient(to right, ${colours.join(", ")})`;
@@ -76,7 +76,7 @@ export function viridisGradient(): string {
   return gradientOf("viridis");
 }
 
-/** One range for several maps. */
+/** Common range of several maps. */
 export function commonRange(maps: Iterable<Float32Array>): [number, number] | null {
   let least = Number.POSITIVE_INFINITY;
   let most = Number.NEGATIVE_INFINITY;
@@ -90,7 +90,7 @@ export function commonRange(maps: Iterable<Float32Array>): [number, number] | nu
   return least <= most ? [least, most] : null;
 }
 
-/** The same for signed numbers: 0 is in the middle. */
+/** Common range of several signed maps: 0 is in the middle. */
 export function symmetricRange(maps: Iterable<Float32Array>): [number, number] | null {
   const found = commonRange(maps);
   if (!found) return null;

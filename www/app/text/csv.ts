@@ -1,20 +1,20 @@
-/** Tables as CSV (RFC 4180). Every number has all its digits, whatever the table rounds it to. */
+/** Writes tables as CSV (RFC 4180), with unrounded numbers. */
 
-/** Lines as the engine ends them in its own tables. */
+/** End of a line, the same as in the tables of the engine. */
 const END = "\r\n";
 
 export function csvText(rows: readonly (readonly (string | number)[])[]): string {
   return rows.map((row) => row.map(field).join(",") + END).join("");
 }
 
-/** A name that begins like a formula would be worked out by a spreadsheet. */
+/** Escapes a name that a spreadsheet would take for a formula. */
 function field(value: string | number): string {
   const text = String(value);
   const plain = /^[=+@\t\r]|^-(?!\d)/.test(text) ? `'${text}` : text;
   return /[",\r\n]/.test(plain) ? `"${plain.replaceAll('"', '""')}"` : plain;
 }
 
-/** The few members of a table cell that are read here. */
+/** The members of a table cell that are used here. */
 export interface TableCell {
   readonly textContent: string | null;
   readonly colSpan: number;
@@ -25,7 +25,7 @@ export interface TableRows {
   readonly rows: Iterable<{ readonly cells: Iterable<TableCell> }>;
 }
 
-/** What a table shows, row by row: unrounded where it knows the number, blank where it has none. */
+/** Rows of an HTML table: unrounded numbers, empty cells for missing ones. */
 export function rowsOf(table: TableRows): string[][] {
   return [...table.rows].map(({ cells }) =>
     [...cells].flatMap((cell) => [
@@ -35,7 +35,7 @@ export function rowsOf(table: TableRows): string[][] {
   );
 }
 
-/** Spaces that only keep lines from breaking are of no use in a file. */
+/** Replaces non-breaking spaces by plain ones. */
 function wordsOf(cell: TableCell): string {
   const text = (cell.textContent ?? "").replace(/\s+/g, " ").trim();
   return text === "–" ? "" : text;

@@ -1,6 +1,6 @@
-/** Numbers as people read them. */
+/** Formats numbers, shares, lengths, angles, durations and sizes as text. */
 
-/** Three significant digits, never in scientific notation between 0.001 and 10⁶. */
+/** A number with three significant digits, not in scientific notation between 0.001 and 10⁶. */
 export function number(value: number, digits = 3): string {
   if (!Number.isFinite(value)) return "–";
   if (value === 0) return "0";
@@ -11,12 +11,12 @@ export function number(value: number, digits = 3): string {
   return minus(group(value.toFixed(Math.min(decimals, 6))));
 }
 
-/** What is only rounding error beside numbers of a certain size is none. */
+/** Replaces rounding error, relative to a size, by 0. */
 export function withoutDust(value: number, size: number): number {
   return Math.abs(value) < 1e-9 * size ? 0 : value;
 }
 
-/** With its sign, where it has one. */
+/** A number with its sign. */
 export function signed(value: number): string {
   return value > 0 ? `+${number(value)}` : number(value);
 }
@@ -25,7 +25,7 @@ export function count(value: number): string {
   return group(Math.round(value).toString());
 }
 
-/** A share as per cent; never “100 %” for what is not all of it, nor “0 %” for what is something. */
+/** A share as per cent; never “100 %” for less than all, nor “0 %” for more than none. */
 export function percent(share: number): string {
   if (!Number.isFinite(share)) return "–";
   const value = 100 * share;
@@ -40,14 +40,14 @@ export function length(value: number, unit: string): string {
   return `${number(value)}\u202f${unit}`;
 }
 
-/** A mean and its spread, both to the same decimal. */
+/** A mean and its standard deviation, both to the same decimal. */
 export function plusMinus(mean: number, spread: number): { mean: string; spread: string } {
   const finest = Math.max(Math.abs(spread), 1e-3);
   const decimals = Math.min(6, Math.max(0, 1 - Math.floor(Math.log10(finest))));
   return { mean: minus(mean.toFixed(decimals)), spread: spread.toFixed(decimals) };
 }
 
-/** An angle; what is only rounding error is none. */
+/** An angle in degrees; rounding error is shown as 0. */
 export function degrees(angle: number): string {
   if (angle < 0.005) return "0°";
   return `${angle.toFixed(angle < 1 ? 2 : angle < 10 ? 1 : 0)}°`;

@@ -1,9 +1,9 @@
-/** A sentence whose numbers keep where in the report they come from. */
+/** Sentences whose numbers keep their path in the report. */
 
 export interface ReportedNumber {
   /** Path in the report, as in `data-metric`. */
   metric: string;
-  /** Unrounded. */
+  /** The unrounded value. */
   value: number;
   text: string;
 }

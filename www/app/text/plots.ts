@@ -1,4 +1,4 @@
-/** Scales of the small plots. Pure. */
+/** Scales and ticks of plots. Pure. */
 import { number } from "./format";
 
 export type Scale = (value: number) => number;
@@ -25,7 +25,7 @@ export function ticks(low: number, high: number, count: number): number[] {
   return Array.from({ length: last - first + 1 }, (_, i) => (first + i) * step);
 }
 
-/** A round value beside its axis, without zeros that say nothing. */
+/** Label of a tick, without trailing zeros. */
 export function tickText(value: number): string {
   const size = Math.abs(value);
   if (size < 1e-12) return "0";
@@ -35,7 +35,7 @@ export function tickText(value: number): string {
 
 const SWEEP_POINTS = 17;
 
-/** From a hundredth to a hundred times the recommended σ, itself among them. */
+/** The values of the σ sweep, from a hundredth to a hundred times the recommended σ, which is one of them. */
 export function sweepSigmas(middle: number): number[] {
   const half = (SWEEP_POINTS - 1) / 2;
   return Array.from({ length: SWEEP_POINTS }, (_, i) => middle * 10 ** ((2 * (i - half)) / half));

@@ -1,6 +1,6 @@
-/** Sets of vertices as people write them: "0-99,120,130-140". Pure. */
+/** Reads and writes sets of vertices as ranges, "0-99,120,130-140". Pure. */
 
-/** Whether a text is such a list; what it means is the engine's to say. */
+/** Checks and normalises such a list; the engine interprets it. */
 export function parseRanges(text: string): string | "invalid" {
   const parts = text.split(/[,;\s]+/).filter((part) => part !== "");
   const readable = parts.every((part) => {
@@ -10,7 +10,7 @@ export function parseRanges(text: string): string | "invalid" {
   return parts.length > 0 && readable ? parts.join(",").replaceAll("–", "-") : "invalid";
 }
 
-/** Which of `points` vertices a list holds; those beyond are left out. */
+/** Mask of the vertices of a list among `points` vertices; others are ignored. */
 export function maskOf(ranges: string, points: number): Uint8Array {
   const mask = new Uint8Array(points);
   for (const [from, to] of pairsOf(ranges)) mask.fill(1, from, to + 1);
@@ -29,7 +29,7 @@ export function rangesOf(mask: Uint8Array): string {
   return parts.join(",");
 }
 
-/** How many vertices a list names, those in two of its ranges counted once. */
+/** Number of vertices of a list; those in two of its ranges count once. */
 export function rangeCount(ranges: string): number {
   let counted = 0;
   let last = -1;

@@ -3,22 +3,22 @@ import type { ComponentChildren } from "preact";
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { ShowNumbers } from "./ShowNumbers";
 
-/** What to do about what a plot shows. */
+/** Advice under a plot: whether it is fine, and what to do if not. */
 export interface Advice {
-  /** Whether there is nothing to do. */
+  /** Whether no action is needed. */
   calm: boolean;
   text: string;
-  /** The chain that it is about, from 0. */
+  /** The chain that it names, from 0. */
   chain: number | null;
 }
 
 interface Props {
   title: string;
-  /** What is drawn, in a sentence. */
+  /** Explanation of the plot in a sentence. */
   about: ComponentChildren;
-  /** The key numbers, for those who do not see the plot. */
+  /** The main numbers in words, for screen readers. */
   label: string;
-  /** In pixels, at the width that there is. */
+  /** Height in pixels for a given width. */
   height: (width: number) => number;
   draw: (width: number) => ComponentChildren;
   legend?: ComponentChildren;
@@ -28,12 +28,12 @@ interface Props {
   name: string;
 }
 
-/** A plot with its title, what it says, and the table behind it. */
+/** A plot with title, explanation, advice, and a table of its numbers. */
 export function Chart(props: Props) {
   const { title, about, label, height, draw, legend, advice, table, children, name } = props;
   const box = useRef<HTMLDivElement>(null);
   const width = useSignal(0);
-  // Drawn at its size in pixels, so that letters are as large in every plot.
+  // Drawn at its size in pixels, so that letters have the same size in every plot.
   useLayoutEffect(() => {
     const element = box.current;
     if (!element) return;

@@ -7,11 +7,11 @@ interface ChoiceProps<T extends string> {
   standard: T;
   options: Options<T>;
   onChoose: (value: T) => void;
-  /** Where the default needs a word of explanation too. */
+  /** Whether the default is explained, too. */
   alwaysHelp?: boolean;
 }
 
-/** One setting of a few words. */
+/** A setting with a few named choices. */
 export function Choice<T extends string>(props: ChoiceProps<T>) {
   const { label, value, standard, options, onChoose, alwaysHelp = false } = props;
   const names = Object.keys(options) as T[];

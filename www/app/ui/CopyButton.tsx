@@ -3,21 +3,23 @@ import { spoken } from "../state/state";
 import { copyText } from "./download";
 
 interface Props {
-  /** On the button. */
+  /** Label of the button. */
   label: string;
   text: () => string;
-  /** Once it is done. */
+  /** Label after copying. */
   done?: string;
   primary?: boolean;
   autofocus?: boolean;
 }
 
-/** Copies, and says so where it was pressed. */
+/** Button that copies a text and says so on itself. */
 export function CopyButton({ label, text, done = "Copied", primary, autofocus }: Props) {
   const said = useSignal("");
   const copy = async () => {
     const copied = await copyText(text());
-    said.value = copied ? done : "Select it and copy: the browser does not allow it here";
+    said.value = copied
+      ? done
+      : "Select and copy the text yourself: the browser does not allow copying here";
     spoken.value = said.value;
     setTimeout(() => {
       said.value = "";

@@ -6,10 +6,10 @@ export interface Curve {
   key: string;
   label: string;
   mark: "circle" | "square" | "diamond";
-  /** Over 1, 2, …, or over `at`. */
+  /** Values at 1, 2, …, or at `at`. */
   values: readonly number[];
   at?: readonly number[];
-  /** Half of the error bars. */
+  /** Half lengths of the error bars. */
   errors?: readonly number[];
   /** Whether the marks are joined. */
   line?: boolean;
@@ -21,16 +21,16 @@ interface Props {
   curves: readonly Curve[];
   acrossName: string;
   upName: string;
-  /** The top of the plot, where it is known beforehand. */
+  /** Upper end of the plot, if fixed. */
   top?: number;
   up?: readonly number[];
   showUp?: (value: number) => string;
 }
 
-/** Marks of so many points one by one; of more, the line alone. */
+/** Largest number of points that have marks; longer curves are lines only. */
 const MOST_MARKS = 60;
 
-/** Curves over numbers of modes, from 0 upwards. They differ in shape and dash, not only in colour. */
+/** Plot of curves over the number of modes, from 0 upwards. They differ in marks and dashes, not only in colour. */
 export function Curves({
   width,
   height,

@@ -4,7 +4,7 @@ import { SaveTable } from "./SaveTable";
 export interface Column {
   title: string;
   show?: (value: number) => string;
-  /** Paths in the report, where the values are from there. */
+  /** Paths in the report, if the values are from there. */
   metric?: (row: number) => string | undefined;
 }
 
@@ -14,16 +14,16 @@ export interface DataRow {
 }
 
 interface Props {
-  /** Of the file that it is saved as. */
+  /** Name of the CSV file. */
   file: string;
   caption: string;
-  /** Above the heads of the rows. */
+  /** Title of the column of row heads. */
   corner: string;
   columns: readonly Column[];
   rows: readonly DataRow[];
 }
 
-/** The numbers behind a plot: rounded on the page, with all digits in the file. */
+/** Table of the numbers of a plot: rounded on the page, unrounded in the CSV file. */
 export function DataTable({ file, caption, corner, columns, rows }: Props) {
   return (
     <SaveTable file={file} of={caption}>

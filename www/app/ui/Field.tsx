@@ -5,12 +5,12 @@ interface FieldProps {
   changed: boolean;
   onReset: () => void;
   help?: string | undefined;
-  /** What its default is called. */
+  /** Name of the default. */
   standardWord?: string | undefined;
   children: ComponentChildren;
 }
 
-/** One setting: its name, its input, and the way back to the default. */
+/** A setting with its name, its input, and a button that resets it to the default. */
 export function Field({
   label,
   changed,

@@ -4,7 +4,7 @@ import type { DroppedFile } from "../../worker/protocol";
 import { filesOf } from "./folders";
 
 interface Props {
-  /** Of the input, for those who do not see the button. */
+  /** Accessible name of the input. */
   label: string;
   className?: string;
   folder?: boolean;
@@ -13,7 +13,7 @@ interface Props {
   children: ComponentChildren;
 }
 
-/** A button that asks for files, or for a folder of them. */
+/** Button that opens the file chooser for files or a folder. */
 export function FileButton(props: Props) {
   const { label, className = "", folder = false, disabled = false, onFiles, children } = props;
   const input = useRef<HTMLInputElement>(null);

@@ -2,7 +2,7 @@ import { useSignal } from "@preact/signals";
 import type { FunctionComponent } from "preact";
 import { useEffect } from "preact/hooks";
 
-/** A page that is fetched when somebody turns to it. */
+/** Loads a page when it is opened. */
 export function Later({ load }: { load: () => Promise<FunctionComponent> }) {
   const found = useSignal<{ Page: FunctionComponent } | "failed" | null>(null);
   useEffect(() => {
@@ -20,8 +20,8 @@ export function Later({ load }: { load: () => Promise<FunctionComponent> }) {
     return (
       <main class="later">
         <p role="alert">
-          This part of the page cannot be loaded. Check the connection and reload the page; what is
-          compared stays as it is until then.
+          This part of the page cannot be loaded. Check the connection and reload the page; the
+          comparison stays unchanged until then.
         </p>
       </main>
     );

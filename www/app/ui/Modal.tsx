@@ -8,7 +8,7 @@ interface Props {
   children: ComponentChildren;
 }
 
-/** A dialog over the page; Escape closes it. */
+/** Modal dialog with a title; Escape closes it. */
 export function Modal({ title, onClose, children }: Props) {
   const dialog = useRef<HTMLDialogElement>(null);
   const id = useId();

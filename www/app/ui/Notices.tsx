@@ -1,12 +1,12 @@
 import { dismiss, type Notice, notices } from "../state/state";
 import { CloseIcon } from "./icons";
 
-/** On a small screen what it concerns may be far away. */
+/** Scrolls to a notice, which may be out of view on a small screen. */
 export function showNotice(element: HTMLElement | null): void {
   element?.scrollIntoView({ block: "nearest" });
 }
 
-/** What went wrong, beside what it concerns. */
+/** Error messages, next to the part of the page that they concern. */
 export function Notices({ place }: { place: Notice["place"] }) {
   const found = notices.value.filter((notice) => notice.place === place);
   return (

@@ -5,12 +5,12 @@ interface Props {
   value: number | null;
   least: number;
   most: number;
-  /** What is asked for where it may be empty. */
+  /** Placeholder, if the field may be empty. */
   placeholder?: string;
   onChange: (value: number | null) => void;
 }
 
-/** A whole number beside its name, taken over on Enter or when the field is left. */
+/** Field for a whole number with a label, applied on Enter or when the field is left. */
 export function NumberField({ label, value, least, most, placeholder, onChange }: Props) {
   const wrong = useSignal(false);
   const take = (text: string) => {

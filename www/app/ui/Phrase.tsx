@@ -1,6 +1,6 @@
 import type { Phrase as Parts } from "../text/phrase";
 
-/** A sentence whose numbers say where in the report they come from. */
+/** Renders a sentence whose numbers carry their path in the report. */
 export function Phrase({ parts }: { parts: Parts }) {
   return (
     <>

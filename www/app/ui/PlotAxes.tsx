@@ -1,6 +1,6 @@
 import { type Scale, tickText } from "../text/plots";
 
-/** Where in a plot its data lie, in pixels. */
+/** Rectangle of a plot that its data fill, in pixels. */
 export interface Box {
   left: number;
   right: number;
@@ -14,14 +14,14 @@ interface Props {
   y: Scale;
   across: readonly number[];
   up: readonly number[];
-  /** What the axes are, with units. */
+  /** Names of the axes, with units. */
   acrossName: string;
   upName: string;
   showAcross?: (value: number) => string;
   showUp?: (value: number) => string;
 }
 
-/** Grid lines at round values, their numbers, and what is measured. */
+/** Axes of a plot: grid lines at round values, tick labels, names. */
 export function PlotAxes(props: Props) {
   const { box, x, y, across, up, acrossName, upName } = props;
   const { showAcross = tickText, showUp = tickText } = props;
@@ -50,7 +50,7 @@ export function PlotAxes(props: Props) {
   );
 }
 
-/** Round whole numbers from the first to the last, both kept where there is room for them. */
+/** Round whole numbers from the first to the last, as many as fit into a width in pixels. */
 export function wholeTicks(last: number, pixels: number): number[] {
   const most = Math.max(2, Math.floor(pixels / 48));
   const steps = [1, 2, 5, 10, 20, 25, 50, 100, 200, 250, 500, 1000, 2000, 5000, 10_000, 100_000];

@@ -4,14 +4,14 @@ import { csvText, rowsOf } from "../text/csv";
 import { saveBlob } from "./download";
 
 interface Props {
-  /** Of the file, without its ending. */
+  /** Name of the file, without its ending. */
   file: string;
-  /** What a screen reader is told that the file holds. */
+  /** Contents of the file, for screen readers. */
   of: string;
   children: ComponentChildren;
 }
 
-/** A table that can be taken away as CSV, with all digits of what it shows. */
+/** Adds a button to a table that saves it as CSV with unrounded numbers. */
 export function SaveTable({ file, of, children }: Props) {
   const box = useRef<HTMLDivElement>(null);
   return (

@@ -2,7 +2,7 @@ import type { Side } from "../state/state";
 import { number } from "../text/format";
 
 const [WIDTH, HEIGHT] = [120, 44];
-/** Half of the error bars, in standard errors. */
+/** Half length of the error bars, in standard errors. */
 const ERRORS_SHOWN = 2;
 
 interface Props {
@@ -12,11 +12,11 @@ interface Props {
   errors?: number[] | undefined;
   /** Modes, from 1, that are not determined one by one. */
   doubtful?: Set<number> | undefined;
-  /** How many of them are compared, where not all are. */
+  /** Number of compared modes, if not all. */
   kept?: number | undefined;
 }
 
-/** Standard deviations of the modes, largest first, as bars. */
+/** Scree plot: standard deviations of the modes as bars, largest first. */
 export function Scree({ deviations, side, errors, doubtful, kept }: Props) {
   const ends = deviations.map((deviation, i) => deviation + ERRORS_SHOWN * (errors?.[i] ?? 0));
   const largest = Math.max(...ends, 1e-300);

@@ -6,7 +6,7 @@ interface Props<T extends string> {
   onChoose: (value: T) => void;
 }
 
-/** A few choices side by side. */
+/** Radio buttons side by side. */
 export function Segments<T extends string>(props: Props<T>) {
   const { legend, name, value, options, onChoose } = props;
   return (

@@ -3,11 +3,11 @@ import type { ComponentChildren } from "preact";
 
 interface Props {
   label?: string;
-  /** Made once it is looked at: tables of hundreds of modes are long. */
+  /** The table; created when it is opened, since it may be long. */
   children: () => ComponentChildren;
 }
 
-/** The table behind a plot. */
+/** Folded table with the numbers of a plot. */
 export function ShowNumbers({ label = "Show numbers", children }: Props) {
   const open = useSignal(false);
   return (

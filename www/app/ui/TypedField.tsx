@@ -3,13 +3,13 @@ import { Field } from "./Field";
 
 interface Props<T> {
   label: string;
-  /** Where the label alone would name two fields. */
+  /** Accessible name, if the label is used for several fields. */
   accessibleLabel?: string | undefined;
   value: string;
   standard: string;
   parse: (text: string) => T | "invalid";
   onChange: (value: T) => void;
-  /** What is expected, said when something else is typed. */
+  /** Expected input, shown when something else is typed. */
   wrong: string;
   placeholder?: string;
   suffix?: string;
@@ -17,7 +17,7 @@ interface Props<T> {
   help?: string;
 }
 
-/** A value that is typed, taken over on Enter or when the field is left. */
+/** Field for a typed value, applied on Enter or when the field is left. */
 export function TypedField<T>(props: Props<T>) {
   const {
     label,

@@ -1,4 +1,4 @@
-/** Files that the visitor takes away. */
+/** Saves files to the visitor's computer and copies text. */
 import type { ExportKind } from "../../worker/protocol";
 import { engineClient, report } from "../state/engine";
 import { dismiss } from "../state/state";
@@ -26,7 +26,7 @@ export function saveBlob(name: string, blob: Blob): void {
   setTimeout(() => URL.revokeObjectURL(link.href), 60_000);
 }
 
-/** Whether the browser let it. */
+/** Copies a text; resolves to whether the browser allowed it. */
 export async function copyText(text: string): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(text);

@@ -11,7 +11,7 @@ const file = (fullPath: string, readable = true) => ({
     readable ? done(new File(["x"], fullPath)) : failed("gone"),
 });
 
-/** Hands its entries out `atOnce` at a time, as browsers do. */
+/** A folder that returns its entries `atOnce` at a time, as browsers do. */
 const folder = (fullPath: string, entries: Entry[], atOnce = 100) => ({
   isFile: false,
   isDirectory: true,

@@ -1,7 +1,7 @@
-/** Files of dropped or chosen folders, each with its path. Pure but for what the browser hands over. */
+/** Lists the files of dropped or chosen folders, each with its path. */
 import type { DroppedFile } from "../../worker/protocol";
 
-/** The few members of a FileSystemEntry that are used here. */
+/** The members of a FileSystemEntry that are used here. */
 export interface Entry {
   readonly isFile: boolean;
   readonly isDirectory: boolean;
@@ -17,7 +17,7 @@ interface FolderEntry extends Entry {
   };
 }
 
-/** More is hardly meant, and would take minutes to list. */
+/** Largest number of files: listing more would take minutes. */
 export const MOST_FILES = 20_000;
 
 /** All files below these entries, in the order of their paths; what cannot be read is left out. */
@@ -36,17 +36,17 @@ export async function filesBelow(entries: Entry[]): Promise<DroppedFile[]> {
   return found.sort((one, other) => byName(one.name, other.name));
 }
 
-/** What an `<input type="file">` holds, with folders where it was asked for one. */
+/** The files of an `<input type="file">`, with paths if it is for folders. */
 export function filesOf(list: Iterable<File>): DroppedFile[] {
   return [...list]
     .filter(isMeant)
     .map((file) => ({ name: file.webkitRelativePath || file.name, blob: file }));
 }
 
-/** “9.ply” comes before “10.ply”. */
+/** Compares paths so that “9.ply” comes before “10.ply”. */
 const byName = new Intl.Collator("en", { numeric: true }).compare;
 
-/** Not what file managers and archives leave behind. */
+/** Whether an entry is no hidden file of a file manager or archive. */
 function isMeant({ name }: { name: string }): boolean {
   return !name.startsWith(".") && name !== "__MACOSX" && name !== "Thumbs.db";
 }

@@ -1,4 +1,4 @@
-/** What the panes of the regions show. Pure. */
+/** Computes the contents of the panes of the five regions: shapes, colours, ellipsoids. Pure. */
 import type { BothSides, Ellipsoid, Geometry, Region, RegionShapes } from "../../worker/protocol";
 import { REGIONS, type ViewMode } from "../state/view";
 import type { Palette } from "../text/colormap";
@@ -7,20 +7,20 @@ import { type DrawnEllipsoid, type Frame, frameOf, type PaneContent } from "./vi
 
 export interface Scene {
   geometry: { a: Geometry | null; b: Geometry | null };
-  /** The models as a run compares them, where those are other points than `geometry` has. */
+  /** Geometry of the compared points, if they differ from those of `geometry`. */
   compared: BothSides<Geometry> | null;
   shapes: Partial<Record<Region, RegionShapes>>;
   mode: ViewMode;
   dark: boolean;
-  /** Packaged heads are cut at the neck. */
+  /** Whether the rim fades out: the example heads are cut at the neck. */
   fadeRim: boolean;
-  /** What is coloured onto the vertices; where this is left out, their standard deviations. */
+  /** The map that colours the vertices; standard deviations if left out. */
   map?: { values: Partial<Record<Region, Float32Array>>; palette: Palette } | undefined;
-  /** Covariances of the vertex that is looked at. */
+  /** Covariances of the chosen vertex. */
   ellipsoids?: Partial<Record<Region, Ellipsoid>>;
 }
 
-/** Standard deviations to a semi-axis of an ellipsoid as it is drawn. */
+/** Standard deviations that a semi-axis of a drawn ellipsoid stands for. */
 export const ELLIPSOID_SD = 2;
 
 const RIM_RINGS = 5;
@@ -42,7 +42,7 @@ const CLAY: Record<"light" | "dark", Record<Region, Rgb>> = {
     b: [222, 180, 138],
   },
 };
-/** Lines need the full hue where surfaces only need a hint of it. */
+/** Colours of lines, more saturated than those of surfaces. */
 const INK: Record<"light" | "dark", Record<Region, Rgb>> = {
   light: {
     a: [37, 99, 190],
@@ -60,7 +60,7 @@ const INK: Record<"light" | "dark", Record<Region, Rgb>> = {
   },
 };
 
-/** Points that are painted: strong, since it stands for what is compared. */
+/** Colour of painted points. */
 const MARK: Record<"light" | "dark", Rgb> = { light: [178, 84, 188], dark: [226, 130, 236] };
 
 const fades = new WeakMap<Uint32Array, Float32Array | null>();
@@ -73,10 +73,10 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
   const found = scene.shapes[region];
   const own = ownGeometry(scene, region);
   const current = found && geometryFor(scene, region, found.mean.length);
-  // A model that was just opened is shown before anything was compared.
+  // Before a comparison the models themselves are shown.
   const alone = region === "a" || region === "b";
   const geometry = current ?? (alone ? own : null);
-  // One canvas shows the plane or space, not both: of two models that do not match, A.
+  // A canvas shows 2-D or 3-D shapes, not both: if the models differ, A.
   if (!geometry || geometry.dimension !== dimensionOf(scene)) return null;
   const shown = current && found ? found : { mean: geometry.mean, vertexSd: geometry.vertexSd };
   const many = scene.mode === "samples" && current && found;
@@ -90,7 +90,7 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
     overlaid: cloud || geometry.segments !== null,
     triangles: geometry.triangles,
     segments: geometry.segments,
-    // The rim of a region is no cut at the neck.
+    // The rim of a selected region does not fade out.
     fade:
       scene.fadeRim && geometry.triangles && !isCompared(scene, geometry) ? fadeOf(geometry) : null,
     values: scene.mode === "sd" ? valuesOf(scene, region, shown.vertexSd) : null,
@@ -101,7 +101,7 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
   };
 }
 
-/** What a shape of so many numbers is drawn with in the pane of a region; null where no model has as many. */
+/** The geometry for a shape of a region by its number of coordinates; null if no model has as many. */
 export function drawnWith(
   scene: Scene,
   region: Region,
@@ -114,19 +114,19 @@ export function drawnWith(
   return { region, triangles, segments, fade: cut ? fadeOf(geometry) : null, overlaid: true };
 }
 
-/** The colour of a region: as clay, or as lines of its full hue. */
+/** The colour of a region for surfaces or for lines. */
 export function tintOf(scene: Scene, region: Region, lines: boolean): Rgb {
   return (lines ? INK : CLAY)[scene.dark ? "dark" : "light"][region];
 }
 
-/** Of other points than are drawn, a map says nothing. */
+/** The values of a map, if it is of the drawn points. */
 function valuesOf(scene: Scene, region: Region, vertexSd: Float32Array): Float32Array | null {
   if (!scene.map) return vertexSd;
   const found = scene.map.values[region];
   return found?.length === vertexSd.length ? found : null;
 }
 
-/** Over light and dark colours of a map: neither is any of its own. */
+/** Colour of an ellipsoid, distinct from the colours of the maps. */
 const ELLIPSOID_INK: Record<"light" | "dark", Rgb> = { light: [24, 22, 30], dark: [250, 246, 252] };
 
 function drawnEllipsoid(scene: Scene, region: Region): DrawnEllipsoid | null {
@@ -139,19 +139,19 @@ function drawnEllipsoid(scene: Scene, region: Region): DrawnEllipsoid | null {
   };
 }
 
-/** Models of a few loose points: their samples mean something only all at once. */
+/** Whether a model is a few single points, whose random shapes are drawn overlaid. */
 export function isCloud(geometry: Geometry): boolean {
   const points = geometry.mean.length / geometry.dimension;
   return geometry.triangles === null && geometry.segments === null && points <= 8;
 }
 
-/** One card's picture: the model's own mean. */
+/** Content of the picture of a model card: the mean shape. */
 export function cardContent(geometry: Geometry, side: Region, scene: Scene): PaneContent | null {
   const alone = { ...scene, compared: null, shapes: {}, mode: "mean" as const };
   return contentOf({ ...alone, geometry: { a: geometry, b: geometry } }, side);
 }
 
-/** One frame for all panes, whatever they show just now. */
+/** Common frame of all panes. */
 export function sceneFrame(scene: Scene): Frame {
   const dimension = dimensionOf(scene) ?? 3;
   const means = contentsOf({ ...scene, mode: "mean" }, ["a", "b"]);
@@ -171,7 +171,7 @@ export function dimensionOf({ geometry }: Scene): 2 | 3 | null {
 
 const split = new WeakMap<RegionShapes, Float32Array[]>();
 
-/** Always the same arrays for the same shapes, so that a viewer can keep what it made of them. */
+/** The single shapes of a region; the same arrays for the same shapes, so that a viewer can keep its buffers. */
 function samplesOf(found: RegionShapes): Float32Array[] {
   const known = split.get(found);
   if (known) return known;
@@ -191,7 +191,7 @@ function sideOf(region: Region): "a" | "b" {
   return region === "b" || region === "bWithoutA" ? "b" : "a";
 }
 
-/** What shapes of so many numbers are drawn with: surfaces if there are any, its own side's first. */
+/** The geometry with this number of coordinates: one with triangles if possible, that of its own model first. */
 function geometryFor(scene: Scene, region: Region, length: number): Geometry | null {
   const { geometry, compared } = scene;
   const both = compared ?? geometry;
@@ -206,7 +206,7 @@ function isCompared({ compared }: Scene, geometry: Geometry): boolean {
   return compared !== null && (geometry === compared.a || geometry === compared.b);
 }
 
-/** Model A alone, with the points that are marked in the colour of what both share. */
+/** Content while painting: the mean of A with the painted points marked. */
 export function markedContent(scene: Scene, mask: Uint8Array): PaneContent | null {
   const content = contentOf({ ...scene, compared: null, shapes: {}, mode: "mean" }, "a");
   const shade = scene.dark ? "dark" : "light";

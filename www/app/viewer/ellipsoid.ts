@@ -1,4 +1,4 @@
-/** Covariance of one vertex in space: translucent, with its three principal ellipses. */
+/** Draws the covariance ellipsoid of a vertex in 3-D, translucent, with its three principal ellipses. */
 import {
   BufferAttribute,
   BufferGeometry,
@@ -18,7 +18,7 @@ import {
 import type { DrawnEllipsoid } from "./viewer";
 
 const STEPS = 48;
-/** What of it lies inside a surface or behind it still shows a little. */
+/** Opacity in front of surfaces and behind them. */
 const [BEFORE, BEHIND] = [0.22, 0.1];
 
 export function ellipsoidObject({ centre, axes, ink }: DrawnEllipsoid): Object3D {
@@ -35,7 +35,7 @@ export function ellipsoidObject({ centre, axes, ink }: DrawnEllipsoid): Object3D
     ),
   ];
   const group = new Group();
-  // After every surface, however these are sorted.
+  // Drawn after all surfaces.
   parts.forEach((part, i) => {
     part.renderOrder = 1 + i;
   });
@@ -56,7 +56,7 @@ export function discardEllipsoid(group: Object3D): void {
   }
 }
 
-/** The unit circles in the three planes of the axes. */
+/** Unit circles in the three coordinate planes. */
 function circles(): BufferGeometry {
   const points: number[] = [];
   const at = (plane: number, step: number) => {

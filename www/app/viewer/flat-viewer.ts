@@ -1,4 +1,4 @@
-/** Drawings in the plane, on a 2-D canvas: outlines, over one another where there are several. */
+/** Draws 2-D shapes on a canvas: outlines, overlaid if there are several. */
 import type { Region } from "../../worker/protocol";
 import { type Camera, HOME } from "../state/camera";
 import { colourOf, shareIn } from "../text/colormap";
@@ -18,9 +18,9 @@ import {
 
 const MARK_PX = 6;
 const DASH_PX = [6, 4];
-/** Colours of a map run from dark to light: a rim keeps the light ones apart from the page. */
+/** Rim of coloured lines, which separates light colours of a map from the page. */
 const MAP_PX = 4;
-/** Along a line, what lies between its two ends is coloured in steps. */
+/** Number of steps of the colour along a line. */
 const STEP_PX = 8;
 const RIM = { width: MAP_PX + 1.5, colour: "rgb(110 110 116)" };
 
@@ -108,7 +108,7 @@ export class FlatViewer implements Viewer {
     return copy;
   }
 
-  /** What is on the canvas. */
+  /** The panes on the canvas. */
   #shot(): Shot {
     const { width, height } = this.#size;
     return {
@@ -150,7 +150,7 @@ export class FlatViewer implements Viewer {
   #render(canvas: HTMLCanvasElement, scale: number, shot: Shot): void {
     const width = Math.round(shot.width * scale);
     const height = Math.round(shot.height * scale);
-    // Giving it a size, even its own, makes the canvas anew.
+    // Setting the size of a canvas clears it.
     if (canvas.width !== width) canvas.width = width;
     if (canvas.height !== height) canvas.height = height;
     const pen = canvas.getContext("2d");
@@ -230,7 +230,7 @@ export class FlatViewer implements Viewer {
     pen.beginPath();
     for (let i = 0; i + 1 < segments.length; i += 2) {
       const [from = 0, to = 0] = [segments[i], segments[i + 1]];
-      // A path that goes on from where it ended is joined, not begun anew.
+      // A segment that starts where the last one ended continues the path.
       if (i === 0 || segments[i - 1] !== from) pen.moveTo(...toPixels(shape, from));
       pen.lineTo(...toPixels(shape, to));
     }
@@ -257,7 +257,7 @@ export class FlatViewer implements Viewer {
     }
   }
 
-  /** To clip space, column major; only its scale and shift are not zero or one. */
+  /** Matrix to clip space, column major: scale and translation. */
   #matrix(rect: Rect, frame: Frame, camera: Camera) {
     const halfHeight = halfHeightIn(rect, frame) / camera.zoom;
     const halfWidth = (halfHeight * rect.width) / rect.height;

@@ -1,4 +1,4 @@
-/** Pointer, wheel and keyboard on the canvas, all turned into one camera. */
+/** Changes the camera by pointer, wheel and keyboard on the canvas. */
 import { type Camera, HOME, orbit, shift, zoomBy } from "../state/camera";
 
 const TURN_PER_PX = 0.009;
@@ -8,15 +8,15 @@ const KEY_ZOOM = 1.15;
 export interface GestureTarget {
   camera(): Camera;
   setCamera(camera: Camera): void;
-  /** Drawings in the plane are shifted, shapes in space turned. */
+  /** Whether shapes are 2-D: dragging shifts them instead of turning. */
   flat(): boolean;
   /** Whether a plain wheel belongs to the canvas rather than to scrolling the page. */
   ownsWheel(): boolean;
-  /** CSS pixels to a radius of the shape. */
+  /** CSS pixels per radius of the shape. */
   pixelsPerRadius(): number;
   hover(x: number, y: number): void;
   leave(): void;
-  /** A click that was no drag. */
+  /** Called for a click without a drag. */
   tap(x: number, y: number): void;
   /** Whether a drag paints instead of turning; two fingers and the right button still turn. */
   paints(at?: { x: number; y: number }): boolean;
@@ -51,7 +51,7 @@ export function listen(canvas: HTMLCanvasElement, target: GestureTarget): () => 
     canvas.setPointerCapture(event.pointerId);
     held.set(event.pointerId, { x: event.clientX, y: event.clientY });
     if (held.size === 1) moved = 0;
-    // A second finger means that the first was not to paint.
+    // With a second finger the gesture turns or zooms: the stroke of the first one is undone.
     if (painting) target.dropStroke();
     const at = { x: event.offsetX, y: event.offsetY };
     painting = held.size === 1 && event.button === 0 && target.paints(at);

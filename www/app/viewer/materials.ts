@@ -1,4 +1,4 @@
-/** What surfaces, wires and points are drawn with. */
+/** Materials of surfaces, wireframes and points. */
 import {
   type BufferAttribute,
   type BufferGeometry,
@@ -18,7 +18,7 @@ import type { PaneContent } from "./viewer";
 
 const FADING = { transparent: true, blending: NoBlending, premultipliedAlpha: true } as const;
 
-/** Where a shape was first says nothing of where it goes. */
+/** The first bounds of a moving shape are not valid later. */
 export function readyToMove(object: Object3D, geometry: BufferGeometry): void {
   object.frustumCulled = false;
   for (const name of ["position", "normal", "color"]) {
@@ -32,7 +32,7 @@ export function isLit({ style = "smooth", outline = false }: PaneContent): boole
 
 let table: Float32Array | null = null;
 
-/** Viridis in 256 steps, as the colours of vertices have it. */
+/** Viridis in 256 steps, in the colour space of vertex colours. */
 export function viridisTable(): Float32Array {
   if (table) return table;
   const colour = new Color();
@@ -49,7 +49,7 @@ export function surface(content: PaneContent): Material {
   if (style === "wireframe" || outline) return wires(outline);
   const fades = fade !== null;
   const material = style === "flat" ? facets(fades) : clay(fades);
-  // Wires over a surface that nearly coincides with their own lie in front of it.
+  // A wireframe is drawn in front of a surface that nearly coincides with it.
   Object.assign(material, { polygonOffset: moves, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
   return material;
 }
@@ -63,7 +63,7 @@ function wires(thin: boolean): Material {
   });
 }
 
-/** Every triangle as the flat piece that it is. */
+/** Flat shading: every triangle has one normal. */
 function facets(fades: boolean): MeshLambertMaterial {
   return new MeshLambertMaterial({
     vertexColors: true,
@@ -75,18 +75,18 @@ function facets(fades: boolean): MeshLambertMaterial {
 }
 
 /**
- * Opacity goes straight into the canvas instead of being blended: the front surface always wins,
- * so a fading rim never shows the far side through it.
+ * Writes opacity to the canvas instead of blending: the front surface hides the back, so a fading rim never shows
+ * the far side through it.
  */
 function clay(fades: boolean): MeshLambertMaterial {
   const material = new MeshLambertMaterial({
     vertexColors: true,
     side: DoubleSide,
-    // One pass: with two, the far side's is lit from within and shows at the outline.
+    // One pass: with two, the back faces would show at the outline.
     forceSinglePass: true,
     ...(fades ? FADING : {}),
   });
-  // A back face that shows at the outline would be lit from its other side: dark specks.
+  // Back faces at the outline would be lit from the other side and appear as dark specks.
   material.onBeforeCompile = (shader) => {
     shader.fragmentShader = shader.fragmentShader.replace(
       "#include <normal_fragment_begin>",
@@ -100,7 +100,7 @@ export function dots(shapes: number, points: number): PointsMaterial {
   return dot(dotSize(shapes, points));
 }
 
-/** A surface of many points, one point, or a cloud of single points. */
+/** Geometry and material of a shape: a surface, one point, or a cloud of points. */
 function dotSize(shapes: number, points: number): number {
   if (points > 100) return 1.8;
   return shapes > 1 ? 3.5 : 9;

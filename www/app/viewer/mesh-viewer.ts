@@ -1,4 +1,4 @@
-/** Shapes in space: one WebGL context, a scissored viewport per shape, drawn only on demand. */
+/** Draws 3-D shapes with WebGL: one context, a scissored viewport per shape, drawn only on demand. */
 import {
   BufferAttribute,
   BufferGeometry,
@@ -39,7 +39,7 @@ import {
 } from "./viewer";
 
 const FIELD_OF_VIEW = 22;
-/** Larger pictures are drawn in parts: no browser promises a larger drawing buffer. */
+/** Largest drawing buffer that browsers guarantee; larger pictures are drawn in parts. */
 const LARGEST_TILE = 2048;
 
 interface Pane {
@@ -58,7 +58,7 @@ export class MeshViewer implements Viewer {
   #key = new DirectionalLight();
   #rim = new DirectionalLight();
   #panes: Pane[] = [];
-  /** What was drawn last for a picture that is not on the canvas. */
+  /** Objects of the last picture that is not on the canvas. */
   #last: Pane | null = null;
   #frame: Frame = { centre: [0, 0, 0], halfWidth: 1, halfHeight: 1 };
   #layout: ReadonlyMap<Region, Rect> = new Map();
@@ -214,12 +214,12 @@ export class MeshViewer implements Viewer {
     this.#eye.clearViewOffset();
     this.#renderer.setPixelRatio(ratio);
     this.#renderer.setSize(this.#size.width, this.#size.height, false);
-    // Before the page is painted again, and once for many pictures.
+    // Before the next repaint, once for many pictures.
     this.#request();
     return copy;
   }
 
-  /** What is on the canvas. */
+  /** The panes on the canvas. */
   #shot(): Shot {
     const { width, height } = this.#size;
     return {
@@ -233,7 +233,7 @@ export class MeshViewer implements Viewer {
     };
   }
 
-  /** Objects of a content: those on the canvas, or others that are let go of afterwards. */
+  /** Objects of a content: those on the canvas, or new ones that are freed afterwards. */
   #withObjects(content: PaneContent, enlarged: number, use: (pane: Pane) => void): void {
     const shown = this.#panes.find((pane) => pane.content === content);
     const objects = shown?.objects ?? this.#objectsOf(content);
@@ -244,7 +244,7 @@ export class MeshViewer implements Viewer {
       this.#scene.add(...objects, ...(ellipsoid ? [ellipsoid] : []));
     }
     const points = objects.filter((object) => object instanceof Points);
-    // Points are so many pixels wide, whatever the size of the picture.
+    // The size of points is in pixels, independent of the size of the picture.
     for (const { material } of points) material.size *= enlarged;
     use(pane);
     for (const { material } of points) material.size /= enlarged;
@@ -254,7 +254,7 @@ export class MeshViewer implements Viewer {
     this.#last = pane;
   }
 
-  /** Not at once: with the last material its program would go too, and be compiled for every picture anew. */
+  /** Frees objects later: with the last material its shader would be freed and compiled again for every picture. */
   #letGo(): void {
     if (!this.#last) return;
     discard(this.#last.objects);
@@ -262,14 +262,14 @@ export class MeshViewer implements Viewer {
     this.#last = null;
   }
 
-  /** One cell at its size in the picture, part by part. */
+  /** Draws one cell at its size in the picture, part by part. */
   #drawTiles(pen: CanvasRenderingContext2D, cell: Rect, scale: number, frame: Frame): void {
     const [left, top] = [Math.round(cell.x * scale), Math.round(cell.y * scale)];
     const width = Math.max(1, Math.round(cell.width * scale));
     const height = Math.max(1, Math.round(cell.height * scale));
     const tile = { width: Math.min(width, LARGEST_TILE), height: Math.min(height, LARGEST_TILE) };
     const canvas = this.#canvas;
-    // Giving it a size, even its own, makes the canvas anew.
+    // Setting the size of a canvas clears it.
     if (canvas.width !== tile.width || canvas.height !== tile.height) {
       this.#renderer.setSize(tile.width, tile.height, false);
     }
@@ -294,7 +294,7 @@ export class MeshViewer implements Viewer {
     this.#hideAll();
     for (const object of objects) object.visible = true;
     const ratio = this.#renderer.getPixelRatio();
-    // Drawn on the canvas of the stage, which has no size while another room is looked at.
+    // Drawn on the canvas of the page, which has no size while another tab is shown.
     const stage = this.#size;
     this.#size = { width: Math.max(size, stage.width), height: Math.max(size, stage.height) };
     const resized = this.#size.width !== stage.width || this.#size.height !== stage.height;
@@ -324,7 +324,7 @@ export class MeshViewer implements Viewer {
       if (ellipsoid) discardEllipsoid(ellipsoid);
     }
     this.#renderer.dispose();
-    // A page may have only so many contexts; the oldest would be lost instead of this one.
+    // A page may have only a few contexts; without this the oldest one would be lost.
     this.#renderer.forceContextLoss();
   }
 
@@ -353,7 +353,7 @@ export class MeshViewer implements Viewer {
     if (timesDrawing()) this.#waitUntilDrawn();
   }
 
-  /** Drawing goes on in a process of its own; what is read back must be there. */
+  /** Waits until the GPU has drawn, by reading a pixel. */
   #waitUntilDrawn(): void {
     const begun = performance.now();
     const context = this.#renderer.getContext();
@@ -361,7 +361,7 @@ export class MeshViewer implements Viewer {
     note("until it is drawn", begun);
   }
 
-  /** Only the shapes that are in one cell of a pane. */
+  /** Shows only the shapes of one cell of a pane. */
   #show({ content, objects, ellipsoid }: Pane, cell: number): void {
     this.#hideAll();
     objects.forEach((object, i) => {
@@ -391,7 +391,7 @@ export class MeshViewer implements Viewer {
     const halfHeight = halfHeightIn(cell, frame) / zoom;
     const distance = halfHeight / Math.tan((FIELD_OF_VIEW * Math.PI) / 360);
     const reach = Math.hypot(frame.halfWidth, frame.halfHeight) * 1.6;
-    // Never nearer than the shape's own size, whatever the zoom: the lens narrows instead.
+    // The camera keeps its distance at any zoom; the field of view narrows instead.
     const away = Math.max(distance, reach * 1.5);
     const eye = this.#eye;
     eye.fov = (360 / Math.PI) * Math.atan(halfHeight / away);
@@ -408,7 +408,7 @@ export class MeshViewer implements Viewer {
     eye.updateMatrixWorld();
   }
 
-  /** Flatter light where colours are to be read. */
+  /** Flatter light for coloured maps. */
   #light(): void {
     const read = this.#range !== null;
     this.#sky.color.set(0xffffff);
@@ -422,7 +422,7 @@ export class MeshViewer implements Viewer {
     const { triangles, segments } = content;
     return content.shapes.map((shape) => {
       const geometry = new BufferGeometry();
-      // What moves is written over: not what the state holds.
+      // Moving shapes are overwritten, so they need a copy.
       const own = content.moves ? shape.slice() : shape;
       geometry.setAttribute("position", new BufferAttribute(own, 3));
       const colours = new Float32Array((shape.length / 3) * 4);
@@ -504,7 +504,7 @@ function discard(objects: Object3D[]): void {
   for (const object of objects) {
     object.removeFromParent();
     const { geometry, material } = object as Mesh;
-    // Others draw with the same cells; disposing of them too would take theirs away.
+    // The triangles are shared with other objects and must not be freed.
     geometry.setIndex(null);
     geometry.dispose();
     (material as Material).dispose();

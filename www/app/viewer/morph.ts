@@ -1,6 +1,6 @@
 /**
- * The loops of a shape that moves: into buffers that are there already, with nothing allocated, so that a
- * slider can ask for them sixty times a second. Pure.
+ * Computes normals, colours and blends of a moving shape into existing buffers, without allocation, so that a slider
+ * can do it sixty times a second. Pure.
  */
 
 /**
@@ -59,7 +59,7 @@ export function writeColours(
   const scale = last / Math.max(high - low, 1e-30);
   for (let i = 0; i < values.length; i += 1) {
     const place = (at(values, i) - low) * scale;
-    // What is no number is as low as can be.
+    // NaN has the lowest colour.
     const entry = 3 * (place > 0 ? Math.min(last, Math.round(place)) : 0);
     colours[4 * i] = at(table, entry);
     colours[4 * i + 1] = at(table, entry + 1);

@@ -1,4 +1,4 @@
-/** Which vertex is under the pointer: the nearest to the eye of those near it in the picture. */
+/** Finds the vertex under the pointer: of the vertices close to it in the image, the nearest to the camera. */
 
 const REACH_PX = 9;
 
@@ -25,7 +25,7 @@ export function pickVertex(
     const sy = (1 - (m(1) * px + m(5) * py + m(9) * pz + m(13)) / w) * 0.5 * at.height - at.y;
     const away = sx * sx + sy * sy;
     if (away > REACH_PX * REACH_PX) continue;
-    // A little distance in the picture is outweighed by being clearly in front.
+    // A vertex clearly in front is preferred to one slightly closer to the pointer.
     const depth = (m(2) * px + m(6) * py + m(10) * pz + m(14)) / w + away * 1e-5;
     if (best === null || depth < best.depth) best = { vertex: i / dimension, depth };
   }

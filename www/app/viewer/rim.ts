@@ -1,6 +1,6 @@
 /**
- * How far every vertex is from an open rim, so that a cut surface can fade out instead of ending
- * in a hard edge.
+ * Opacity of every vertex by its distance from an open rim, so that a cut surface fades out instead of ending in a
+ * hard edge.
  */
 
 /** Opacity per vertex: 0 on the rim, 1 from `rings` edges inwards; null for a closed surface. */

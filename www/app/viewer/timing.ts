@@ -1,8 +1,8 @@
-/** How long parts of a frame take, for `npm run bench -- --morph`; nobody else asks. */
+/** Measures how long the parts of a frame take, for `npm run bench -- --morph` only. */
 
 interface Timed {
   timings?: Record<string, number[]>;
-  /** Whether each frame waits until it is drawn: then nothing else is timed rightly. */
+  /** Whether each frame waits until it is drawn; other timings are not valid then. */
   timesDrawing?: boolean;
 }
 
@@ -19,7 +19,7 @@ export function note(name: string, begun: number): void {
   timings[name].push(performance.now() - begun);
 }
 
-/** Does some work, and notes how long it took. */
+/** Does some work and records its duration. */
 export async function timed<T>(name: string, work: () => Promise<T>): Promise<T> {
   const begun = performance.now();
   const done = await work();

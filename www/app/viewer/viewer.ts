@@ -1,6 +1,6 @@
 /**
- * What the page knows of drawing. Two implementations: meshes in space with three.js (a chunk of
- * its own), drawings in the plane with a 2-D canvas.
+ * Interface of the viewers, and layout of their panes. Two implementations: 3-D meshes with three.js (loaded
+ * separately), 2-D outlines on a canvas.
  */
 import type { Region } from "../../worker/protocol";
 import type { Camera } from "../state/camera";
@@ -14,52 +14,52 @@ export interface Rect {
   height: number;
 }
 
-/** What one pane shows. */
+/** Content of one pane. */
 export interface PaneContent {
   region: Region;
   /** Points of each shape, d·n numbers. */
   shapes: Float32Array[];
-  /** All shapes over one another rather than side by side. */
+  /** Whether all shapes are overlaid instead of side by side. */
   overlaid: boolean;
   triangles: Uint32Array | null;
   segments: Uint32Array | null;
-  /** Opacity per vertex, where an open rim fades out. */
+  /** Opacity per vertex, if an open rim fades out. */
   fade: Float32Array | null;
   /** One number per vertex, coloured by `range`. */
   values: Float32Array | null;
-  /** Viridis, where it is not given. */
+  /** Colour map; viridis if not given. */
   palette?: Palette;
-  /** Covariance of one vertex, as it is drawn over every shape. */
+  /** Covariance ellipsoid of one vertex, drawn over every shape. */
   ellipsoid?: DrawnEllipsoid | null;
-  /** Vertices, 1 of each, that are drawn in another colour. */
+  /** Mask of vertices that are drawn in another colour. */
   marks: { mask: Uint8Array; tint: readonly [number, number, number] } | null;
   /** sRGB, 0 … 255. */
   tint: readonly [number, number, number];
-  /** How a surface is drawn: smooth where nothing is said. */
+  /** Style of a surface; smooth if not given. */
   style?: SurfaceStyle;
-  /** Thin lines, to lie over another shape of the same pane: wires of a surface, a dashed drawing. */
+  /** Whether it is drawn as thin lines over another shape of the pane: wireframe or dashed outline. */
   outline?: boolean;
   /** Whether `morph` will move it. */
   moves?: boolean;
 }
 
-/** New points of one content, and new numbers per vertex where it is coloured by any. */
+/** New points of one content, and new values per vertex if it is coloured. */
 export interface Moved {
   shape: Float32Array;
   values: Float32Array | null;
 }
 
-/** An ellipsoid as it is drawn: `axes` are its semi-axes, column by column, however many SD they stand for. */
+/** An ellipsoid as it is drawn: `axes` are its semi-axes, column by column, in the scale of the drawing. */
 export interface DrawnEllipsoid {
   centre: readonly number[];
   axes: readonly number[];
   ink: Rgb;
 }
 
-/** The part of space that a pane must show. */
+/** The region of space that a pane shows. */
 export interface Frame {
   centre: [number, number, number];
-  /** Half of the width, seen from anywhere round the upright axis, and of the height. */
+  /** Half of the width, from any direction about the vertical axis, and of the height. */
   halfWidth: number;
   halfHeight: number;
 }
@@ -70,7 +70,7 @@ export interface Hit {
   shape: number;
 }
 
-/** A picture of any size that need not be what is on the canvas. */
+/** Request of a picture of any size and content. */
 export interface Shot {
   width: number;
   height: number;
@@ -82,20 +82,20 @@ export interface Shot {
 }
 
 export interface Viewer {
-  /** Where the panes are on the canvas, in CSS pixels. */
+  /** Sets the rectangles of the panes on the canvas, in CSS pixels. */
   setLayout(width: number, height: number, panes: ReadonlyMap<Region, Rect>): void;
   setMesh(panes: PaneContent[], frame: Frame): void;
   /** Moves what `setMesh` was given last, in its order; cells, tints and frame stay. */
   morph(moved: readonly (Moved | null)[]): void;
   setColors(range: readonly [number, number] | null): void;
   setCamera(camera: Camera): void;
-  /** The vertex at a place on the canvas. */
+  /** The vertex at a position on the canvas. */
   pick(x: number, y: number): Hit | null;
-  /** Where a point of a pane is on the canvas. */
+  /** Position on the canvas of a point of a pane. */
   positionOf(region: Region, point: readonly number[]): { x: number; y: number } | null;
-  /** What is at a place on the canvas, as far from the eye as `through`. */
+  /** The point at a position on the canvas, at the same depth as `through`. */
   pointAt(region: Region, through: readonly number[], x: number, y: number): number[] | null;
-  /** What is on the canvas, or another picture, `scale` pixels to a CSS pixel, drawn and copied in one task. */
+  /** Draws the canvas or another picture with `scale` pixels per CSS pixel, and copies it in the same task. */
   capture(scale: number, shot?: Shot): HTMLCanvasElement;
   /** One shape alone, for a card. */
   thumbnail(content: PaneContent, frame: Frame, size: number): HTMLCanvasElement;
@@ -122,19 +122,19 @@ export function cellsOf(rect: Rect, count: number, frame: Frame): Rect[] {
   }));
 }
 
-/** Room round the shapes. */
+/** Margin around the shapes. */
 const MARGIN = 1.07;
 
-/** Half of the height that a cell must show to hold the frame. */
+/** Half of the height that a cell must show to contain the frame. */
 export function halfHeightIn(rect: Rect, frame: Frame): number {
   const aspect = rect.width / Math.max(1, rect.height);
   return MARGIN * Math.max(frame.halfHeight, frame.halfWidth / Math.max(aspect, 1e-6));
 }
 
-/** Below this nothing is seen. */
+/** Opacity below which nothing is visible. */
 const FADED = 0.08;
 
-/** The frame that holds all of these shapes, but for what fades away. */
+/** The frame that contains all of these shapes without their transparent vertices. */
 export function frameOf(
   shapes: Float32Array[],
   dimension: 2 | 3,
@@ -169,7 +169,7 @@ export function frameOf(
   };
 }
 
-/** How far shapes in space reach from their axis: nothing is cut off however they are turned about it. */
+/** Largest distance of 3-D shapes from their vertical axis, so that nothing is cut off when they turn. */
 function reach(shapes: Float32Array[], fade: Float32Array | null, x: number, z: number): number {
   let farthest = 0;
   for (const shape of shapes) {
