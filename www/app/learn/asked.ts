@@ -1,4 +1,4 @@
-/** What a scene asks of the engine, as a part of what it shows: asked anew whenever the question changes. */
+/** Hooks with which a scene asks the engine: a question is sent again whenever it changes. */
 import { useSignal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
 import type { LessonAnswers, LessonAsk } from "../../worker/lessons";
@@ -6,7 +6,7 @@ import { latest } from "../state/latest";
 import { type Ask, asker, sceneFailed } from "./engine";
 import { lessonState } from "./state";
 
-/** Asks for as long as the scene is shown. */
+/** Returns a function that asks the engine while the scene is shown. */
 export function useAsk(): Ask {
   const [ask, controller] = useMemo(() => {
     const own = new AbortController();
@@ -17,15 +17,15 @@ export function useAsk(): Ask {
 }
 
 export interface Asked<T> {
-  /** Of the question, or of the last one that was answered: so that a picture moves along. */
+  /** Answer to the question, or to the last answered one, so that the picture keeps moving. */
   answer: T | null;
-  /** Whether the answer is that of the present question. */
+  /** Whether the answer is to the present question. */
   current: boolean;
 }
 
 /**
- * The answer to one question. `of` is what it depends on besides: an opened lesson, say. Nothing is asked
- * while the question is null.
+ * Returns the answer to one question. `of` is what else it depends on, such as an opened lesson. Nothing is sent while
+ * the question is null.
  */
 export function useAsked<K extends LessonAsk["ask"]>(
   ask: Ask,
@@ -56,10 +56,10 @@ export function useAsked<K extends LessonAsk["ask"]>(
   };
 }
 
-/** Says to the document whether the scene has what it shows. */
+/** Sets the state of the document: whether the scene is complete. */
 export function useDone(done: boolean): void {
   useEffect(() => {
-    // What went wrong is said until something is right again.
+    // An error stays until the next answer.
     if (done || lessonState.peek() !== "error") lessonState.value = done ? "done" : "loading";
   }, [done]);
   useEffect(

@@ -1,6 +1,6 @@
 /**
- * What moves by itself until it is touched: a point, a camera. While it moves it is nobody’s choice and
- * not in the link; where it is stopped, it is.
+ * Moves values automatically (a point, the view) until the visitor stops or drags them. While they move they are not
+ * in the link; when they are stopped they are.
  */
 import { type ReadonlySignal, useSignal } from "@preact/signals";
 import { useLayoutEffect, useRef } from "preact/hooks";
@@ -10,14 +10,14 @@ import { bounded } from "./params";
 type List = readonly number[];
 
 interface AutoplayOptions {
-  /** As in the link. */
+  /** Values of the link. */
   chosen: List;
-  /** What a link leaves out: then it moves. */
+  /** Default values, which a link leaves out: with these it moves. */
   standard: List;
-  /** Where it is some seconds after it was at `start`. */
+  /** Values some seconds after `start`. */
   path: (start: List, seconds: number) => number[];
   write: (values: number[]) => void;
-  /** Bounds and digits of the link. */
+  /** Bounds and digits of the values in a link. */
   limits: { least: number; most: number; digits: number };
 }
 
@@ -25,7 +25,7 @@ export interface Autoplay {
   now: List;
   playing: ReadonlySignal<boolean>;
   toggle: () => void;
-  /** Takes it there, and stops it. */
+  /** Sets the values and stops the motion. */
   hold: (values: List) => void;
 }
 
@@ -40,10 +40,10 @@ export function useAutoplay({ chosen, standard, path, write, limits }: AutoplayO
     now.value = values;
     from.current = { start: values, seconds: 0 };
   };
-  // At once: whoever takes hold of something right after a step of Back holds what is there then.
+  // In a layout effect: a drag right after a step of Back starts from the new values.
   useLayoutEffect(() => {
     if (text === known.current) return;
-    // A link, a step of Back.
+    // A link or a step of Back changed the values.
     known.current = text;
     take(chosen);
     playing.value = moves(chosen);

@@ -1,4 +1,4 @@
-/** Lessons ask the engine: one question at a time for each scene, of the lesson that the scene opened. */
+/** Sends questions of the lessons to the engine, one at a time for each scene. */
 import { wasAborted } from "../../worker/engine-errors";
 import type { LessonAnswers, LessonAsk } from "../../worker/lessons";
 import { engineClient, onEngineRestart, report } from "../state/engine";
@@ -8,20 +8,20 @@ export type Ask = <K extends LessonAsk["ask"]>(
   question: Extract<LessonAsk, { ask: K }>,
 ) => Promise<LessonAnswers[K]>;
 
-/** How a scene asks, until `signal` says that it is over. */
+/** Returns a function with which a scene asks until `signal` aborts. */
 export function asker(signal: AbortSignal): Ask {
   const client = engineClient();
   return (question) => client.lesson(signal, question);
 }
 
-/** What goes wrong in a scene is said; that it was left is nothing wrong. */
+/** Shows an error of a scene; leaving a scene is no error. */
 export function sceneFailed(thrown: unknown): void {
   if (wasAborted(thrown)) return;
   lessonState.value = "error";
   report("page", thrown);
 }
 
-// A new engine knows nothing of the lesson: scenes begin anew.
+// A restarted engine has no open lesson: the scene starts again.
 onEngineRestart(() => {
   resets.value += 1;
 });

@@ -1,4 +1,4 @@
-/** Whether a hand is on something: a point, a slider. */
+/** Tracks whether a pointer is pressed, as on a point or a slider. */
 import { useEffect } from "preact/hooks";
 import { hold } from "./state";
 
@@ -12,7 +12,7 @@ export function useHands(): void {
     addEventListener("pointerdown", take, { capture: true, signal });
     addEventListener("pointerup", free, { capture: true, signal });
     addEventListener("pointercancel", free, { capture: true, signal });
-    // Of the window alone: what is inside loses the focus when a hand is put on something else.
+    // Only for the window: elements inside also lose the focus when another one is pressed.
     addEventListener("blur", free, { signal });
     return () => {
       ends.abort();

@@ -1,16 +1,16 @@
-/** Keys of whoever presents: a remote control sends Page Up and Page Down. */
+/** Keys for presenting lessons; a remote control sends Page Up and Page Down. */
 import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { neighbours } from "./parts/SceneList";
 import { goTo, large, resetScene, scene, settle } from "./state";
 
-/** What the present scene does on the keys for running and for a single step. */
+/** Actions of the present scene for the keys Space and S. */
 export const runKey = signal<(() => void) | null>(null);
 export const stepKey = signal<(() => void) | null>(null);
 
 export const PRESENTER_KEYS: readonly (readonly [string, string])[] = [
   ["→  Page Down", "next scene"],
-  ["←  Page Up", "scene before"],
+  ["←  Page Up", "previous scene"],
   ["Space", "run or pause"],
   ["S", "one step"],
   ["R", "reset the scene"],
@@ -25,7 +25,7 @@ export function useKeys(): void {
   }, []);
 }
 
-/** Within these, keys have a meaning of their own, and within the former so have letters. */
+/** Elements in which letters, or arrow keys and Space, have their own meaning. */
 const TYPED = "input[type=text], select, textarea, dialog";
 const OWN = "input, button, summary, [role=application], [role=slider]";
 
@@ -72,12 +72,12 @@ export function toggleLarge(): void {
 }
 
 export function toggleFullScreen(): void {
-  // Refused in frames that do not allow it: then nothing happens.
+  // A frame may not allow it: then nothing happens.
   if (document.fullscreenElement) void document.exitFullscreen().catch(() => undefined);
   else void document.documentElement.requestFullscreen?.().catch(() => undefined);
 }
 
-/** What the keys for running and stepping do while a scene is shown. */
+/** Sets the actions for the keys Space and S while a scene is shown. */
 export function useSceneKeys(run: (() => void) | null, step: (() => void) | null): void {
   useEffect(() => {
     runKey.value = run;

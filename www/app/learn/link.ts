@@ -1,11 +1,11 @@
-/** A scene and its state as a part of the link: `page=learn&scene=step&seed=7&steps=120`. Pure. */
+/** Writes and reads the part of a link that holds a scene: `page=learn&scene=step&seed=7&steps=120`. Pure. */
 import { readValues, type Schema, standardValues, writeValues } from "./params";
 import { SCENE_PARAMS, SCENES, type SceneName, type SceneValues } from "./scenes";
 
 export interface LessonState {
   scene: SceneName;
   values: SceneValues<SceneName>;
-  /** Whether letters are as large as a lecture hall needs them. */
+  /** Whether letters are large, for a lecture hall. */
   large: boolean;
 }
 

@@ -1,6 +1,6 @@
 /**
- * What can be chosen in a scene, and how a link holds it: one value a key, left out while it is the default.
- * Unreadable values are the default, numbers out of bounds the nearest bound. Pure.
+ * Schema of the parameters of a scene, and their text in a link: one key for each, left out if it is the default. An
+ * unreadable value is the default, a number out of bounds the nearest bound. Pure.
  */
 import { parseSeed } from "../state/settings";
 
@@ -107,7 +107,7 @@ function read(param: Param, text: string): Param["standard"] {
   }
 }
 
-/** Within bounds, and with as many digits as a link has: what is seen is what a link opens again. */
+/** Clamps a number to its bounds and rounds it to the digits of a link, so that an opened link is the same. */
 export function bounded(
   { least, most, digits }: Pick<NumberParam, "least" | "most" | "digits">,
   value: number,
@@ -115,7 +115,7 @@ export function bounded(
   return Number(Math.min(most, Math.max(least, value)).toFixed(digits)) + 0;
 }
 
-/** What differs from the default, as keys and values of a link. */
+/** Keys and values of a link for parameters that differ from their defaults. */
 export function writeValues<S extends Schema>(schema: S, values: Values<S>): [string, string][] {
   return Object.entries(schema).flatMap(([key, param]): [string, string][] => {
     const text = written(values[key as keyof S]);
@@ -123,7 +123,7 @@ export function writeValues<S extends Schema>(schema: S, values: Values<S>): [st
   });
 }
 
-/** A value as a link has it. */
+/** Text of a value in a link. */
 export function written(value: Param["standard"]): string {
   if (typeof value === "boolean") return value ? "yes" : "no";
   return Array.isArray(value) ? value.join(",") : String(value);

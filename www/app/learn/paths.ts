@@ -1,19 +1,19 @@
-/** Ways along which things move by themselves. Pure. */
+/** Paths of automatic motion: sine oscillations and Lissajous curves. Pure. */
 
 interface Swing {
-  /** How far it goes. */
+  /** Amplitude. */
   reach: number;
-  /** Radians a second. */
+  /** Radians per second. */
   speed: number;
 }
 
-/** Where a swing that is at `start` now is after some seconds. */
+/** Value of an oscillation some seconds after `start`. */
 export function swung(start: number, { reach, speed }: Swing, seconds: number): number {
   const far = Math.max(reach, Math.abs(start), 1e-9);
   return far * Math.sin(Math.asin(start / far) + speed * seconds);
 }
 
-/** A Lissajous curve through `start`; what has no swing stays. */
+/** Point of a Lissajous curve through `start`; coordinates without an oscillation stay. */
 export function lissajous(
   start: readonly number[],
   swings: readonly Swing[],
@@ -25,7 +25,7 @@ export function lissajous(
   });
 }
 
-/** A list of as many numbers as asked for, with zeros for what is missing. */
+/** The first `count` numbers of a list, filled up with zeros. */
 export function padded(values: readonly number[], length: number): number[] {
   return Array.from({ length }, (_, i) => values[i] ?? 0);
 }

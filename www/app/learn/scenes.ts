@@ -1,4 +1,4 @@
-/** The scenes of the lessons, in their order, and what can be chosen in each. */
+/** The scenes of the lessons, in their order, with the schema of their parameters. */
 import { choice, count, flag, list, number, type Schema, seed, type Values } from "./params";
 
 export const STAR_PAIRS = [
@@ -17,7 +17,7 @@ export const BREAKS = ["none", "scaling", "one-chain", "sigma", "misaligned"] as
 
 const coefficients = (standard: readonly number[]) => list(standard, -6, 6);
 
-/** Keys and defaults; the command line has the same (`shapevenn lesson`). */
+/** Parameters of the scenes with their defaults; `shapevenn lesson` has the same. */
 export const SCENE_PARAMS = {
   model: {
     pair: choice("stars-5", STAR_PAIRS),
@@ -47,7 +47,7 @@ export const SCENE_PARAMS = {
     chains: count(1, 1, 16),
     seed: seed(),
     steps: count(0, 0, 20_000),
-    /** Steps a second: how it is told, not what. */
+    /** Steps per second: changes the animation, not the result. */
     speed: number(0.8, 0.5, 1000, 2),
   },
   cloud: {
@@ -84,12 +84,12 @@ export type SceneValues<N extends SceneName> = Values<(typeof SCENE_PARAMS)[N]>;
 
 export interface SceneTitle {
   name: SceneName;
-  /** In the list of scenes. */
+  /** Title in the list of scenes. */
   short: string;
   title: string;
 }
 
-/** In the order in which they are told; the teacher’s page comes after them. */
+/** The scenes in their order; the page for teachers follows them. */
 export const SCENES: readonly SceneTitle[] = [
   { name: "model", short: "One model", title: "What a shape model is" },
   { name: "agree", short: "Two models", title: "Two models: where do they agree?" },

@@ -1,7 +1,7 @@
-/** Shapes of a model, formed for the picture: a sum of what the engine handed out. Pure. */
+/** Computes shapes of a small model from its mean and modes, for drawing. Pure. */
 import type { LessonModel } from "../../worker/lessons";
 
-/** mean + Σ coefficient · (scaled) mode. */
+/** Shape for coefficients: mean + Σ coefficient · (scaled) mode. */
 export function shapeAt({ mean, basis }: LessonModel, coefficients: readonly number[]): number[] {
   const shape = [...mean];
   coefficients.forEach((coefficient, mode) => {
@@ -13,7 +13,7 @@ export function shapeAt({ mean, basis }: LessonModel, coefficients: readonly num
   return shape;
 }
 
-/** One (scaled) mode: how far it takes each coordinate. */
+/** One (scaled) mode: displacement of each coordinate. */
 export function modeOf({ mean, basis }: LessonModel, mode: number): number[] {
   return basis.slice(mode * mean.length, (mode + 1) * mean.length);
 }
@@ -22,15 +22,15 @@ export function modeCount({ standardDeviations }: LessonModel): number {
   return standardDeviations.length;
 }
 
-/** The vertices of a star that are its tips, the top one first, then against the clock. */
+/** Indices of the tips of a star, the top one first, then anticlockwise. */
 export const TIPS = [0, 2, 4, 6, 8] as const;
 
-/** Where a point of a flat shape is. */
+/** Coordinates of a point of a 2-D shape. */
 export function pointOf(shape: ArrayLike<number>, point: number): [number, number] {
   return [shape[2 * point] ?? 0, shape[2 * point + 1] ?? 0];
 }
 
-/** By how many degrees, against the clock, a tip has turned about the centre. */
+/** Rotation of a tip about the centre in degrees, anticlockwise. */
 export function turnOf(mean: ArrayLike<number>, shape: ArrayLike<number>, point: number): number {
   const [x, y] = pointOf(mean, point);
   const [u, v] = pointOf(shape, point);

@@ -1,6 +1,6 @@
-/** A star as somebody would draw it, for pictures that no model is asked for. Pure. */
+/** Outline of a star for illustrations, without a model. Pure. */
 
-/** xyxy…, the top tip first, then against the clock; `turned` says by how many degrees each tip is. */
+/** Points xyxy… of a star, the top tip first, then anticlockwise; each tip is rotated by `turned` degrees. */
 export function starOf(turned: readonly number[]): number[] {
   return Array.from({ length: 10 }, (_, point) => {
     const tip = point % 2 === 0;
@@ -11,7 +11,7 @@ export function starOf(turned: readonly number[]): number[] {
   }).flat();
 }
 
-/** The same as a path of SVG, where down is up. */
+/** The same as an SVG path, whose y axis points down. */
 export function pathOf(shape: readonly number[]): string {
   const points: string[] = [];
   for (let at = 0; at < shape.length; at += 2) {

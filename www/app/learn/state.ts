@@ -1,4 +1,4 @@
-/** Which scene is on, and what is chosen in each. */
+/** State of the lessons: the shown scene and the parameters of each scene. */
 import { batch, type ReadonlySignal, type Signal, signal } from "@preact/signals";
 import type { LessonState } from "./link";
 import { defaultLesson } from "./link";
@@ -7,35 +7,35 @@ import { SCENE_PARAMS, type SceneName, type SceneValues } from "./scenes";
 
 const first = defaultLesson();
 
-/** As `document.documentElement.dataset.state`: whether the scene has what it shows. */
+/** State of the scene, as in `document.documentElement.dataset.state`. */
 export const lessonState = signal<"loading" | "done" | "error">("loading");
 export const scene = signal<SceneName>(first.scene);
-/** Letters as large as a lecture hall needs them. */
+/** Whether letters are large, for a lecture hall. */
 export const large = signal(false);
 
 type Live = { [N in SceneName]: Signal<SceneValues<N>> };
 
-/** What is chosen in each scene, under the hand of whoever moves it. */
+/** Parameters of each scene as they are shown, changed with every movement. */
 const live = Object.fromEntries(
   Object.entries(SCENE_PARAMS).map(([name, schema]) => [name, signal(standardValues(schema))]),
 ) as unknown as Live;
 
-/** As it is in the link, and a step that Back undoes: once nothing moves any more. */
+/** Parameters that are in the link and a step of undo: written when a movement ends. */
 const settled = signal<LessonState>(first);
 export const settledLesson: ReadonlySignal<LessonState> = settled;
 
 const SETTLE_MS = 400;
 let timer: ReturnType<typeof setTimeout> | undefined;
-/** Something was changed and not written down yet. */
+/** Whether there are changes that are not written yet. */
 let pending = false;
 let held = false;
 
-/** What is chosen in a scene. */
+/** The parameters of a scene. */
 export function params<N extends SceneName>(name: N): ReadonlySignal<SceneValues<N>> {
   return live[name] as unknown as ReadonlySignal<SceneValues<N>>;
 }
 
-/** Changes some of it; while it goes on changing nothing is written down. */
+/** Changes parameters; they are written to the link after the last change. */
 export function setParams<N extends SceneName>(name: N, part: Partial<SceneValues<N>>): void {
   const values = live[name] as unknown as Signal<SceneValues<N>>;
   values.value = { ...values.peek(), ...part };
@@ -43,7 +43,7 @@ export function setParams<N extends SceneName>(name: N, part: Partial<SceneValue
   wait();
 }
 
-/** While something is held nothing is written down: a drag is one step of Back, however slow. */
+/** Waits until no pointer is pressed: a drag is one step of undo, however slow. */
 export function hold(now: boolean): void {
   held = now;
   if (pending) wait();
@@ -54,7 +54,7 @@ function wait(): void {
   if (!held) timer = setTimeout(settle, SETTLE_MS);
 }
 
-/** Writes down what is chosen now. */
+/** Writes the present parameters to the link. */
 export function settle(): void {
   clearTimeout(timer);
   pending = false;
@@ -72,7 +72,7 @@ export function goTo(name: SceneName): void {
   });
 }
 
-/** The scene as it is at first. */
+/** Resets the scene to its defaults. */
 export function resetScene(): void {
   const name = scene.peek();
   batch(() => {
@@ -82,10 +82,10 @@ export function resetScene(): void {
   });
 }
 
-/** Scenes begin anew when this goes up, though nothing that is chosen may have changed. */
+/** Counter that restarts the scenes when it increases, even without a change of parameters. */
 export const resets = signal(0);
 
-/** As a link or a step of Back has it. */
+/** Sets scene and parameters from a link or a step of Back. */
 export function applyLesson(lesson: LessonState): void {
   clearTimeout(timer);
   pending = false;

@@ -15,36 +15,36 @@ export interface Pointer {
 export type Draw = (pen: CanvasRenderingContext2D, size: Size, palette: Palette) => void;
 
 interface Props {
-  /** What is drawn, for those who do not see it. */
+  /** Description of the picture for screen readers. */
   label: string;
   /** Height over width. */
   aspect: number;
-  /** Draws everything anew, in pixels of the page; called whenever the board is rendered. */
+  /** Draws everything, in CSS pixels; called whenever the component is rendered. */
   draw: Draw;
   /**
-   * Where something is dragged; false lets the page scroll instead. What is held `sideways` leaves it to
-   * fingers to scroll up and down.
+   * Called when a drag begins; false lets the page scroll instead. With `sideways`, vertical movements of a finger
+   * still scroll the page.
    */
   onGrab?: (at: Pointer) => boolean | "sideways";
   onDrag?: (at: Pointer) => void;
   onDrop?: () => void;
-  /** Returns whether the key was meant. */
+  /** Handles a key; returns whether it did. */
   onKey?: (key: string, event: KeyboardEvent) => boolean;
-  /** The id of what says how it is handled. */
+  /** Id of the element that explains its keys. */
   help?: string;
   children?: ComponentChildren;
 }
 
-/** Pixels after which a finger is sure to go sideways. */
+/** Pixels after which a horizontal drag of a finger is recognised. */
 const SURE = 8;
 
-/** A picture of a lesson, on Canvas2D, sharp on every screen and in the colours of the page. */
+/** Canvas of a lesson: handles resolution, theme, dragging and keys; a function draws on it. */
 export function LessonCanvas(props: Props) {
   const canvas = useRef<HTMLCanvasElement>(null);
   const latest = useRef(props);
   latest.current = props;
   const held = useRef<boolean | "sideways">(false);
-  /** Where a finger that may yet scroll came down. */
+  /** Start of a touch that may still become a scroll. */
   const undecided = useRef<Pointer | null>(null);
   const { label, aspect, onGrab, onKey, help } = props;
   const dark = isDark();
@@ -54,8 +54,8 @@ export function LessonCanvas(props: Props) {
     if (!element) return;
     const observer = new ResizeObserver(() => paint(element, latest.current.draw));
     observer.observe(element);
-    // A finger that holds something moves it; any other one scrolls the page. Browsers decide that by
-    // `touchstart`, which follows `pointerdown` and which Preact would listen to passively.
+    // A touch on something draggable drags it, any other one scrolls the page. Browsers decide this at `touchstart`,
+    // which follows `pointerdown` and which Preact would listen to passively.
     const hold = (event: TouchEvent) => {
       if (held.current === true) event.preventDefault();
     };
@@ -77,7 +77,7 @@ export function LessonCanvas(props: Props) {
       held.current === "sideways" && event.pointerType === "touch" ? at(event) : null;
     (event.currentTarget as HTMLElement).setPointerCapture(event.pointerId);
     event.preventDefault();
-    // For the arrow keys: who has fingers only needs no ring around it.
+    // Focus for the arrow keys; not for touch, which needs no focus ring.
     if (event.pointerType !== "touch") {
       (event.currentTarget as HTMLElement).focus({ preventScroll: true });
     }
@@ -93,7 +93,7 @@ export function LessonCanvas(props: Props) {
   };
   const up = (event: PointerEvent) => {
     if (!held.current) return;
-    // A browser in a hurry tells where it was let go, and not how it came there.
+    // A fast drag may have no move event before the release.
     if (event.type === "pointerup") move(event);
     held.current = false;
     latest.current.onDrop?.();
@@ -102,7 +102,7 @@ export function LessonCanvas(props: Props) {
     <div class="board" style={{ aspectRatio: String(1 / aspect) }} data-dark={dark}>
       <canvas
         ref={canvas}
-        // Arrow keys are ours where something can be moved.
+        // Arrow keys move something instead of scrolling.
         role={onKey ? "application" : "img"}
         tabIndex={onKey ? 0 : -1}
         aria-label={label}

@@ -1,13 +1,13 @@
-/** Chains on a plane of two coefficients: their colours, where they were, what surrounds them. */
+/** Draws chains in the plane of two coefficients: colours, recent states, circles of the prior. */
 import type { Trail } from "../sampling/trail";
 import { faded, type Palette } from "./palette";
 import type { Plane } from "./plane";
 
 const COLOURS = 8;
-/** By theme; looked up once, as in the palette. */
+/** Colours by theme, looked up once. */
 const known = new Map<string, readonly string[]>();
 
-/** Chain after chain, over again after the eighth. */
+/** Colours of the chains; they repeat after the eighth. */
 export function chainColour(chain: number): string {
   const theme = document.documentElement.dataset.theme ?? "";
   const colours = known.get(theme) ?? coloursNow();
@@ -67,7 +67,7 @@ export function drawPrior(
   pen.textBaseline = "middle";
   pen.lineWidth = 4;
   pen.strokeStyle = palette.stage;
-  // Where the dashed circles meet the diagonal: no axis is there.
+  // On the diagonal of the dashed circles, away from the axes.
   for (const radius of [2, 3]) {
     const [x, y] = [plane.x(radius * Math.SQRT1_2), plane.y(-radius * Math.SQRT1_2)];
     pen.strokeText(`${radius} SD`, x, y);
@@ -76,7 +76,7 @@ export function drawPrior(
   pen.textBaseline = "alphabetic";
 }
 
-/** The last `most` places of one chain as a line that fades, without the `hidden` latest of them. */
+/** Draws the last `most` states of one chain as a fading line, without the `hidden` latest ones. */
 export function drawTrail(
   pen: CanvasRenderingContext2D,
   plane: Plane,
@@ -102,7 +102,7 @@ export function drawTrail(
   pen.globalAlpha = 1;
 }
 
-/** A dot that is seen on every ground. */
+/** Draws a dot that is visible on every background. */
 export function drawDot(
   pen: CanvasRenderingContext2D,
   x: number,
@@ -120,7 +120,7 @@ export function drawDot(
   pen.stroke();
 }
 
-/** A tick or a cross in a disc: told apart by shape, not by colour alone. */
+/** Draws a tick or a cross in a disc, which differ in shape, not only in colour. */
 export function drawOutcome(
   pen: CanvasRenderingContext2D,
   x: number,

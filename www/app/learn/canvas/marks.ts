@@ -1,9 +1,9 @@
-/** Small things on a board: arrows, words, a point to hold. */
+/** Draws arrows, labels and draggable points on a canvas. */
 import type { Palette } from "./palette";
 
 type Spot = readonly [number, number];
 
-/** An arrow, unless it is too short to be one. */
+/** Draws an arrow, unless it is too short. */
 export function arrow(
   pen: CanvasRenderingContext2D,
   [x0, y0]: Spot,
@@ -39,7 +39,7 @@ interface Words {
   italic?: boolean;
 }
 
-/** Words that stay readable whatever lies behind them. */
+/** Draws a text that is readable on every background. */
 export function write(
   pen: CanvasRenderingContext2D,
   palette: Palette,
@@ -61,10 +61,10 @@ export function write(
   pen.restore();
 }
 
-/** How near a pointer must be to something to take hold of it, in pixels. */
+/** Distance in pixels within which a pointer can drag a point. */
 export const REACH = 28;
 
-/** A point that can be held. */
+/** Draws a draggable point. */
 export function handle(
   pen: CanvasRenderingContext2D,
   palette: Palette,

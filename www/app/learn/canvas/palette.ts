@@ -12,10 +12,10 @@ export interface Palette {
   good: string;
   bad: string;
   warn: string;
-  /** Of the first and the second mode, or coefficient. */
+  /** Colours of the first and the second mode or coefficient. */
   first: string;
   second: string;
-  /** Family and pixels of small letters. */
+  /** Font family and size in pixels. */
   font: string;
   text: number;
 }
@@ -39,10 +39,10 @@ const NAMES = [
 
 type Colours = Omit<Palette, "font" | "text">;
 
-/** Kept, since a frame has no time to ask for styles again and again. */
+/** Cached: computing styles in every frame is too slow. */
 const known = new Map<string, Colours>();
 
-/** As the element has them: a theme, or larger letters, may be on above it. */
+/** The colours and font of an element, which depend on the theme and the size of letters. */
 export function paletteOf(element: HTMLElement): Palette {
   const theme = document.documentElement.dataset.theme ?? "";
   const colours = known.get(theme) ?? coloursNow();
@@ -52,7 +52,7 @@ export function paletteOf(element: HTMLElement): Palette {
 }
 
 function coloursNow(): Colours {
-  // Custom properties are not resolved to colours: a colour of an element is.
+  // Browsers resolve the `color` of an element, but not custom properties.
   const probe = document.createElement("i");
   probe.hidden = true;
   document.body.append(probe);
@@ -65,7 +65,7 @@ function coloursNow(): Colours {
   return found as unknown as Colours;
 }
 
-/** A colour of the palette, let through. */
+/** A colour of the palette with an opacity. */
 export function faded(colour: string, opacity: number): string {
   return `color-mix(in srgb, ${colour} ${Math.round(100 * opacity)}%, transparent)`;
 }

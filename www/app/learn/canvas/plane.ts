@@ -1,18 +1,18 @@
-/** A plane of two numbers on a canvas: where things are, ellipses, clouds, fields, shapes. */
+/** Maps the plane of two coefficients to a canvas and draws ellipses, point clouds, densities and shapes in it. */
 import type { LessonField, LessonLaw } from "../../../worker/lessons";
 import { viridis } from "../../text/colormap";
 import type { Size } from "./LessonCanvas";
 
-/** From numbers to pixels and back; up is up. */
+/** Mapping from coordinates to pixels and back; y points up. */
 export interface Plane {
   x: (value: number) => number;
   y: (value: number) => number;
-  /** Pixels of one unit. */
+  /** Pixels per unit. */
   scale: number;
   back: (x: number, y: number) => [number, number];
 }
 
-/** As much as fits of −extent … extent in both directions, around a centre. */
+/** The plane with at least −extent … extent in both directions around a centre. */
 export function planeOf(
   size: Size,
   extent: number,
@@ -28,7 +28,7 @@ export function planeOf(
   };
 }
 
-/** The closed line, or the lines, of a flat shape: xyxy… */
+/** Traces the outline or the segments of a 2-D shape: xyxy… */
 export function traceShape(
   pen: CanvasRenderingContext2D,
   plane: Plane,
@@ -42,7 +42,7 @@ export function traceShape(
   }
 }
 
-/** A closed outline through all points, which can be filled too: xyxy… */
+/** Traces a closed outline through all points, which can be filled: xyxy… */
 export function traceOutline(
   pen: CanvasRenderingContext2D,
   plane: Plane,
@@ -55,7 +55,7 @@ export function traceOutline(
   pen.closePath();
 }
 
-/** The curve of `radius` standard deviations of a Gaussian, in two of its coefficients. */
+/** Traces the ellipse of `radius` standard deviations of a Gaussian in two of its coefficients. */
 export function traceGaussian(
   pen: CanvasRenderingContext2D,
   plane: Plane,
@@ -82,7 +82,7 @@ export function traceGaussian(
   pen.closePath();
 }
 
-/** Points of a cloud, two of their coefficients, as dots. */
+/** Draws two coefficients of draws as dots. */
 export function dots(
   pen: CanvasRenderingContext2D,
   plane: Plane,
@@ -101,7 +101,7 @@ export function dots(
   pen.fill();
 }
 
-/** A shape filled and drawn over its mean, which is dashed. */
+/** Draws a shape, filled, over the dashed mean. */
 export function drawOverMean(
   pen: CanvasRenderingContext2D,
   plane: Plane,
@@ -123,12 +123,12 @@ export function drawOverMean(
   pen.stroke();
 }
 
-/** How far below its maximum a density is still coloured, in units of log. */
+/** Difference of the log density from its maximum up to which it is coloured. */
 const DEPTH = 8;
 
 /**
- * A picture of log densities, size × size, to be drawn over the square −extent … extent: viridis, and
- * clear where the density is next to nothing.
+ * Image of a log density, size × size, for the square −extent … extent: viridis, transparent where the density is
+ * negligible.
  */
 export function fieldImage({ values, highest }: LessonField): HTMLCanvasElement {
   const size = Math.round(Math.sqrt(values.length));

@@ -1,7 +1,7 @@
-/** A density as one colour, the more of it the higher: for pictures in which the colour says whose it is. */
+/** Draws a density in one colour with increasing opacity, where the colour tells the model. */
 import type { LessonField } from "../../../worker/lessons";
 
-/** Log densities as a picture, size × size, the top row first. */
+/** Image of a log density, size × size, the top row first. */
 export function tintedField(
   { values, highest }: LessonField,
   colour: string,
@@ -10,7 +10,7 @@ export function tintedField(
   return tinted(values, colour, (value) => strength * Math.exp(value - highest));
 }
 
-/** Any field as a picture of one colour; `share` says how much of it a value has, 0 … 1. */
+/** Image of any field in one colour; `share` maps a value to an opacity, 0 … 1. */
 function tinted(
   values: Float32Array,
   colour: string,
@@ -26,7 +26,7 @@ function tinted(
     image.data[4 * i + 3] = Math.round(255 * share(value));
   });
   pen.putImageData(image, 0, 0);
-  // The colour is any that CSS knows: only the canvas can tell what it is in numbers.
+  // The canvas converts any CSS colour to numbers.
   pen.globalCompositeOperation = "source-in";
   pen.fillStyle = colour;
   pen.fillRect(0, 0, size, size);

@@ -4,7 +4,7 @@ import { standardValues } from "../params";
 import { SCENE_PARAMS, SCENES, type SceneName, type SceneTitle, titleOf } from "../scenes";
 import { goTo, large, scene } from "../state";
 
-/** A link that goes to a scene, here or in a window of its own. */
+/** Link to a scene. */
 function SceneLink({
   name,
   class: kind,
@@ -68,11 +68,11 @@ export function SceneList({
   );
 }
 
-/** To the scene before and the scene after. */
+/** Links to the previous and the next scene. */
 export function StepAlong() {
   const { before, after } = neighbours(scene.value);
   return (
-    <nav class="scene-along" aria-label="Before and after">
+    <nav class="scene-along" aria-label="Previous and next scene">
       {before && <SceneLink name={before}>← {titleOf(before).short}</SceneLink>}
       {after && (
         <SceneLink name={after} class="scene-next">

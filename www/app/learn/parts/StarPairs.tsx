@@ -8,7 +8,7 @@ interface Props {
   onChoose: (pair: StarPair) => void;
 }
 
-/** Which of the paper’s pairs of stars. */
+/** Chooses one of the paper’s pairs of stars. */
 export function StarPairs({ label, value, onChoose }: Props) {
   return (
     <label>

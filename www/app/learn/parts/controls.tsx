@@ -1,4 +1,4 @@
-/** What can be set in a scene, with the number beside it. */
+/** Controls of the scenes: sliders, numbers of the engine, buttons to run, step and reset. */
 import type { ComponentChildren } from "preact";
 import { number as shown } from "../../text/format";
 
@@ -8,13 +8,13 @@ interface SliderProps {
   least: number;
   most: number;
   step: number;
-  /** Slides over the logarithm: σ, counts. */
+  /** Whether the scale is logarithmic: σ, counts. */
   logarithmic?: boolean;
   show?: (value: number) => string;
   onChange: (value: number) => void;
 }
 
-/** A native range input; where it is logarithmic, a step is a factor. */
+/** Slider with its value; on a logarithmic scale a step is a factor. */
 export function Slider(props: SliderProps) {
   const { label, value, least, most, step, logarithmic = false, onChange } = props;
   const show = props.show ?? shown;
@@ -39,15 +39,15 @@ export function Slider(props: SliderProps) {
 
 interface NumberProps {
   label: string;
-  /** Path of what the engine answered, as the command line prints it. */
+  /** Path of the number in the output of `shapevenn lesson`. */
   metric: string;
   value: number | null | undefined;
   show?: (value: number) => string;
-  /** What it means, in a few words. */
+  /** Short explanation. */
   note?: ComponentChildren;
 }
 
-/** A number of the engine’s, rounded on the page, whole in `data-value`. */
+/** A number from the engine, rounded on the page, unrounded in `data-value`. */
 export function LessonNumber({ label, metric, value, show = shown, note }: NumberProps) {
   const known = value != null && Number.isFinite(value);
   return (
@@ -77,7 +77,7 @@ interface PlayProps {
   children?: ComponentChildren;
 }
 
-/** Run or pause, one step, from the start. */
+/** Buttons to run or pause, to make one step, and to reset. */
 export function PlayBar({ playing, onToggle, onStep, onReset, children }: PlayProps) {
   return (
     <div class="play-bar">

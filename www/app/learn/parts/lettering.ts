@@ -1,6 +1,6 @@
 import { large } from "../state";
 
-/** Room for letters in a plot, in pixels: more of it where letters are large. */
+/** Space for text in a plot, in pixels: more if letters are large. */
 export function letterSpace(pixels: number): number {
   return Math.round(pixels * (large.value ? 1.5 : 1));
 }

@@ -1,4 +1,4 @@
-/** What the scenes that sample let one choose, each with its value beside it. */
+/** Controls of the scenes with samplers: models, σ, sampler, chains, draws, seed. */
 
 import { parseSeed } from "../../state/settings";
 import { count } from "../../text/format";
@@ -9,7 +9,7 @@ import { PAIR_NAMES, SAMPLER_NAMES } from "./names";
 type Pair = (typeof PAIRS)[number];
 
 const PLANE_SIGMA = 0.3;
-/** As few draws or steps as a scene shows. */
+/** Least number of draws or steps of a scene. */
 const LEAST_COUNT = 16;
 
 interface SelectProps<T extends string> {
@@ -49,12 +49,12 @@ export function PairChoice<T extends string>(props: Common<T>) {
 
 interface AnyPairProps {
   value: Pair;
-  /** What may differ by so much is called near, where the pair is stars; scenes look at them differently. */
+  /** σ of the scene for pairs of stars. */
   starSigma: number;
   onChange: (chosen: { pair: Pair; sigma: number }) => void;
 }
 
-/** Stars or planes, each with the σ at which there is something to see. */
+/** Chooses a pair of stars or the planes, each with a suitable σ. */
 export function AnyPairChoice({ value, starSigma, onChange }: AnyPairProps) {
   return (
     <PairChoice
@@ -75,7 +75,7 @@ export function SideChoice(props: { value: "a" | "b"; onChange: (value: "a" | "b
   return <Select label="Shapes" options={["a", "b"]} names={SIDE_NAMES} {...props} />;
 }
 
-/** Draws or steps, over the logarithm. */
+/** Slider for a number of draws or steps on a logarithmic scale. */
 export function CountSlider({ onChange, ...rest }: NumberProps & { label: string; most: number }) {
   return (
     <Slider
@@ -106,7 +106,7 @@ export function ChainSlider({ most = 16, ...rest }: NumberProps & { most?: numbe
   return <Slider label="Chains" least={1} most={most} step={1} show={String} {...rest} />;
 }
 
-/** The seed of every random number, typed or taken anew. */
+/** Field for the seed of the random numbers, with a button for the next one. */
 export function SeedField({
   value,
   onChange,

@@ -1,12 +1,12 @@
-/** Axes over the logarithm, for plots of errors and of efficiency. Pure. */
+/** Logarithmic axes for plots of errors and of efficiency. Pure. */
 
-/** Where a value lies between two others on a logarithmic axis, 0 … 1; outside of them at an end. */
+/** Position of a value between two others on a logarithmic axis, clamped to 0 … 1. */
 export function logShare(value: number, low: number, high: number): number {
   if (!(value > low)) return 0;
   return Math.min(1, Math.log(value / low) / Math.log(high / low));
 }
 
-/** Powers of ten within a range; where there are fewer than three, also twice and five times those. */
+/** Ticks of a logarithmic axis: powers of ten, with twice and five times these if there are fewer than three. */
 export function logTicks(low: number, high: number): number[] {
   const decades = multiples(low, high, [1]);
   return decades.length >= 3 ? decades : multiples(low, high, [1, 2, 5]);
@@ -23,7 +23,7 @@ function multiples(low: number, high: number, factors: readonly number[]): numbe
   return found;
 }
 
-/** A range with some room around positive values, for a logarithmic axis. */
+/** Range of positive values with a margin, for a logarithmic axis. */
 export function logRange(values: readonly (number | null | undefined)[]): [number, number] {
   const usable = values.filter((v): v is number => v != null && Number.isFinite(v) && v > 0);
   if (usable.length === 0) return [0.01, 1];

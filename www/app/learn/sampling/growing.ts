@@ -1,4 +1,4 @@
-/** A run that grows before the eye, unless a link says how far it is: then it stands there. */
+/** Hook for a scene whose run is animated, unless its link has a number of draws: then it is computed at once. */
 import type { ReadonlySignal } from "@preact/signals";
 import { useRef } from "preact/hooks";
 import { still } from "../clock";
@@ -13,17 +13,17 @@ interface Run {
 }
 
 interface Growing {
-  /** What is sampled, and how: anything else begins anew. */
+  /** Key of the model and the settings; a change starts a new run. */
   of: string;
-  /** How far it goes, and how far when no link says so. */
+  /** Number of draws or steps, and its default. */
   far: number;
   standard: number;
   open: (ask: Ask, growing: boolean) => Promise<void>;
-  /** Puts how far it came into the link. */
+  /** Writes the number of draws or steps to the link. */
   write: (found: number) => void;
 }
 
-/** `again`: what is chosen next is shown growing too. */
+/** `again`: the next run is animated, too. */
 export function useGrowing(run: Run, growing: Growing): { again: () => void; toggle: () => void } {
   const { of, far, standard, open } = growing;
   const { revision, own } = useOwn(far);

@@ -1,4 +1,4 @@
-/** What things are called in the scenes that sample. */
+/** Names of samplers, proposals and models in the scenes. */
 import type { LessonSampler } from "../../../worker/lessons";
 
 export const SAMPLER_NAMES: Record<LessonSampler, string> = {
@@ -11,7 +11,7 @@ export const SAMPLER_NAMES: Record<LessonSampler, string> = {
   rejection: "Rejection",
 };
 
-/** The parts of the paper’s mixture of proposals: how often each is used, and what it does. */
+/** A component of the paper’s mixture of proposals: its weight and its proposal. */
 export interface MixturePart {
   share: number;
   /** Standard deviation of the step, in coefficients. */
@@ -28,13 +28,13 @@ export const MIXTURE: readonly MixturePart[] = [
     share: 0.2,
     deviation: 0.2,
     name: "scaling",
-    about: "α made longer or shorter, its direction kept",
+    about: "α is scaled, its direction is kept",
   },
 ];
-/** Which part of the mixture scales. */
+/** The component of the mixture that scales α. */
 export const SCALING = 3;
 
-/** Stars of the paper’s table 1 by what both models can make, and the planes. */
+/** The pairs of stars of the paper’s table 1, with the common range of the first tip, and the planes. */
 export const PAIR_NAMES: Record<string, string> = {
   planes: "Two planes",
   "stars-1": "Stars 1 (±5°)",

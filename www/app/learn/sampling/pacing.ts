@@ -1,13 +1,13 @@
-/** How fast steps are taken, and how a single one is told. Pure. */
+/** Speed of the animated samplers, and the phases of a single animated step. Pure. */
 
-/** Steps a second, from a walk that can be talked through to one that is only looked at. */
+/** Range of the speed, in steps per second. */
 export const SPEEDS = { least: 0.5, most: 1000, usual: 0.8 };
 
-/** Up to so many steps a second each is told part by part; beyond that only their outcome is shown. */
+/** Largest speed, in steps per second, at which each step is animated in phases. */
 const TOLD_UP_TO = 4;
 export const isTold = (perSecond: number) => perSecond <= TOLD_UP_TO;
 
-/** Milliseconds for one step, where somebody asks for a single one. */
+/** Milliseconds of a single step on request. */
 export const ONE_STEP_MS = 1250;
 
 export type Phase = "propose" | "compare" | "decide";
@@ -18,7 +18,7 @@ const PHASES: readonly (readonly [Phase, number])[] = [
   ["decide", 1],
 ];
 
-/** Where in the telling of a step `share` of its time is, and how far that phase is. */
+/** Phase of an animated step after a share of its time, and the share of that phase. */
 export function phaseAt(share: number): { phase: Phase; part: number } {
   let start = 0;
   for (const [phase, end] of PHASES) {
@@ -28,13 +28,13 @@ export function phaseAt(share: number): { phase: Phase; part: number } {
   return { phase: "decide", part: 1 };
 }
 
-/** Whether what `phase` shows is already said at `share` of a step’s time. */
+/** Whether a phase has begun after a share of the time of a step. */
 export function isSaid(phase: Phase, share: number): boolean {
   const order = PHASES.map(([name]) => name);
   return order.indexOf(phaseAt(share).phase) >= order.indexOf(phase);
 }
 
-/** Slow, fast, slow: how things move from one place to another. */
+/** Easing of a motion: slow, fast, slow. */
 export function eased(part: number): number {
   const t = Math.min(1, Math.max(0, part));
   return t * t * (3 - 2 * t);
@@ -42,11 +42,11 @@ export function eased(part: number): number {
 
 export interface Due {
   steps: number;
-  /** The part of a step that is not due yet. */
+  /** Fraction of the next step. */
   carry: number;
 }
 
-/** Whole steps that are due after a frame; what an engine cannot keep up with is dropped, not saved up. */
+/** Number of whole steps after a frame; steps for which the engine is too slow are dropped. */
 export function due(carry: number, elapsedMs: number, perSecond: number, most: number): Due {
   const wanted = carry + (elapsedMs * perSecond) / 1000;
   const steps = Math.min(most, Math.floor(wanted));
@@ -54,8 +54,8 @@ export function due(carry: number, elapsedMs: number, perSecond: number, most: n
 }
 
 /**
- * The counts at which a growing number of draws is looked at: about a third more each time, each a whole
- * number of draws of every chain, the last of them `last` rounded up to that.
+ * Numbers of draws at which a growing run is evaluated: about a third more each time, each a multiple of the number of
+ * chains, up to `last` rounded up.
  */
 export function stagesOf(last: number, chains: number, first = 16): number[] {
   const whole = (count: number) => Math.ceil(count / chains) * chains;
@@ -67,7 +67,7 @@ export function stagesOf(last: number, chains: number, first = 16): number[] {
   return [...found, end];
 }
 
-/** 20, 50, 100, 200 … below `draws`, and all of them: where d_G is looked at. */
+/** Numbers of draws at which d_G is computed: 20, 50, 100, 200 … below `draws`, and `draws`. */
 export function countsUpTo(draws: number): number[] {
   const found: number[] = [];
   for (let decade = 10; 2 * decade < draws; decade *= 10) {
@@ -76,7 +76,7 @@ export function countsUpTo(draws: number): number[] {
   return [...found, draws];
 }
 
-/** How many of `count` draws have fallen after a share of the time: one by one at first, then faster. */
+/** Number of `count` draws that are shown after a share of the time: one by one at first, then faster. */
 export function rained(share: number, count: number): number {
   return Math.round(count * Math.min(1, share) ** 2);
 }

@@ -1,10 +1,10 @@
-/** Angles of the tips of stars, and how often each occurs. Pure. */
+/** Angles of the tips of stars, and their histograms. Pure. */
 
 const TIPS = 5;
-/** Points go tip, inner point, tip, … */
+/** Number of tips; the points alternate between tips and inner points. */
 const POINTS_BETWEEN_TIPS = 2;
 
-/** Half widths of what both models of a pair can make of their common tip, in degrees. */
+/** Half of the common range of the first tip of each pair, in degrees. */
 export const BOUNDS: Readonly<Record<string, number>> = {
   "stars-1": 5,
   "stars-2": 5,
@@ -14,10 +14,10 @@ export const BOUNDS: Readonly<Record<string, number>> = {
   "stars-6": 40,
 };
 
-/** Where a tip is when nothing moves it: the first on top, the others to its left, in degrees. */
+/** Angle of a tip at rest in degrees: the first on top, the others anticlockwise. */
 export const restAngle = (tip: number) => 90 + (360 / TIPS) * tip;
 
-/** By how many degrees each tip of a star is off its place, to the left positive. */
+/** Deviation of each tip of a star from its angle at rest in degrees, anticlockwise positive. */
 export function deviationsOf(shape: ArrayLike<number>, start = 0): number[] {
   return Array.from({ length: TIPS }, (_, tip) => {
     const at = start + 2 * POINTS_BETWEEN_TIPS * tip;
@@ -27,7 +27,7 @@ export function deviationsOf(shape: ArrayLike<number>, start = 0): number[] {
   });
 }
 
-/** For each tip, which share of the stars has it in which bin; bin 0 begins at −`half` degrees. */
+/** Histogram of the deviations of each tip, as shares of the stars; bin 0 begins at −`half` degrees. */
 export function polarHistogram(
   shapes: ArrayLike<number>,
   length: number,

@@ -1,17 +1,17 @@
-/** A lesson that a scene has open, begun anew whenever what it is of changes. */
+/** Hook that opens a lesson for a scene, again whenever its key changes. */
 import { useLayoutEffect, useRef } from "preact/hooks";
 import { type Ask, asker, sceneFailed } from "../engine";
 import { lessonState } from "../state";
 
-/** While a slider is on its way, a lesson for every place on it is more than anybody sees. */
+/** Milliseconds without a change after which a lesson is opened: not for every position of a moving slider. */
 const SETTLE_MS = 60;
 
-/** Opens a lesson for `key`, and gives up what an earlier one still asks for. */
+/** Opens a lesson for `key`, and aborts the requests of an earlier one. */
 export function useSession(key: string, open: (ask: Ask) => Promise<void>): void {
   const latest = useRef(open);
   latest.current = open;
   const isFirst = useRef(true);
-  // Before anybody looks: what is shown from now on is not yet of this key.
+  // In a layout effect: from now on the picture is not yet of this key.
   useLayoutEffect(() => {
     const control = new AbortController();
     lessonState.value = "loading";
@@ -25,7 +25,7 @@ export function useSession(key: string, open: (ask: Ask) => Promise<void>): void
   }, [key]);
 }
 
-/** Nothing goes on with an answer that came after its lesson was given up. */
+/** Wraps `ask` so that answers after an abort are rejected. */
 function guarded(signal: AbortSignal): Ask {
   const ask = asker(signal);
   return async (question) => {
@@ -37,8 +37,8 @@ function guarded(signal: AbortSignal): Ask {
 }
 
 /**
- * A value that a scene writes down itself, such as the step at which it was paused. Where a link or Back
- * changes it, `revision` goes up.
+ * Tracks a parameter that the scene itself writes, such as the step at which it was paused: `revision` increases only
+ * if a link or Back changes it.
  */
 export function useOwn(value: number): { revision: number; own: (written: number) => void } {
   const written = useRef(value);
@@ -55,7 +55,7 @@ export function useOwn(value: number): { revision: number; own: (written: number
   };
 }
 
-/** Work that is done one piece at a time; what comes while some is done is not taken on. */
+/** Runs one asynchronous task at a time; tasks that come meanwhile are dropped. */
 export class Turns {
   #last: Promise<void> = Promise.resolve();
   #busy = false;
@@ -64,7 +64,7 @@ export class Turns {
     return this.#busy;
   }
 
-  /** Begins `work`, unless there is some. */
+  /** Starts `work`, unless a task is running. */
   take(work: () => Promise<void>): void {
     if (this.#busy) return;
     this.#busy = true;
@@ -75,7 +75,7 @@ export class Turns {
       });
   }
 
-  /** Resolves when nothing is done any more. */
+  /** Resolves when no task is running. */
   idle(): Promise<void> {
     return this.#last;
   }

@@ -1,4 +1,4 @@
-/** Where chains have been of late: the last so many of their states, and no more memory than that. Pure. */
+/** Ring buffer of the last states of the chains. Pure. */
 export class Trail {
   readonly capacity: number;
   #values = new Float64Array(0);
@@ -9,7 +9,7 @@ export class Trail {
     this.capacity = capacity;
   }
 
-  /** Forgets everything; from now on a state has `width` numbers (chains × q). */
+  /** Clears the buffer; from now on a state has `width` numbers (chains × q). */
   clear(width: number): void {
     if (width !== this.#width) this.#values = new Float64Array(width * this.capacity);
     this.#width = width;
@@ -21,12 +21,12 @@ export class Trail {
     this.#pushed += 1;
   }
 
-  /** How many states it holds. */
+  /** Number of stored states. */
   get length(): number {
     return Math.min(this.#pushed, this.capacity);
   }
 
-  /** How many it has ever been given. */
+  /** Number of states that were ever added. */
   get pushed(): number {
     return this.#pushed;
   }

@@ -58,7 +58,10 @@ test("a step is said as it was decided", () => {
   const luck = stepVerdict(decided(Math.log(0.5), 0.3));
   assert.deepEqual([luck.calm, /0.300 is below r = 0.500: accepted/.test(luck.text)], [true, true]);
   const no = stepVerdict(decided(Math.log(0.5), 0.6));
-  assert.deepEqual([no.calm, /is not below .*: rejected, it stays/.test(no.text)], [false, true]);
+  assert.deepEqual(
+    [no.calm, /is not below .*: rejected, the chain stays/.test(no.text)],
+    [false, true],
+  );
 });
 
 test("d_G is told from noise, from the closed form, and from chains that are not there yet", () => {

@@ -1,23 +1,23 @@
-/** What numbers mean, in a sentence, for both outcomes. Pure. */
+/** Judges numbers of the lessons in a sentence: convergence, a step, the error of a model, a difference. Pure. */
 import type { LaneFigures, LessonSide, LessonStep } from "../../../worker/lessons";
 import { count, number, percent } from "../../text/format";
 
 export interface Verdict {
-  /** Whether all is well. */
+  /** Whether the result is as it should be. */
   calm: boolean;
   text: string;
 }
 
-/** Vehtari et al. 2021: R-hat below this, and so many effective draws for each chain. */
+/** Limits of Vehtari et al. 2021: largest R-hat, and effective draws per chain. */
 export const R_HAT_LIMIT = 1.01;
 export const ESS_EACH = 100;
 
 type Quality = Pick<LaneFigures, "chains" | "draws" | "rHatMax" | "essBulkMin">;
 
-/** Draws of a chain before which its diagnostics mean nothing. */
+/** Least number of draws per chain for diagnostics. */
 const TOO_EARLY = 20;
 
-/** Whether chains have found what they are after. */
+/** Whether the chains have converged, by R-hat and effective draws. */
 export function chainVerdict({ chains, draws, rHatMax, essBulkMin }: Quality): Verdict {
   if (rHatMax === null || essBulkMin === null || draws < TOO_EARLY * chains) {
     return { calm: false, text: "Too early to say: let it run." };
@@ -28,7 +28,7 @@ export function chainVerdict({ chains, draws, rHatMax, essBulkMin }: Quality): V
     return chains === 1
       ? {
           calm: false,
-          text: `R-hat ${rHat} and ${ess} effective draws look well, but a single chain agrees with itself even where it has missed a part: run several.`,
+          text: `R-hat ${rHat} and ${ess} effective draws look well, but a single chain agrees with itself even if it has missed a part of the distribution: run several.`,
         }
       : {
           calm: true,
@@ -48,7 +48,7 @@ export function chainVerdict({ chains, draws, rHatMax, essBulkMin }: Quality): V
   };
 }
 
-/** Why a step was taken or not, as one would say it aloud. */
+/** Why a proposal was accepted or rejected. */
 export function stepVerdict({ logRatio, uniform, accepted }: LessonStep): Verdict {
   const ratio = number(Math.exp(logRatio));
   if (logRatio >= 0) {
@@ -58,14 +58,14 @@ export function stepVerdict({ logRatio, uniform, accepted }: LessonStep): Verdic
     ? { calm: true, text: `u = ${number(uniform)} is below r = ${ratio}: accepted.` }
     : {
         calm: false,
-        text: `u = ${number(uniform)} is not below r = ${ratio}: rejected, it stays.`,
+        text: `u = ${number(uniform)} is not below r = ${ratio}: rejected, the chain stays.`,
       };
 }
 
-/** Chains with such an R-hat are plainly in different places. */
+/** R-hat from which on the chains clearly differ. */
 const R_HAT_APART = 1.1;
 
-/** d_G beside what sampling alone would leave of it. */
+/** Compares d_G to the known intersection with the error that sampling alone would cause. */
 export function cloudVerdict(
   draws: number,
   found: number | null,
@@ -76,30 +76,30 @@ export function cloudVerdict(
   if (rHat !== null && rHat >= R_HAT_APART) {
     return {
       calm: false,
-      text: `These chains have not converged: R-hat is ${number(rHat)}, and blue and orange lie apart. d_G may be small all the same: it compares the directions of the modes, not how far they reach.`,
+      text: `These chains have not converged: R-hat is ${number(rHat)}, and the blue and orange draws differ. d_G may be small all the same: it compares the directions of the modes, not their standard deviations.`,
     };
   }
   if (found === null) return { calm: false, text: "The intersection of this pair is not known." };
-  const said = `After ${count(draws)} draws of each side d_G is ${number(found)}`;
+  const said = `After ${count(draws)} draws of each model d_G is ${number(found)}`;
   if (closedForm !== null && found <= 2 * closedForm) {
     return {
       calm: true,
-      text: `${said}: as near to the truth as the closed form (${number(closedForm)}). More draws would gain nothing.`,
+      text: `${said}: as near to the truth as the closed form (${number(closedForm)}). More draws would not help.`,
     };
   }
   if (predicted !== null && found > 4 * predicted) {
     return {
       calm: false,
-      text: `${said}, far above the ${number(predicted)} that so many effective draws should leave: the chains have not found everything yet, or σ is too large.`,
+      text: `${said}, far above the ${number(predicted)} expected for this number of effective draws: the chains have not reached all shapes yet, or σ is too large.`,
     };
   }
   return {
     calm: true,
-    text: `${said}: sampling noise, which falls as one over the root of the effective draws. Ten times less takes a hundred times as many.`,
+    text: `${said}: sampling noise, which is inversely proportional to the square root of the number of effective draws. A tenth of it takes a hundred times as many.`,
   };
 }
 
-/** How much of a model the other cannot make. */
+/** Judges the share of a model that the other cannot make, and PCA of the difference. */
 export function differenceVerdict(side: LessonSide, share: number, misled: number): Verdict {
   const [own, other] = side === "a" ? ["A", "B"] : ["B", "A"];
   if (share > 0.95) {
@@ -111,11 +111,11 @@ export function differenceVerdict(side: LessonSide, share: number, misled: numbe
   if (share < 0.05) {
     return {
       calm: false,
-      text: `At this σ ${other} can make nearly everything of ${own}: only ${percent(share)} is left, far out.`,
+      text: `At this σ ${other} can make nearly everything of ${own}: only ${percent(share)} remains, far from the mean.`,
     };
   }
   return {
     calm: misled < 0.02,
-    text: `${percent(misled)} of the shapes that PCA of these draws would make are shapes that ${other} makes too: not in the difference at all. A hole cannot be told from a hill by a mean and a covariance.`,
+    text: `${percent(misled)} of the shapes that PCA of these draws would make are shapes that ${other} makes too and that are not in the difference. A mean and a covariance cannot represent a hole in the density.`,
   };
 }
