@@ -314,7 +314,7 @@ test("a run that was cancelled shows the draws that it made", async () => {
     await untilState(page, "running");
     await page
       .getByRole("region", { name: "Run", exact: true })
-      .getByText(/^(not converged yet|first modes look converged)/)
+      .getByText(/^(not converged yet|diagnostics are fine so far)/)
       .waitFor({ timeout: 60_000 });
     await page.getByRole("button", { name: "Cancel", exact: true }).click();
     await untilState(page, "done");

@@ -29,7 +29,7 @@ const button = (page, name) => page.getByRole("button", { name, exact: true });
 async function untilDrawing(page) {
   await untilState(page, "running");
   await panel(page)
-    .getByText(/^(not converged yet|first modes look converged)/)
+    .getByText(/^(not converged yet|diagnostics are fine so far)/)
     .waitFor({ timeout: 60_000 });
 }
 

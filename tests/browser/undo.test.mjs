@@ -472,7 +472,7 @@ test("a run that is cancelled before its differences says so, and keeps the draw
     await page.goto(`${url}#v=1&demo=stars-1&sampler=paper-corrected&draws=200000&thin=2000`);
     await untilState(page, "running");
     await page
-      .getByText(/^(not converged yet|first modes look converged)/)
+      .getByText(/^(not converged yet|diagnostics are fine so far)/)
       .waitFor({ timeout: 60_000 });
     await button(page, "Cancel").click();
     await untilState(page, "done");

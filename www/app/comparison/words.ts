@@ -249,7 +249,7 @@ export function liveBelief(progress: Progress): string {
   return settled ? LOOKS_WELL : "not converged yet";
 }
 
-export const LOOKS_WELL = "first modes look converged, all are checked at the end";
+export const LOOKS_WELL = "diagnostics are fine so far, all modes are checked at the end";
 
 const MOMENTS: Record<Inference["moments"], string> = {
   "closed-form":

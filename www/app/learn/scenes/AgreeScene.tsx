@@ -12,7 +12,7 @@ import { TELLING } from "./agree/sweep";
 import { named } from "./agree/tips";
 import "./agree.css";
 
-/** Two models side by side: which tips can both move? Guess, then see. */
+/** Scene with two models side by side: the visitor guesses which tips both can move, then sees the answer. */
 export function AgreeScene() {
   const { pair, sigma, guess, shown } = params("agree").value;
   const ask = useAsk();
@@ -45,8 +45,8 @@ export function AgreeScene() {
   return (
     <>
       <p class="lead">
-        Model A was learnt from stars of one kind, model B from stars of another. Watch what each
-        can do. <strong>Which tips can both of them move?</strong>
+        Model A was computed from stars of one kind, model B from stars of another. Watch how the
+        shapes of each vary. <strong>Which tips can both of them move?</strong>
       </p>
       <div class="agree-boards">
         <figure class="agree-a">
@@ -67,7 +67,7 @@ export function AgreeScene() {
               model={models?.intersection ?? null}
               whose="ab"
               seconds={seconds.value}
-              label="A and B in common: a star that moves as far as both can."
+              label="A∩B: a star that moves only as both models can."
             />
           ) : (
             <GuessCanvas guess={guess} onToggle={choose} />
@@ -98,11 +98,11 @@ export function AgreeScene() {
       {shown && models && <Answer models={models} guess={guess} sigma={sigma} />}
       <p class="board-caption agree-pair">
         <StarPairs
-          label="The paper has six such pairs; here is"
+          label="The paper has six such pairs. Shown:"
           value={pair}
           onChoose={(chosen) => setParams("agree", { pair: chosen })}
         />{" "}
-        Each star sweeps its modes one after the other, from −2 to +2 standard deviations.
+        Each star shows its modes one after the other, from −2 to +2 standard deviations.
       </p>
     </>
   );

@@ -20,7 +20,7 @@ import { Questions } from "./cloud/Questions";
 import { CloudRun, type CloudValues, MOST_DRAWS } from "./cloud/run";
 import "./samplers.css";
 
-/** Draws of both sides, the model made of them, and the truth. */
+/** Scene with draws of the intersection, the model computed from them, and the known intersection. */
 export function CloudScene() {
   const run = useMemo(() => new CloudRun(), []);
   const values = params("cloud").value;
@@ -40,9 +40,9 @@ export function CloudScene() {
   return (
     <>
       <p class="lead">
-        Thousands of steps leave a cloud of stars that both models can make. Principal components of
-        that cloud are the <em>intersection model</em>. Here the true one is known: only the first
-        tip moves.
+        Thousands of steps give a cloud of draws: stars that both models can make. Principal
+        component analysis (PCA) of these draws gives the <em>intersection model</em>. Here the true
+        intersection is known: only the first tip moves.
       </p>
       <div class="scene-bar">
         <PlayBar playing={run.playing.value} onToggle={toggle} onReset={resetScene}>
@@ -85,10 +85,10 @@ export function CloudScene() {
 
 const more = (run: CloudRun) =>
   run.playing.value
-    ? `${count(run.draws.value)} draws of each side`
+    ? `${count(run.draws.value)} draws of each model`
     : run.draws.value >= MOST_DRAWS
-      ? "20,000 draws: enough"
-      : `${count(run.draws.value)} draws; Run draws four times as many`;
+      ? "20,000 draws: the maximum"
+      : `${count(run.draws.value)} draws; “Run” draws four times as many`;
 
 function Fall({ run }: { run: CloudRun }) {
   const found = run.found.value;

@@ -22,7 +22,7 @@ import "./samplers.css";
 
 const STAR_SIGMA = 0.03;
 
-/** The likelihood upside down: what one model can make and the other cannot. */
+/** Scene about the difference: shapes of one model that the other cannot make, by 1 − L_D. */
 export function DifferenceScene() {
   const run = useMemo(() => new DifferenceRun(), []);
   const values = params("difference").value;
@@ -30,7 +30,7 @@ export function DifferenceScene() {
   const isFirst = useRef(true);
   const mine = useRef(flipped);
   useSession([pair, sigma, side, seed, draws].join(), async (ask) => {
-    // The story is told to those who come, not to those who set something, nor where a link says what is up.
+    // The introduction is animated only on arrival, not after a change of a setting or with a link that has one.
     const told = isFirst.current && !flipped;
     if (isFirst.current) run.show(flipped);
     isFirst.current = false;
@@ -53,8 +53,8 @@ export function DifferenceScene() {
   return (
     <>
       <p class="lead">
-        What can {own} make that {other} <em>cannot</em>? Turn the likelihood upside down: where Lᴅ
-        was near one, 1 − Lᴅ is near nought. The ridge becomes a hole.
+        What can {own} make that {other} <em>cannot</em>? Replace the likelihood Lᴅ by 1 − Lᴅ: where
+        Lᴅ is near one, 1 − Lᴅ is near zero. The ridge of the density becomes a hole.
       </p>
       <div class="scene-bar">
         <Segments

@@ -12,14 +12,14 @@ import { useOwnShapes } from "./model/ownShapes";
 import { StarCanvas } from "./model/StarCanvas";
 import "./model.css";
 
-/** σ says nothing about one model; it is given because a lesson has one. */
+/** σ has no effect on a single model; the engine requires one. */
 const SIGMA = SCENE_PARAMS.cloud.sigma.standard;
 const SWINGS = [
   { reach: 2, speed: 0.5 },
   { reach: 1.8, speed: 0.32 },
 ];
 
-/** What a shape model is: a mean, a basis, coefficients, and how probable they are. */
+/** Scene about a shape model: mean, basis, coefficients, and their probability. */
 export function ModelScene() {
   const { pair, side, coefficients } = params("model").value;
   const ask = useAsk();
@@ -53,7 +53,7 @@ export function ModelScene() {
   useDone(lesson.current && field.current && cloud.current && (playing || point.current));
   useSceneKeys(autoplay.toggle, null);
   const [first = 0, second = 0] = now;
-  // Not beyond what is drawn of the plane.
+  // Within the drawn part of the plane.
   const within = (value: number) => Math.min(EXTENT, Math.max(-EXTENT, value));
   const to = (point: readonly [number, number]) =>
     autoplay.hold([...point.map(within), ...autoplay.now.slice(2)]);
@@ -61,9 +61,9 @@ export function ModelScene() {
   return (
     <>
       <p class="lead">
-        A shape model is a machine that makes shapes. It knows a <em>mean</em> and a few{" "}
-        <em>directions of change</em>; two numbers say how far to go along each. Take hold of the
-        round point and see what it makes.
+        A shape model has a <em>mean</em> shape and a few <em>modes</em>, directions in which shapes
+        vary. A coefficient for each mode gives a shape; here two of them vary. Drag the round point
+        and see its shape.
       </p>
       <div class="model-scene" data-side={side}>
         <StarCanvas
@@ -93,20 +93,20 @@ export function ModelScene() {
         <Equation model={model} coefficients={now} shape={shapeAt(model, now)} side={side} />
       )}
       <p class="board-caption">
-        u₁ and u₂ are the modes of the model, √λ₁ and √λ₂ their standard deviations: coefficients
-        count in those. This model has {q} modes. The other {q - 2} bend the tips back onto their
-        circle, move little, and stay at 0 here.
+        u₁ and u₂ are the modes of the model, √λ₁ and √λ₂ their standard deviations, which are the
+        units of the coefficients. This model has {q} modes. The other {q - 2} have small standard
+        deviations, keep the tips on their circle, and are 0 here.
       </p>
       <details class="ask">
-        <summary>What do the rings say, and what is beyond the third?</summary>
+        <summary>What do the rings mean, and what is beyond the third?</summary>
         <p>
-          Before anything is measured, coefficients follow the standard normal distribution N(0, I):
-          so p(α) falls off as exp(−½‖α‖²), the same in every direction. That is what dividing by
-          the standard deviations √λ is for: one step along the first mode is as probable as one
-          along the second, though it moves the star further. Nothing forbids a shape beyond the
-          third ring; it is only so improbable that the star no longer looks like those that the
-          model was learnt from. The paper therefore cuts the model off somewhere and calls what is
-          left its <em>allowable domain</em>.
+          A priori the coefficients have the standard normal distribution N(0, I): p(α) is
+          proportional to exp(−½‖α‖²), the same in every direction. This is why modes are scaled by
+          their standard deviations √λ: a coefficient of the first mode is as probable as the same
+          coefficient of the second, though it moves the star further. Shapes beyond the third ring
+          are possible, but so improbable that the star no longer looks like those from which the
+          model was computed. The paper therefore limits a model to a region around its mean, its{" "}
+          <em>allowable domain</em>.
         </p>
       </details>
     </>

@@ -18,14 +18,14 @@ import { angleWords, TRIES, whatToSee } from "./planes/words";
 import "./planes.css";
 
 const SCHEMA = SCENE_PARAMS.planes;
-/** It turns to and fro, since from the side there is little to see. */
+/** The view oscillates, since a single view shows little of the space. */
 const SWAY = { reach: 0.5, speed: 0.45 };
 const SIZE = 96;
-/** The point is not taken beyond what is drawn of its plane. */
+/** Bounds of the point: the drawn part of its plane. */
 const SHEET = { least: -EXTENT, most: EXTENT, digits: SCHEMA.coefficients.digits };
 const set = (part: Partial<SceneValues<"planes">>) => setParams("planes", part);
 
-/** Two planes: the smallest case of two models, with everything the method speaks of in sight. */
+/** Scene with two planes in space, the smallest case of two models: distance, projection and likelihoods of a point. */
 export function PlanesScene() {
   const { tilt, shift, lift, sigma, side, coefficients, turn } = params("planes").value;
   const ask = useAsk();
@@ -56,7 +56,7 @@ export function PlanesScene() {
   useDone(lesson.current && fieldA.current && fieldB.current && point.current);
   useSceneKeys(autoplay.toggle, null);
   const to = (moved: Flat) => {
-    // Whoever moves the point wants to see it stand still.
+    // Moving the point stops the motion of the view.
     if (autoplay.playing.peek()) autoplay.toggle();
     set({ coefficients: moved.map((value) => bounded(SHEET, value)) });
   };
@@ -66,9 +66,9 @@ export function PlanesScene() {
   return (
     <>
       <p class="lead">
-        Make models so small that they fit into space: one point, two modes. All that a model can
-        make is then a <em>plane</em>, and its plausible shapes are an <em>ellipse</em>. Two models,
-        two planes: where is what both can make?
+        Take models so small that they can be drawn: one point, two modes. The shapes of a model are
+        then a <em>plane</em>, and its plausible shapes an <em>ellipse</em>. Two models are two
+        planes: which points can both make?
       </p>
       <div class="scene-body planes-body">
         <div class="planes-board">
@@ -142,12 +142,12 @@ export function PlanesScene() {
       <details class="ask">
         <summary>Why is I, the common line, not all that the method looks for?</summary>
         <p>
-          Two ellipses in different planes meet in a piece of a line, I = Q₁ ∩ Q₂, and in real
-          models, with thousands of points and noise, in nothing at all: the chance that a shape
-          lies exactly in both is zero. So the paper asks for I<sub>ε</sub>: points of one ellipse
-          whose nearest point of the other model is closer than ε. The band that glows is its soft
-          version, with σ for ε: it lies on <em>both</em> planes, and the method draws from both and
-          pools the draws.
+          Two ellipses in different planes meet in a segment of a line, I = Q₁ ∩ Q₂. Real models,
+          with thousands of points and noise, have no exact intersection: the probability that a
+          shape lies exactly in both is zero. So the paper uses I<sub>ε</sub>: points of one ellipse
+          whose nearest point of the other model is closer than ε. The bright band is its soft
+          version, with σ instead of ε. It lies on <em>both</em> planes, and the method samples from
+          both and pools the draws.
         </p>
       </details>
     </>

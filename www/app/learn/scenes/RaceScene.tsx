@@ -25,7 +25,7 @@ import "./samplers.css";
 
 const STAR_SIGMA = 0.003;
 
-/** Samplers that race for effective draws, and four ways to go wrong. */
+/** Scene that compares samplers by their effective draws, and shows four ways in which sampling fails. */
 export function RaceScene() {
   const run = useMemo(() => new RaceRun(), []);
   const values = params("race").value;
@@ -45,8 +45,9 @@ export function RaceScene() {
   return (
     <>
       <p class="lead">
-        The paper’s walk takes many small steps. Others look at the gradient, or propose from a
-        Gaussian fit. Same target, same work: who brings home the most <em>effective</em> draws?
+        The paper’s random walk makes many small steps. Other samplers use the gradient, or propose
+        from a Gaussian fit. Which one has the most <em>effective</em> draws for the same target and
+        the same number of steps?
       </p>
       <fieldset class="race-breaks">
         <legend>Break it</legend>

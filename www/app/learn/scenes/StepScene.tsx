@@ -22,12 +22,12 @@ import { StepRun, type StepValues } from "./step/run";
 import { Working } from "./step/Working";
 import "./samplers.css";
 
-/** As many chains, and as fast, as it takes to see whether they agree. */
+/** Number of chains and speed that show whether chains agree. */
 const MANY = { chains: 8, speed: 1000 };
-/** Ten times the paper’s. */
+/** σ for stars: ten times the paper’s. */
 const STAR_SIGMA = 0.03;
 
-/** One Metropolis–Hastings step at a time, then many chains. */
+/** Scene with single Metropolis–Hastings steps, then many chains. */
 export function StepScene() {
   const run = useMemo(() => new StepRun(), []);
   const values = params("step").value;
@@ -55,9 +55,9 @@ export function StepScene() {
   return (
     <>
       <p class="lead">
-        How plausible a shape is can only be told <em>compared with another</em>. That is enough:
-        propose a step, compare, decide. The walk then stays longest where shapes of both models
-        are.
+        The probability density of a shape is only known <em>relative to that of another</em>. That
+        is enough: propose a step, compare, accept or reject. The chain then spends most of its
+        steps at shapes of both models.
       </p>
       <div class="scene-bar">
         <PlayBar playing={run.playing.value} onToggle={toggle} onStep={one} onReset={resetScene} />
@@ -82,7 +82,7 @@ export function StepScene() {
       </div>
       <section class="step-chains" aria-labelledby="chains-title">
         <header class="step-chains-head">
-          <h3 id="chains-title">Can it be trusted? Let several chains run</h3>
+          <h3 id="chains-title">Has it converged? Run several chains</h3>
           <button type="button" onClick={many}>
             {MANY.chains} chains, {count(MANY.speed)} steps a second
           </button>

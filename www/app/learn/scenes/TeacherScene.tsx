@@ -9,7 +9,7 @@ import { QUESTIONS } from "./teacher/questions";
 import { Taking } from "./teacher/Taking";
 import "./teacher.css";
 
-/** What whoever teaches this needs: goals, time, questions with answers, keys, and how to take it along. */
+/** Page for teachers: goals, plans, questions with answers, keys, and how to use the lessons elsewhere. */
 export function TeacherScene() {
   useDone(true);
   const page = useRef<HTMLDivElement>(null);
@@ -17,8 +17,8 @@ export function TeacherScene() {
   return (
     <div class="teacher" ref={page}>
       <p class="lead">
-        Eight scenes, each a link; no account, nothing to install. All numbers are computed live by
-        the engine that does the real comparisons, so that what you show is what the method does.
+        Eight scenes, each a link; no account, nothing to install. All numbers are computed in this
+        page by the same engine that compares real models.
       </p>
       <div class="teacher-tools">
         <button type="button" aria-pressed={large.value} onClick={toggleLarge}>
@@ -33,7 +33,7 @@ export function TeacherScene() {
       </div>
 
       <section aria-labelledby="teacher-goals">
-        <h3 id="teacher-goals">What students can do afterwards</h3>
+        <h3 id="teacher-goals">Goals: students can …</h3>
         <ol class="teacher-goals">
           {GOALS.map(({ scene, can }) => (
             <li key={scene}>

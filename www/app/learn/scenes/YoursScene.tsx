@@ -3,15 +3,14 @@ import { TRY_OUT, type TryOut } from "./yours/questions";
 import { VennStars } from "./yours/VennStars";
 import "./yours.css";
 
-/** From stars to faces, and to whatever models somebody has. */
+/** Last scene: links to comparisons of heads and of the visitor's own models, with questions. */
 export function YoursScene() {
   useDone(true);
   return (
     <>
       <p class="lead">
-        Nothing in the method knows about stars. Two models of the same points, whether of faces,
-        bodies, bones or organs, are compared in just the same way, and how you read the answer is
-        how you read it here.
+        The method is not limited to stars. Two models of the same points, of faces, bodies, bones
+        or organs, are compared in the same way, and the results are read in the same way.
       </p>
       <div class="yours-doors">
         <VennStars />
@@ -24,7 +23,7 @@ export function YoursScene() {
           <Door
             href="#v=1&demo=heads-expression"
             name="Identity and expression"
-            says="Two models of the same face that should share next to nothing."
+            says="Two models of the same face that should have little in common."
           />
           <Door
             href="#v=1"
@@ -34,7 +33,7 @@ export function YoursScene() {
           <Door
             href="#v=1&page=gallery"
             name="The gallery"
-            says="Comparisons worth a look, each with what there is to see."
+            says="Example comparisons, each with an explanation."
           />
         </nav>
       </div>

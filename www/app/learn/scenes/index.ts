@@ -1,4 +1,4 @@
-/** How each scene is shown. */
+/** The component of each scene. */
 import type { FunctionComponent } from "preact";
 import type { SceneName } from "../scenes";
 import { AgreeScene } from "./AgreeScene";

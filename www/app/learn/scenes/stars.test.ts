@@ -41,7 +41,7 @@ test("a turned tip is found to have turned, against the clock", () => {
   assert.match(pathOf(plain), /^M0\.00 -10\.00L.*Z$/, "the first tip is on top");
 });
 
-test("what roams begins where it was, and goes no further than it should", () => {
+test("automatic motion begins where it was, and stays within its amplitude", () => {
   const swings = [
     { reach: 2, speed: 0.5 },
     { reach: 1.5, speed: 0.3 },
@@ -83,8 +83,8 @@ test("a guess is judged kindly, and told why", () => {
   assert.equal(verdictOn([2, 3], [0]), "wrong");
   assert.equal(
     answerIn([0], tips),
-    "Right. Both can move the top tip, and no other. The lower left tip only A can move: " +
-      "B holds it where it is. The lower right tip only B.",
+    "Right. Both can move the top tip, and no other. Only A can move the lower left tip: " +
+      "B keeps it fixed. Only B can move the lower right tip.",
   );
   assert.match(answerIn([0, 2], tips), /^Partly right\./);
   assert.match(answerIn([], tips), /^Next time, guess first\./);

@@ -11,7 +11,7 @@ interface Props {
   sigma: number;
 }
 
-/** Whether the guess was right, by how much each tip strays, and what σ has to do with it. */
+/** Shows whether the guess was right, the standard deviation of each tip, and the effect of σ. */
 export function Answer({ models, guess, sigma }: Props) {
   const tips = {
     a: movable(models.a.vertexSd),
@@ -28,7 +28,7 @@ export function Answer({ models, guess, sigma }: Props) {
         <TipTable models={models} shared={shared} guess={guess} />
         <div class="agree-sigma">
           <Slider
-            label="σ, how near is near"
+            label="σ, tolerance of “near”"
             value={sigma}
             least={0.001}
             most={1}
@@ -38,22 +38,22 @@ export function Answer({ models, guess, sigma }: Props) {
             onChange={(value) => setParams("agree", { sigma: Number(value.toPrecision(2)) })}
           />
           <p>
-            The two means, dashed, differ as well; hardly any star is made by both to the last
-            digit. So <em>both can make it</em> asks two things of a star: that it is <b>near</b>{" "}
-            some star of the other model (the mean distance of its points within about σ), and that
-            it is <b>plausible</b> in both. Move σ: what happens when almost everything is near?
+            The two means, dashed, differ as well, so hardly any star is exactly in both models.
+            That <em>both can make</em> a star therefore means two things: it is <b>near</b> some
+            star of the other model (the mean distance of its points is at most about σ), and it is{" "}
+            <b>plausible</b> in both. Move σ: what happens when almost everything is near?
           </p>
         </div>
       </div>
       <details class="ask">
         <summary>
-          A∩B moves the top tip less than A does, and less than B. Why, if both can do it?
+          A∩B moves the top tip less than A does, and less than B. Why, if both can move it?
         </summary>
         <p>
-          Because what is plausible in both is rarer than what is plausible in one. The method
-          multiplies the two plausibilities, exp(−½‖α‖²) and exp(−½‖α′‖²), and the product of two
-          bells is a narrower bell, between the two. Even a model intersected with itself keeps only
-          half of its variance.
+          Because fewer shapes are plausible in both models than in one. The method multiplies the
+          two plausibilities, exp(−½‖α‖²) and exp(−½‖α′‖²), and the product of two Gaussians is a
+          narrower Gaussian between them. Even the intersection of a model with itself has only half
+          of its variance.
         </p>
       </details>
     </>

@@ -13,7 +13,7 @@ interface Props {
   onToggle: (tip: number) => void;
 }
 
-/** A star that stands still, with a button at each of its tips. */
+/** A star without motion, with a button at each of its tips for the guess. */
 export function GuessCanvas({ guess, onToggle }: Props) {
   const draw = (pen: CanvasRenderingContext2D, size: Size, palette: Palette) => {
     traceOutline(pen, planeOf(size, EXTENT), STAR);
@@ -48,7 +48,7 @@ export function GuessCanvas({ guess, onToggle }: Props) {
   );
 }
 
-/** Just inside a tip, as shares of the board. */
+/** Position of a button just inside a tip, as shares of the canvas. */
 function positionOf(point: number): { left: string; top: string } {
   const [x, y] = pointOf(STAR, point);
   const share = (value: number) => `${(50 + (47 * value) / EXTENT).toFixed(2)}%`;

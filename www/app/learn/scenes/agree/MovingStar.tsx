@@ -7,20 +7,20 @@ import { shapeAt } from "../../shape";
 import { alone, REACH, seenModes, sweepAt } from "./sweep";
 
 export const EXTENT = 12.4;
-/** Height of a board over its width. */
+/** Height of the canvas over its width. */
 export const ASPECT = 0.85;
 /** Faint stars between the two ends of a mode. */
 const FAN = 9;
 
 interface Props {
   model: LessonModel | null;
-  /** Whose it is: the colour of it. */
+  /** The model, which determines the colour. */
   whose: "a" | "b" | "ab";
   seconds: number;
   label: string;
 }
 
-/** A star that goes through its modes, before the faint fan of all places it goes to. */
+/** A star that moves through its modes, with faint stars of the whole range behind it. */
 export function MovingStar({ model, whose, seconds, label }: Props) {
   const fan = useMemo(() => (model ? fanOf(model) : []), [model]);
   const draw = (pen: CanvasRenderingContext2D, size: Size, palette: Palette) => {

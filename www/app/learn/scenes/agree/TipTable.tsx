@@ -16,12 +16,12 @@ const COLUMNS = [
   ["b", "B"],
 ] as const;
 
-/** How far each tip strays: a bar and its number for A, A∩B and B. */
+/** Standard deviation of each tip in A, A∩B and B, as bars and numbers. */
 export function TipTable({ models, shared, guess }: Props) {
   const most = Math.max(...COLUMNS.flatMap(([key]) => models[key].vertexSd));
   return (
     <table class="tip-table">
-      <caption>How far each tip strays: its standard deviation, in units of the star</caption>
+      <caption>Standard deviation of each tip, in units of the star</caption>
       <thead>
         <tr>
           <th scope="col">Tip</th>

@@ -1,13 +1,13 @@
-/** What is said about tips that were guessed, and about those that can really move. Pure. */
+/** Sentences about the guessed tips and the tips that both models move. Pure. */
 import { TIPS } from "../../shape";
 
-/** Of a star’s tips, the top one first, then against the clock. */
+/** Names of the tips of a star, the top one first, then anticlockwise. */
 export const TIP_NAMES = ["top", "upper left", "lower left", "lower right", "upper right"] as const;
 
-/** Less than this share of the most movable tip looks like no movement. */
+/** Share of the largest standard deviation of a tip below which a tip counts as fixed. */
 const SEEN = 0.15;
 
-/** Tips, from 0 to 4, that visibly move, by the standard deviation of every point. */
+/** Tips, from 0 to 4, that move, by the standard deviations of all points. */
 export function movable(vertexSd: readonly number[]): number[] {
   const sds = TIPS.map((point) => vertexSd[point] ?? 0);
   const most = Math.max(...sds);
@@ -39,12 +39,12 @@ const OPENINGS: Record<Verdict, string> = {
 
 const tipsOf = (tips: readonly number[]) => `${named(tips)} tip${tips.length > 1 ? "s" : ""}`;
 
-/** Tips that both models can move, however near is near. */
+/** Tips that both models can move, independent of σ. */
 export function sharedTips({ a, b }: Record<"a" | "b", readonly number[]>): number[] {
   return a.filter((tip) => b.includes(tip));
 }
 
-/** What there is to say when it is shown: kindly, and with the reason. */
+/** The answer to a guess, with the reason. */
 export function answerIn(
   guess: readonly number[],
   { a, b, both }: Record<"a" | "b" | "both", readonly number[]>,
@@ -61,9 +61,9 @@ export function answerIn(
     );
   } else {
     if (onlyA.length > 0) {
-      said.push(`The ${tipsOf(onlyA)} only A can move: B holds it where it is.`);
+      said.push(`Only A can move the ${tipsOf(onlyA)}: B keeps it fixed.`);
     }
-    if (onlyB.length > 0) said.push(`The ${tipsOf(onlyB)} only B.`);
+    if (onlyB.length > 0) said.push(`Only B can move the ${tipsOf(onlyB)}.`);
   }
   return said.join(" ");
 }

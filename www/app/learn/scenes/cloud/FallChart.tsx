@@ -13,7 +13,7 @@ interface Point {
   predicted: number | null;
 }
 
-/** d_G over the number of draws, both over the logarithm: one over a root is a straight line. */
+/** Plot of d_G over the number of draws on logarithmic axes, where 1/√N is a straight line. */
 export function FallChart({ found, most }: { found: LessonIntersection; most: number }) {
   const points: Point[] = found.falls.map(({ draws, grassmann }, i) => ({
     draws,
@@ -25,9 +25,9 @@ export function FallChart({ found, most }: { found: LessonIntersection; most: nu
   return (
     <Chart
       name="fall"
-      title="d_G falls as draws pile up"
-      about="Grassmann distance of the draws’ model to the truth, both axes logarithmic."
-      label={`d_G to the known intersection, ${number(last?.found ?? Number.NaN)} after ${count(last?.draws ?? 0)} draws of each side; the closed form has ${number(closedForm ?? Number.NaN)}.`}
+      title="Error of the model over the number of draws"
+      about="Grassmann distance d_G between the model of the draws and the true intersection, both axes logarithmic."
+      label={`d_G to the known intersection, ${number(last?.found ?? Number.NaN)} after ${count(last?.draws ?? 0)} draws of each model; the closed form has ${number(closedForm ?? Number.NaN)}.`}
       height={(width) => Math.round(Math.min(300, Math.max(210, 0.55 * width)))}
       draw={(width) => <Lines points={points} closedForm={closedForm} width={width} most={most} />}
       legend={
@@ -40,7 +40,7 @@ export function FallChart({ found, most }: { found: LessonIntersection; most: nu
       table={() => (
         <DataTable
           file="grassmann-over-draws"
-          caption="d_G over draws of each side"
+          caption="d_G over draws of each model"
           corner="Draws"
           columns={[
             { title: "found", metric: (row) => `intersection.falls.${row}.grassmann` },
@@ -100,7 +100,7 @@ function Lines({ points, closedForm, width, most }: LinesProps) {
         showUp={(value) => number(value, 1)}
       />
       <text class="tick axis-name" x={box.right} y={box.bottom + letterSpace(30)} text-anchor="end">
-        draws of each side
+        draws of each model
       </text>
       {closedForm !== null && (
         <line class="closed" x1={box.left} x2={box.right} y1={y(closedForm)} y2={y(closedForm)} />

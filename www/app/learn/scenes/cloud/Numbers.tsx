@@ -4,7 +4,7 @@ import { LessonNumber, LessonNumbers } from "../../parts/controls";
 import { cloudVerdict } from "../../sampling/verdicts";
 import type { CloudRun } from "./run";
 
-/** The model of the draws in numbers. */
+/** Numbers of the model of the draws: its error, and the convergence of the draws. */
 export function Numbers({ run }: { run: CloudRun }) {
   const [found, sides] = [run.found.value, run.diagnostics.value];
   const last = found ? found.predicted.length - 1 : 0;
@@ -18,7 +18,7 @@ export function Numbers({ run }: { run: CloudRun }) {
           value={found?.grassmann}
         />
         <LessonNumber
-          label="expected of noise"
+          label="expected from noise"
           metric={`intersection.predicted.${last}`}
           value={predicted}
         />

@@ -5,7 +5,7 @@ import { drawModel, drawStars } from "./draw";
 import { drawPolar } from "./polar";
 import type { CloudRun } from "./run";
 
-/** The draws, the model made of them beside the truth, and the angles of the tips. */
+/** Pictures of the draws, of their model with the true intersection, and of the angles of the tips. */
 export function Pictures({ run, pair }: { run: CloudRun; pair: string }) {
   const [models, stars] = [run.models.value, run.stars.value];
   const segments = models?.segments ?? [];
@@ -15,7 +15,7 @@ export function Pictures({ run, pair }: { run: CloudRun; pair: string }) {
     <div class="boards cloud-boards">
       <figure>
         <LessonCanvas
-          label="Stars drawn from both sides, one above the other; their first tips as dots"
+          label="Stars drawn from both models, overlaid; their first tips as dots"
           aspect={1}
           draw={(pen, size, palette) =>
             stars && drawStars(pen, size, palette, stars, segments, length)
@@ -35,22 +35,22 @@ export function Pictures({ run, pair }: { run: CloudRun; pair: string }) {
           }
         />
         <figcaption class="board-caption">
-          How far each tip turns, as in the paper. Both were made with tip 1 within −{bound}…{bound}
-          °.
+          Histogram of the rotation of each tip, as in the paper. Both models have tip 1 within −
+          {bound}…{bound}°.
         </figcaption>
       </figure>
     </div>
   );
 }
 
-/** Alone, as it is drawn every frame. */
+/** The oscillating model, a component of its own since it is drawn every frame. */
 function Swaying({ run }: { run: CloudRun }) {
   const [models, found] = [run.models.value, run.found.value];
   const sway = still.value ? 1 : run.sway.value;
   return (
     <figure>
       <LessonCanvas
-        label="The model of the draws, solid, and the true intersection, dashed, swaying by two standard deviations along their first mode"
+        label="The model of the draws, solid, and the true intersection, dashed, oscillating by two standard deviations along their first mode"
         aspect={1}
         draw={(pen, size, palette) => {
           if (!models || !found) return;
@@ -58,7 +58,8 @@ function Swaying({ run }: { run: CloudRun }) {
         }}
       />
       <figcaption class="board-caption">
-        <b class="side-ab">PCA of the draws</b> and the truth (dashed): mean ± 2 SD of mode 1.
+        <b class="side-ab">PCA of the draws</b> and the true intersection (dashed): mean ± 2 SD of
+        mode 1.
       </figcaption>
     </figure>
   );

@@ -1,4 +1,4 @@
-/** Stars of draws, and the model made of them beside the truth. */
+/** Draws the sampled stars, and the model of the draws with the true intersection. */
 import type { LessonModel } from "../../../../worker/lessons";
 import type { Size } from "../../canvas/LessonCanvas";
 import { faded, type Palette } from "../../canvas/palette";
@@ -8,12 +8,12 @@ import type { BothSides } from "./run";
 type Pen = CanvasRenderingContext2D;
 type Segments = readonly (readonly [number, number])[];
 
-/** Half of the side of a picture; tips are at 10. */
+/** Half of the width of a picture in units of the star, whose tips are at 10. */
 const EXTENT = 12;
-/** Standard deviations that the model is shown to sway. */
+/** Amplitude of the oscillation, in standard deviations. */
 const REACH = 2;
 
-/** Both sides of the draws, faint, one above the other; the tip that moves is marked. */
+/** Draws the stars of both models, faint and overlaid; the tip that moves is marked. */
 export function drawStars(
   pen: Pen,
   size: Size,
@@ -26,7 +26,7 @@ export function drawStars(
   const count = Math.max(1, stars.a.length / length);
   const opacity = Math.min(0.5, Math.max(0.05, 6 / count));
   pen.lineWidth = 1.25;
-  // In turn, so that neither side covers the other.
+  // Alternating, so that neither model covers the other.
   for (let at = 0; at < count * length; at += length) {
     for (const side of ["a", "b"] as const) {
       if (at + length > stars[side].length) continue;
@@ -51,18 +51,18 @@ function each(stars: Float32Array, length: number, act: (star: Float32Array) => 
   for (let at = 0; at + length <= stars.length; at += length) act(stars.subarray(at, at + length));
 }
 
-/** The shape that is `along` standard deviations out on the first mode. */
+/** The shape `along` standard deviations along the first mode. */
 function swayed({ mean, basis }: LessonModel, along: number): number[] {
   return mean.map((value, i) => value + along * (basis[i] ?? 0));
 }
 
-/** Modes have no sign of their own: 1 or −1, so that two of them go the same way. */
+/** The sign, 1 or −1, with which two modes point in the same direction: the sign of a mode is arbitrary. */
 function sameWay(one: LessonModel, other: LessonModel): number {
   const dot = one.mean.reduce((sum, _, i) => sum + (one.basis[i] ?? 0) * (other.basis[i] ?? 0), 0);
   return dot < 0 ? -1 : 1;
 }
 
-/** The model of the draws (solid) and the truth (dashed), swaying along their first mode. */
+/** Draws the model of the draws (solid) and the true intersection (dashed), oscillating along their first mode. */
 export function drawModel(
   pen: Pen,
   size: Size,
@@ -92,7 +92,7 @@ export function drawModel(
   if (truth) tipTrace(pen, plane, truth, palette.ink, 1.25);
 }
 
-/** The way of the first tip, from one end of the mode to the other. */
+/** Draws the path of the first tip along the mode. */
 function tipTrace(pen: Pen, plane: Plane, model: LessonModel, colour: string, width: number): void {
   const [from, to] = [swayed(model, -REACH), swayed(model, REACH)];
   pen.strokeStyle = colour;

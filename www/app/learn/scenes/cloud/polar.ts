@@ -1,4 +1,4 @@
-/** Polar histogram of the angles of the tips. */
+/** Draws the polar histogram of the angles of the tips. */
 import type { Size } from "../../canvas/LessonCanvas";
 import { faded, type Palette } from "../../canvas/palette";
 import { polarHistogram, restAngle } from "../../sampling/polar";
@@ -6,14 +6,14 @@ import type { BothSides } from "./run";
 
 type Pen = CanvasRenderingContext2D;
 
-/** Degrees; a bin in the middle for tips that stay in their place. */
+/** Width of a bin in degrees; a bin in the middle is for tips at rest. */
 const BIN = 2.5;
 const HALF = 61.25;
-/** Radii over half the side of the picture. */
+/** Radii as shares of half the width of the picture. */
 const RING = 0.4;
 const BARS = 0.5;
 
-/** Polar histogram: how often each tip is how far off its place, with what both models can make. */
+/** Draws the histogram of the deviation of each tip from its angle at rest, with the range that both models have. */
 export function drawPolar(
   pen: Pen,
   size: Size,
@@ -46,7 +46,7 @@ export function drawPolar(
     bins.forEach((share, bin) => {
       if (share === 0) return;
       const from = restAngle(tip) - HALF + bin * BIN;
-      // As much area as there are stars: lengths go with the root.
+      // The area is proportional to the number of stars, so lengths are to its square root.
       sector(pen, at, from + 0.2, from + BIN - 0.2, ring, ring + BARS * half * Math.sqrt(share));
       pen.fill();
     });

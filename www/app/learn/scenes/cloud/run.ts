@@ -1,4 +1,4 @@
-/** Draws of both sides that pile up, and the model that is made of them. */
+/** Runs the scene: samples the intersection from both models and computes the model of the draws. */
 import { batch, computed, signal } from "@preact/signals";
 import type {
   LaneFigures,
@@ -15,17 +15,17 @@ import { lessonState } from "../../state";
 
 export type CloudValues = SceneValues<"cloud">;
 
-/** Walks start anywhere, the others at draws of the fit. */
+/** Burn-in of the samplers: random walks start at any shape, the others at draws of the fit. */
 const BURN_IN = { walks: 500, others: 50 };
 const MOST_AT_ONCE = 10_000;
-/** A stage for the eye to follow. */
+/** Milliseconds of a stage of the animation. */
 const STAGE_MS = 420;
 const STARS_SHOWN = 150;
 export const MOST_DRAWS = 20_000;
-/** By how many times more is drawn when more is asked for. */
+/** Factor by which the number of draws grows when more are requested. */
 const MORE = 4;
 const SIDES = ["a", "b"] as const;
-/** Of the swaying of the model along its first mode. */
+/** Milliseconds of an oscillation of the model along its first mode. */
 const SWAY_MS = 4200;
 
 export type BothSides<T> = Record<LessonSide, T>;
@@ -35,10 +35,10 @@ export class CloudRun {
   readonly stars = signal<BothSides<Float32Array> | null>(null);
   readonly found = signal<LessonIntersection | null>(null);
   readonly diagnostics = signal<BothSides<LaneFigures> | null>(null);
-  /** Draws of each side so far. */
+  /** Draws of each model so far. */
   readonly draws = signal(0);
   readonly playing = signal(false);
-  /** Where the model is between −1 and 1 of its sway. */
+  /** Position of the oscillation, between −1 and 1. */
   readonly sway = signal(0);
   readonly #held = signal(false);
   readonly moving = computed(
@@ -52,7 +52,7 @@ export class CloudRun {
   #angle = 0;
   #over: ((draws: number) => void) | null = null;
 
-  /** Opens the models and goes through the burn-in; then all draws at once, or growing before the eye. */
+  /** Opens the models and makes the burn-in; then draws all at once, or animated. */
   async open(ask: Ask, values: CloudValues, growing: boolean): Promise<void> {
     const { pair, sigma, sampler, chains, seed, draws } = values;
     this.playing.value = false;
@@ -90,7 +90,7 @@ export class CloudRun {
     this.#turns.take(() => this.#nextStage());
   }
 
-  /** Stops growing; resolves to the draws that there are. */
+  /** Stops the animation; resolves to the present number of draws. */
   async pause(): Promise<number> {
     this.playing.value = false;
     this.#held.value = true;
@@ -100,7 +100,7 @@ export class CloudRun {
     return this.draws.peek();
   }
 
-  /** Draws more than were asked for; `over` is told how many there are in the end. */
+  /** Draws more; `over` gets the final number. */
   run(over: (draws: number) => void): void {
     this.#over = over;
     const { chains, draws: asked } = this.#values ?? { chains: 1, draws: 0 };
@@ -130,7 +130,7 @@ export class CloudRun {
         });
       }
     }
-    // As the command line counts: what was asked for, not what whole chains make of it.
+    // The requested number of draws, as on the command line, not its multiple of the number of chains.
     const isLast = this.#stages.length === 0;
     const said = isLast && Math.ceil(values.draws / values.chains) * values.chains === count;
     const counts = countsUpTo(said ? values.draws : count);

@@ -11,7 +11,7 @@ interface NumbersProps {
   side: "a" | "b";
 }
 
-/** How much is different, and how far PCA misleads. */
+/** Numbers of the difference: its share, and the share of PCA's shapes that are not in it. */
 export function Numbers({ run, own, other, side }: NumbersProps) {
   const found = run.found.value;
   const { probability = null, standardError = null } = found?.diagnostics ?? {};
@@ -31,15 +31,15 @@ export function Numbers({ run, own, other, side }: NumbersProps) {
         </span>{" "}
         of {own} cannot be made by {other}: E[1 − Lᴅ].
       </p>
-      <LessonNumbers label="What principal components would claim">
+      <LessonNumbers label="Shapes that PCA of the difference would make">
         <LessonNumber
-          label={`PCA’s shapes that ${other} makes too`}
+          label={`shapes of the PCA that ${other} can make too`}
           metric="principal.misled"
           value={misled}
           show={percent}
         />
         <LessonNumber
-          label="the same of the draws"
+          label="the same share of the draws"
           metric="principal.misledDraws"
           value={misledDraws}
           show={percent}

@@ -4,7 +4,7 @@ import { drawCut } from "./cut";
 import { drawDifference, Morph } from "./draw";
 import type { DifferenceRun } from "./run";
 
-/** The plane; alone, as it is drawn every frame. */
+/** The plane of two coefficients, a component of its own since it is drawn every frame. */
 export function Plane({ run, side }: { run: DifferenceRun; side: "a" | "b" }) {
   const morph = useMemo(() => new Morph(), []);
   const found = run.found.value;
@@ -23,8 +23,8 @@ export function Plane({ run, side }: { run: DifferenceRun; side: "a" | "b" }) {
         }}
       />
       <figcaption class="board-caption">
-        Bright: much of the {what}. Dots: exact draws, by rejection. The dashed ellipse is what a
-        mean and a covariance make of them.
+        Bright: high density of the {what}. Dots: exact draws by rejection sampling. Dashed: the
+        ellipse of their mean and covariance.
       </figcaption>
     </figure>
   );

@@ -1,28 +1,29 @@
-/** What to think about before the answer is looked at. */
+/** Questions about the scene, with answers to unfold. */
 export function Questions() {
   return (
     <div class="scene-questions">
       <details>
-        <summary>Make σ smaller and smaller. What becomes of the difference?</summary>
+        <summary>Make σ smaller and smaller. What happens to the difference?</summary>
         <p>
-          The ridge gets thinner: fewer and fewer shapes lie within σ of the other model, until the
-          hole is a scratch and the difference is all of the model. σ says how far apart two shapes
-          may be and still count as the same.
+          The hole gets narrower: fewer and fewer shapes lie within σ of the other model, until the
+          difference is nearly the whole model. σ says how far apart two shapes may be and still
+          count as the same.
         </p>
       </details>
       <details>
-        <summary>Why no principal components of a difference?</summary>
+        <summary>Why is there no PCA of a difference?</summary>
         <p>
-          A Gaussian is highest in the middle, and the middle is the hole. Its mean shape is one
-          that both models make. So the paper gives draws of the difference, and no model.
+          The density of a Gaussian is highest at its mean, and the mean of these draws is in the
+          hole: a shape that both models can make. So the paper gives draws of the difference, and
+          no model.
         </p>
       </details>
       <details>
         <summary>Why are these draws independent, unlike those of a chain?</summary>
         <p>
-          1 − Lᴅ lies between nought and one. Draw a shape of the model and keep it with that
-          probability: what is kept follows the difference exactly. The share that is kept is the
-          headline above.
+          1 − Lᴅ lies between zero and one. Rejection sampling draws a shape of the model and
+          accepts it with that probability: the accepted shapes are exact draws of the difference.
+          The share of accepted shapes is the percentage above.
         </p>
       </details>
     </div>

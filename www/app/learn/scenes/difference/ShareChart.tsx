@@ -15,15 +15,15 @@ interface Props {
   other: string;
 }
 
-/** How much of a model counts as different, over σ, with the σ in use. */
+/** Plot of the share of a model that the other cannot make, over σ, with the σ in use. */
 export function ShareChart({ shares, sigma, own, other }: Props) {
   const [first, last] = [shares[0], shares.at(-1)];
   if (!first || !last) return null;
   return (
     <Chart
       name="shares"
-      title="What counts as different depends on σ"
-      about={`Share of ${own} that ${other} cannot make. At small σ that is all of it.`}
+      title="Share of the difference over σ"
+      about={`Share of ${own} that ${other} cannot make. At small σ it is all of it.`}
       label={`Share of ${own} that ${other} cannot make: ${percent(first.share)} at σ = ${number(first.sigma)}, ${percent(last.share)} at σ = ${number(last.sigma)}.`}
       height={() => HEIGHT}
       draw={(width) => <Line shares={shares} sigma={sigma} width={width} />}

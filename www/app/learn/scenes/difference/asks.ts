@@ -1,4 +1,4 @@
-/** The difference of a side: fields, exact draws, and what PCA makes of them. */
+/** Requests the data of the scene: densities, exact draws of the difference, and their PCA. */
 import type {
   LaneFigures,
   LessonField,
@@ -13,19 +13,19 @@ import type { SceneValues } from "../../scenes";
 export type DifferenceValues = SceneValues<"difference">;
 
 export const EXTENT = 3.4;
-/** Odd: one column of the grid is at 0, for the cut. */
+/** Size of the grid; odd, so that one column is at 0, for the cut. */
 const FIELD_SIZE = 161;
 const MODES = 2;
 const FIRST_TWO: [number, number] = [0, 1];
 const GROUPS = { difference: 0, intersection: 1 };
-/** Draws of the intersection, to compare with. */
+/** Number of draws of the intersection. */
 const OTHERS = { chains: 4, burnIn: 50, steps: 150 };
-/** As far as the slider goes. */
+/** Range of σ, that of the slider. */
 const SIGMAS = [0.003, 0.01, 0.03, 0.06, 0.1, 0.17, 0.3, 0.5, 0.8, 1.3, 2, 3];
 const SHARE_DRAWS = 1500;
 
 export interface Cloud {
-  /** Two coefficients each. */
+  /** Two coefficients of each draw. */
   values: Float32Array;
   gaussian: LessonLaw;
 }
@@ -81,7 +81,7 @@ export async function findDifference(ask: Ask, values: DifferenceValues): Promis
   };
 }
 
-/** Opens the models anew for every σ: to be asked after everything else. */
+/** Computes the share of the difference over σ. Opens the models again for every σ, so it is called last. */
 export async function sharesOver(
   ask: Ask,
   { pair, side, seed }: DifferenceValues,
@@ -129,7 +129,7 @@ async function commonDraws(ask: Ask, { side, seed }: DifferenceValues): Promise<
   await ask({ ask: "advance", lane: group, steps: burnIn + steps, watch: false });
   const { values } = await ask({ ask: "draws", lane: group, most: chains * steps });
   const gaussian = await ask({ ask: "figures", lane: group });
-  // Chain after chain: in turn, so that it rains everywhere at once.
+  // Interleaves the chains, so that the dots appear everywhere at once.
   const mixed = new Float32Array(values.length);
   const count = values.length / MODES;
   for (let i = 0; i < count; i += 1) {

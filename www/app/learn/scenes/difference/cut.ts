@@ -1,11 +1,11 @@
-/** The likelihood along a line across the ridge. */
+/** Draws the likelihood along a line across the ridge. */
 import type { LessonField } from "../../../../worker/lessons";
 import type { Size } from "../../canvas/LessonCanvas";
 import type { Palette } from "../../canvas/palette";
 import { eased } from "../../sampling/pacing";
 import { EXTENT } from "./asks";
 
-/** L_D along α₂ where α₁ = 0, which turns upside down. */
+/** Draws L_D, or 1 − L_D, along α₂ where α₁ = 0. */
 export function drawCut(
   pen: CanvasRenderingContext2D,
   size: Size,

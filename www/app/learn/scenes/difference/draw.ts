@@ -1,4 +1,4 @@
-/** The plane of the difference: two densities that turn into one another, rain, and an ellipse. */
+/** Draws the plane of the difference: the density, the draws as falling dots, and the ellipse of their PCA. */
 import type { LessonField, LessonSide } from "../../../../worker/lessons";
 import { viridis } from "../../../text/colormap";
 import { drawPrior } from "../../canvas/chains";
@@ -10,13 +10,13 @@ import { type Cloud, EXTENT, type Found } from "./asks";
 
 type Pen = CanvasRenderingContext2D;
 
-/** How far below its maximum a density is still coloured, in units of log. */
+/** Difference of the log density from its maximum up to which it is coloured. */
 const DEPTH = 8;
 const RADIUS_SD = 2;
-/** The last so many drops are still on their way. */
+/** Number of the last dots that are still falling. */
 const FALLING = 14;
 
-/** A picture between two fields, drawn anew into the same canvas. */
+/** Image between two fields, drawn into the same canvas again. */
 export class Morph {
   readonly canvas = document.createElement("canvas");
   #shown: { from: LessonField; to: LessonField; way: number } | null = null;
@@ -49,7 +49,7 @@ interface Shown {
   morph: Morph;
   flip: number;
   side: LessonSide;
-  /** How many draws have fallen, of those that belong to the side that is up. */
+  /** Number of draws that have fallen, of the present distribution. */
   fallen: (count: number) => number;
 }
 
@@ -61,7 +61,7 @@ export function drawDifference(pen: Pen, size: Size, palette: Palette, shown: Sh
   drawPrior(pen, plane, palette, ["α₁", "α₂"]);
   const up = flip > 0.5 ? found.exclusive : found.common;
   const colour = flip > 0.5 ? palette[side] : palette.ab;
-  // What belongs to the other side leaves before it comes.
+  // The draws of one distribution disappear before those of the other appear.
   const alpha = Math.abs(2 * flip - 1);
   drawRain(pen, plane, size, up, shown.fallen(up.values.length / 2), colour, palette.raised, alpha);
   drawGaussian(
@@ -117,7 +117,7 @@ function drawRain(
   pen.globalAlpha = 1;
 }
 
-/** What a mean and a covariance say of the draws. */
+/** Draws the ellipse of the mean and covariance of the draws. */
 function drawGaussian(
   pen: Pen,
   plane: Plane,

@@ -1,4 +1,4 @@
-/** The story of the difference: rain, the flip, rain again. */
+/** Runs the scene: draws of the intersection appear, the likelihood is flipped, draws of the difference appear. */
 import { batch, computed, signal } from "@preact/signals";
 import { still } from "../../clock";
 import type { Ask } from "../../engine";
@@ -8,18 +8,18 @@ import { type DifferenceValues, type Found, findDifference, type Share, sharesOv
 
 const FLIP_MS = 1100;
 const RAIN_MS = 6000;
-/** The likelihood flips by itself once it has been seen as it was. */
+/** Milliseconds after which the likelihood is flipped automatically. */
 const STORY_MS = 3200;
 export class DifferenceRun {
   readonly found = signal<Found | null>(null);
-  /** The share that the other model cannot make, over σ. */
+  /** Share of the model that the other cannot make, over σ. */
   readonly shares = signal<readonly Share[]>([]);
   #sharesOf = "";
   /** 0: L_D; 1: 1 − L_D; between them while it flips. */
   readonly flip = signal(0);
-  /** Which of them it goes to. */
+  /** The one that it changes to. */
   readonly flipped = signal(false);
-  /** Milliseconds of rain so far. */
+  /** Milliseconds of falling dots so far. */
   readonly rain = signal(RAIN_MS);
   readonly raining = signal(false);
   readonly #story = signal(0);
@@ -38,7 +38,7 @@ export class DifferenceRun {
     await this.#sweep(ask, values);
   }
 
-  /** Other models are opened for it: after everything else. */
+  /** Computes the shares over σ, last, since it opens other models. */
   async #sweep(ask: Ask, values: DifferenceValues): Promise<void> {
     const { pair, side, seed } = values;
     const what = [pair, side, seed].join();
@@ -47,7 +47,7 @@ export class DifferenceRun {
     this.#sharesOf = what;
   }
 
-  /** From the start: rain on the likelihood as it was, then the flip. */
+  /** Restarts the animation: draws of the intersection first, then the flip. */
   #tell(): void {
     if (still.peek()) {
       this.turn(true);
@@ -68,7 +68,7 @@ export class DifferenceRun {
     else this.startRain();
   }
 
-  /** Flips; what told itself is over. */
+  /** Flips the likelihood and ends the automatic animation. */
   turn(flipped: boolean): void {
     this.#story.value = 0;
     if (this.flipped.peek() === flipped) return;
@@ -77,7 +77,7 @@ export class DifferenceRun {
     else this.startRain();
   }
 
-  /** As a link has it: no movement. */
+  /** Shows the state of a link, without an animation. */
   show(flipped: boolean): void {
     this.#story.value = 0;
     this.flipped.value = flipped;
@@ -102,7 +102,7 @@ export class DifferenceRun {
     }
   }
 
-  /** How many of `count` draws have fallen. */
+  /** Number of `count` draws that have fallen. */
   fallen(count: number): number {
     return rained(this.rain.value / RAIN_MS, count);
   }

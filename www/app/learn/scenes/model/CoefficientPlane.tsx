@@ -8,7 +8,7 @@ import { faded, type Palette } from "../../canvas/palette";
 import { drawField, type Plane, planeOf } from "../../canvas/plane";
 import { tintedField } from "../../canvas/tint";
 
-/** Standard deviations from the middle to the rim. */
+/** Range of the plane, in standard deviations. */
 export const EXTENT = 3.4;
 /** Places that the point came through, for its tail. */
 const TAIL = 70;
@@ -23,7 +23,7 @@ interface Props {
   onToggle: () => void;
 }
 
-/** The plane of the first two coefficients, with the density and a point to hold. */
+/** The plane of the first two coefficients, with the density and a draggable point. */
 export function CoefficientPlane({
   field,
   coefficients,
@@ -34,7 +34,7 @@ export function CoefficientPlane({
   onToggle,
 }: Props) {
   const dark = isDark();
-  // Made when it is drawn first: the colour is known then.
+  // Created at the first drawing, when the colour is known.
   const image = useMemo(
     () => ({ of: field, side, dark, picture: null as HTMLCanvasElement | null }),
     [field, side, dark],
@@ -64,7 +64,7 @@ export function CoefficientPlane({
     apart.current = [u, v];
     return true;
   };
-  // While it moves by itself, its position is nothing to read out.
+  // While it moves automatically, its position is not read out.
   const where = moving
     ? ""
     : `: α₁ is ${coefficients[0].toFixed(1)}, α₂ is ${coefficients[1].toFixed(1)}`;
@@ -105,7 +105,7 @@ function drawAxes(pen: CanvasRenderingContext2D, plane: Plane, size: Size, palet
     weight: 600,
   });
   write(pen, palette, "α₂ ↑", [plane.x(0) + 9, 16], { colour: palette.second, weight: 600 });
-  write(pen, palette, "the fuller the colour, the higher p(α)", [10, size.height - 16], {
+  write(pen, palette, "stronger colour: higher p(α)", [10, size.height - 16], {
     colour: palette.dim,
     size: 0.9,
   });
@@ -122,7 +122,7 @@ function drawRings(pen: CanvasRenderingContext2D, plane: Plane, palette: Palette
     pen.beginPath();
     pen.arc(plane.x(0), plane.y(0), radius * plane.scale, 0, 2 * Math.PI);
     pen.stroke();
-    // On the way down to the left, where neither axis has its name.
+    // On the lower left diagonal, away from the names of the axes.
     const [x, y] = [plane.x(-0.71 * radius), plane.y(-0.71 * radius)];
     write(pen, palette, `${radius} SD`, [x, y], {
       colour: palette.dim,
@@ -150,7 +150,7 @@ function drawTail(
   }
 }
 
-/** From the middle along the first coefficient, then along the second. */
+/** Draws the two coefficients: from the mean along the first, then along the second. */
 function drawLegs(
   pen: CanvasRenderingContext2D,
   plane: Plane,

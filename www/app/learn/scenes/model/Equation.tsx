@@ -11,7 +11,7 @@ interface Props {
   side: LessonSide;
 }
 
-/** The formula as a row of small stars: what is added up, in numbers that move with the point. */
+/** The formula of a shape as a row of small stars, with the present coefficients. */
 export function Equation({ model, coefficients, shape, side }: Props) {
   const [first = 0, second = 0] = coefficients;
   return (
@@ -84,7 +84,7 @@ function Factor({ value, name, order }: { value: number; name: string; order: st
   );
 }
 
-/** A mode is no shape but a way to go: an arrow at each point of the mean. */
+/** A mode as arrows at the points of the mean: it is a displacement, not a shape. */
 function Mode({ model, mode }: { model: LessonModel; mode: number }) {
   const way = modeOf(model, mode);
   const points = Array.from({ length: model.mean.length / 2 }, (_, i) => i);

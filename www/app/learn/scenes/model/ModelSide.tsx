@@ -14,13 +14,13 @@ interface Props {
   side: LessonSide;
 }
 
-/** How plausible the shape is, and of which model it is one. */
+/** Panel of the scene: plausibility of the shape, and the choice of the model. */
 export function ModelSide({ point, playing, onToggle, pair, side }: Props) {
   return (
     <div class="scene-side">
       <PlayBar playing={playing} onToggle={onToggle} onReset={resetScene} />
       <p class="board-caption" id="model-help">
-        Drag the point, or press an arrow key on it: by 0.1, with Shift by 0.5. Home goes to the
+        Drag the point, or move it with the arrow keys: by 0.1, with Shift by 0.5. Home goes to the
         mean.
       </p>
       <LessonNumbers label="The shape in numbers">

@@ -5,18 +5,18 @@ import { faded, type Palette } from "../../canvas/palette";
 import { drawOverMean, type Plane, planeOf, traceOutline } from "../../canvas/plane";
 import { modeOf, pointOf, shapeAt } from "../../shape";
 
-/** As far as a star of these models goes, in its own units. */
+/** Range of the picture, in units of the star. */
 export const STAR_EXTENT = 13.5;
 
 interface Props {
   model: LessonModel | null;
   coefficients: readonly number[];
   side: LessonSide;
-  /** Shapes of the model, one after the other. */
+  /** Random shapes of the model, one after the other. */
   cloud: Float32Array | null;
 }
 
-/** The mean, the shape, and how the one becomes the other at each of its points. */
+/** Picture of the mean and the shape, with the displacement of each point by the modes. */
 export function StarCanvas({ model, coefficients, side, cloud }: Props) {
   const draw = (pen: CanvasRenderingContext2D, size: Size, palette: Palette) => {
     if (!model) return;
@@ -35,7 +35,7 @@ export function StarCanvas({ model, coefficients, side, cloud }: Props) {
   };
   return (
     <LessonCanvas
-      label="A star: its mean as a dashed line, the shape of the present coefficients as a solid one, and arrows that say how far each mode takes each point."
+      label="A star: its mean as a dashed line, the shape of the present coefficients as a solid one, and arrows that show how far each mode moves each point."
       aspect={0.94}
       draw={draw}
     />
@@ -57,7 +57,7 @@ function drawCloud(
   }
 }
 
-/** At each point: from the mean along the first mode, then along the second, and there is the shape. */
+/** Draws the displacement of each point: from the mean along the first mode, then along the second. */
 function drawSums(
   pen: CanvasRenderingContext2D,
   plane: Plane,
@@ -78,7 +78,7 @@ function drawSums(
   }
 }
 
-/** The two lines are called by their names, beside a tip that never moves. */
+/** Labels the two outlines, beside a tip that does not move. */
 function name(
   pen: CanvasRenderingContext2D,
   plane: Plane,
@@ -101,7 +101,7 @@ function name(
     colour: palette.dim,
     align: "right",
   });
-  write(pen, palette, "faint: other shapes it makes", [12, plane.y(-STAR_EXTENT) - 16], {
+  write(pen, palette, "faint: random shapes of the model", [12, plane.y(-STAR_EXTENT) - 16], {
     colour: palette.dim,
     size: 0.9,
   });

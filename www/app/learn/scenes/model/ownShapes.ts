@@ -2,7 +2,7 @@ import type { LaneShapes, LessonModels, LessonSide } from "../../../../worker/le
 import { type Asked, useAsked } from "../../asked";
 import type { Ask } from "../../engine";
 
-/** Some shapes that a model makes by itself: exact draws of its own distribution. */
+/** Random shapes of a model: exact draws from its distribution. */
 const OWN_SHAPES = 60;
 const GROUP = 0;
 

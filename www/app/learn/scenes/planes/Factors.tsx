@@ -7,11 +7,11 @@ interface Props {
   side: LessonSide;
 }
 
-/** What is multiplied: near, plausible there, plausible here. Bars show factors, from 0 to 1. */
+/** The factors of the density of A∩B at the point, as bars from 0 to 1: nearness, plausibility in both models. */
 export function Factors({ point, side }: Props) {
   const [here, there] = side === "a" ? ["A", "B"] : ["B", "A"];
   return (
-    <dl class="factors" aria-label="What makes x common to both">
+    <dl class="factors" aria-label="Factors of the density of A∩B at x">
       <Factor
         name="near"
         formula={

@@ -10,7 +10,7 @@ const set = (part: Partial<SceneValues<"planes">>) => setParams("planes", part);
 
 type Arrangement = Pick<SceneValues<"planes">, "sigma" | "tilt" | "shift" | "lift">;
 
-/** How the planes lie, and how near is near. */
+/** Sliders for the position of the planes and for σ. */
 export function Sliders({ sigma, tilt, shift, lift }: Arrangement) {
   return (
     <div class="planes-sliders">

@@ -34,7 +34,7 @@ interface Props {
 
 /** Pixels of a drag for one radian. */
 const PER_RADIAN = 170;
-/** How far keys turn it. */
+/** Radians by which a key turns the view. */
 const KEY_TURN = 0.1;
 const TURNS: Record<string, Flat> = {
   j: [-KEY_TURN, 0],
@@ -42,7 +42,7 @@ const TURNS: Record<string, Flat> = {
   i: [0, KEY_TURN],
   k: [0, -KEY_TURN],
 };
-/** How much of the height of the board the sheets fill when they are seen at their largest. */
+/** Half height of the canvas in units of space. */
 const FILLED = 3.85;
 
 export function sheetOf({ mean, basis }: LessonModel): Sheet {
@@ -54,7 +54,7 @@ export function sheetOf({ mean, basis }: LessonModel): Sheet {
   return { middle: vec(mean, 0), first: vec(basis, 0), second: vec(basis, 3) };
 }
 
-/** Two planes in space, what is common to them, and a point of one with the nearest of the other. */
+/** Canvas with two planes in space, their intersection, and a point of one with the nearest point of the other. */
 export function SpaceCanvas(props: Props) {
   const { models, fields, side, coefficients, point, turn } = props;
   const dark = isDark();
@@ -111,7 +111,7 @@ export function SpaceCanvas(props: Props) {
   };
   return (
     <LessonCanvas
-      label="Two planes in space, that of model A and that of model B, each with the ellipse of its plausible shapes. What is common to both glows along the line in which they meet. A point x of one plane and the nearest point of the other are joined by a line. Arrow keys move x; J, L, I and K turn the view."
+      label="Two planes in space, that of model A and that of model B, each with the ellipse of its plausible shapes. The density of their intersection is bright along the line in which they meet. A point x of one plane and the nearest point of the other are joined by a line. Arrow keys move x; J, L, I and K turn the view."
       help="planes-help"
       aspect={0.74}
       draw={draw}
@@ -122,7 +122,7 @@ export function SpaceCanvas(props: Props) {
   );
 }
 
-/** Never over the top. */
+/** Limits the pitch, so that the view is never upside down. */
 const upright = ([yaw, pitch]: Flat): Flat => [
   yaw > 2 * Math.PI ? yaw - 2 * Math.PI : yaw < -2 * Math.PI ? yaw + 2 * Math.PI : yaw,
   Math.min(1.5, Math.max(-1.5, pitch)),
@@ -130,7 +130,7 @@ const upright = ([yaw, pitch]: Flat): Flat => [
 
 const scaleOf = ({ width, height }: Size) => Math.min(width / 1.25, height) / (2 * FILLED);
 
-/** Between pixels and what is seen, with the middle of both sheets in the middle of the board. */
+/** Projection from space to pixels and back, with the middle of both sheets in the middle of the canvas. */
 function projectionOf(view: View, size: Size, { a, b }: Record<LessonSide, Sheet>) {
   const scale = scaleOf(size);
   const [[ax, ay], [bx, by]] = [seen(view, a.middle), seen(view, b.middle)];
@@ -144,7 +144,7 @@ function projectionOf(view: View, size: Size, { a, b }: Record<LessonSide, Sheet
   return { to, from };
 }
 
-/** Pictures of the fields, made once they are first drawn: then the colours are known. */
+/** Images of the densities, created at the first drawing, when the colours are known. */
 function usePictures(fields: Props["fields"], dark: boolean) {
   const { a, b } = fields;
   const kept = useMemo(

@@ -1,10 +1,10 @@
-/** Draws two sheets in space: what is behind first. */
+/** Draws two sheets in space, back to front. */
 import { faded, type Palette } from "../../canvas/palette";
 import { cornersOf, cutAt, type Flat, pointAt, type Sheet, type Vec, type View } from "./space";
 
-/** Standard deviations from the middle of a sheet to its edge, which is that of its density too. */
+/** Half size of a sheet and of its density, in standard deviations. */
 export const EXTENT = 2.6;
-/** The allowable domain: standard deviations from the middle to the rim of the ellipse. */
+/** Radius of the allowable domain, in standard deviations. */
 export const ALLOWABLE = 2;
 
 export interface Side {
@@ -14,7 +14,7 @@ export interface Side {
   picture: HTMLCanvasElement | null;
 }
 
-/** From space to pixels. */
+/** Projection from space to pixels. */
 export type ToCanvas = (point: Vec) => Flat;
 
 export function drawSheets(
@@ -30,7 +30,7 @@ export function drawSheets(
   drawPart(pen, palette, to, b, before);
 }
 
-/** A sheet as far as a polygon of it reaches. */
+/** Draws the part of a sheet inside a polygon. */
 function drawPart(
   pen: CanvasRenderingContext2D,
   palette: Palette,
@@ -63,7 +63,7 @@ function trace(pen: CanvasRenderingContext2D, points: readonly Flat[]): void {
   pen.closePath();
 }
 
-/** A line at every standard deviation: a plane that is seen to be one. */
+/** Draws a grid line at every standard deviation. */
 function drawGrid(pen: CanvasRenderingContext2D, to: ToCanvas, sheet: Sheet, colour: string): void {
   pen.lineWidth = 1;
   pen.strokeStyle = colour;
@@ -96,8 +96,8 @@ function drawRing(
 }
 
 /**
- * Lays a picture on a sheet. Seen from far away, a plane is an affine picture of its coefficients, so that
- * one transformation of the canvas is exact.
+ * Draws an image on a sheet. In parallel projection a plane is an affine image of its coefficients, so one
+ * transformation of the canvas is exact.
  */
 function drawPicture(
   pen: CanvasRenderingContext2D,
@@ -108,7 +108,7 @@ function drawPicture(
   const [ox, oy] = to(sheet.middle);
   const [fx, fy] = to(pointAt(sheet, [1, 0]));
   const [gx, gy] = to(pointAt(sheet, [0, 1]));
-  // Numbers are those at the middles of the picture’s dots.
+  // Values are those at the centres of the pixels.
   const dots = picture.width;
   const step = (2 * EXTENT) / (dots - 1);
   const start = -EXTENT - step / 2;

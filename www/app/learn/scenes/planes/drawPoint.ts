@@ -1,21 +1,21 @@
-/** What lies on the sheets: the line that they share, the point and the nearest one of the other. */
+/** Draws the common line of the sheets, the point, and the nearest point of the other sheet. */
 import type { LessonPoint, LessonSide } from "../../../../worker/lessons";
 import { arrow, handle, write } from "../../canvas/marks";
 import type { Palette } from "../../canvas/palette";
 import { ALLOWABLE, EXTENT, type ToCanvas } from "./draw";
 import { along, commonSegment, type Flat, meeting, pointAt, type Sheet } from "./space";
 
-/** As far as the line is drawn. */
+/** Length of the drawn line. */
 const FAR = 6;
 
-/** The corner that lies furthest to the right (0) or furthest down (1): there is room for a letter. */
+/** The corner furthest to the right (0) or furthest down (1), where the letter is written. */
 export function cornerOf(sheet: Sheet, to: ToCanvas, axis: 0 | 1): Flat {
   const far = 0.88 * EXTENT;
   const corners = [-far, far].flatMap((s) => [-far, far].map((t) => to(pointAt(sheet, [s, t]))));
   return corners.reduce((most, corner) => (corner[axis] > most[axis] ? corner : most));
 }
 
-/** The line where the planes meet, and the piece of it that lies in both ellipses. */
+/** Draws the line where the planes meet, and its segment inside both ellipses. */
 export function drawCommon(
   pen: CanvasRenderingContext2D,
   palette: Palette,
@@ -49,7 +49,7 @@ export function drawCommon(
   });
 }
 
-/** x, x′ and the way from the one to the other. */
+/** Draws x, x′ and the line between them. */
 export function drawPoint(
   pen: CanvasRenderingContext2D,
   palette: Palette,
@@ -70,12 +70,12 @@ export function drawPoint(
     const [u, v] = [near[0] - spot[0], near[1] - spot[1]];
     const length = Math.hypot(u, v);
     if (length > 26) {
-      // Below the line, where neither point has its name.
+      // Below the line, away from the names of the points.
       const down = (u < 0 ? -0.9 : 0.9) * (palette.text / length);
       const middle: Flat = [(spot[0] + near[0]) / 2 - down * v, (spot[1] + near[1]) / 2 + down * u];
       write(pen, palette, "d", middle, { ...italic, align: "center", size: 1.15 });
     }
-    // Its name on the far side of the point.
+    // The name is on the other side of the point.
     const down = near[1] > spot[1] ? 18 : -18;
     write(pen, palette, "x′", [near[0] + 8, near[1] + down], { ...italic, colour: palette[other] });
   }

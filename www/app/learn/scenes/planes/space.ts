@@ -1,9 +1,9 @@
-/** Planes in space as they are seen: turned, cut along their common line, laid flat on a board. Pure. */
+/** Geometry of two planes in space: parallel projection, cut along their common line, common segment. Pure. */
 
 export type Vec = readonly [number, number, number];
 export type Flat = readonly [number, number];
 
-/** A plane by its middle and two ways along it: the mean and the scaled modes of a model of one point. */
+/** A plane by a point and two directions: the mean and the scaled modes of a model of one point. */
 export interface Sheet {
   middle: Vec;
   first: Vec;
@@ -33,9 +33,9 @@ export function normalOf({ first, second }: Sheet): Vec {
   return unit(cross(first, second));
 }
 
-/** Where somebody looks from, far away: z is up. */
+/** Direction of a parallel projection; z is up. */
 export interface View {
-  /** Towards whoever looks. */
+  /** Direction towards the viewer. */
   towards: Vec;
   right: Vec;
   up: Vec;
@@ -50,12 +50,12 @@ export function viewFrom(yaw: number, pitch: number): View {
   };
 }
 
-/** Right and up, as seen; how near does not matter from so far away. */
+/** Coordinates to the right and up in the projection. */
 export function seen({ right, up }: View, point: Vec): Flat {
   return [dot(right, point), dot(up, point)];
 }
 
-/** The four corners of a sheet that goes `extent` standard deviations far. */
+/** The four corners of a sheet of `extent` standard deviations. */
 export function cornersOf(sheet: Sheet, extent: number): Vec[] {
   return [
     pointAt(sheet, [-extent, -extent]),
@@ -65,21 +65,21 @@ export function cornersOf(sheet: Sheet, extent: number): Vec[] {
   ];
 }
 
-/** What of a polygon lies on the side of a plane that `normal` points to. */
+/** The part of a polygon on the side of a plane to which `normal` points. */
 export function cut(polygon: readonly Vec[], through: Vec, normal: Vec): Vec[] {
   const height = (point: Vec) => dot(normal, minus(point, through));
   return polygon.flatMap((here, i) => {
     const next = polygon[(i + 1) % polygon.length] ?? here;
     const [h, k] = [height(here), height(next)];
     const kept = h >= 0 ? [here] : [];
-    // Where the edge goes through the plane.
+    // Intersection of the edge with the plane.
     if ((h > 0 && k < 0) || (h < 0 && k > 0))
       kept.push(along(here, minus(next, here), h / (h - k)));
     return kept;
   });
 }
 
-/** The parts of B behind A and before A, so that what is drawn later lies before what is drawn first. */
+/** The parts of B behind and in front of A, to draw them back to front. */
 export function cutAt(
   a: Sheet,
   b: readonly Vec[],
@@ -96,7 +96,7 @@ export interface Line {
   way: Vec;
 }
 
-/** Where two planes meet; null where they are parallel. */
+/** The line of intersection of two planes; null if they are parallel. */
 export function meeting(a: Sheet, b: Sheet): Line | null {
   const [n, m] = [normalOf(a), normalOf(b)];
   const way = cross(n, m);
@@ -107,13 +107,13 @@ export function meeting(a: Sheet, b: Sheet): Line | null {
   return { from, way: unit(way) };
 }
 
-/** Coefficients of a point of a sheet, whose ways are at right angles. */
+/** Coefficients of a point of a sheet, whose directions are orthogonal. */
 function coefficientsIn({ middle, first, second }: Sheet, point: Vec): Flat {
   const off = minus(point, middle);
   return [dot(off, first) / dot(first, first), dot(off, second) / dot(second, second)];
 }
 
-/** From where to where along a line the ellipse of `radius` standard deviations reaches. */
+/** The interval of a line inside the ellipse of `radius` standard deviations. */
 export function reachOf(sheet: Sheet, { from, way }: Line, radius: number): Flat | null {
   const start = coefficientsIn(sheet, from);
   const end = coefficientsIn(sheet, along(from, way, 1));
@@ -127,7 +127,7 @@ export function reachOf(sheet: Sheet, { from, way }: Line, radius: number): Flat
   return [(-b - root) / a, (-b + root) / a];
 }
 
-/** The common segment I of both allowable domains; null where they do not meet. */
+/** The common segment I of both allowable domains; null if there is none. */
 export function commonSegment(a: Sheet, b: Sheet, radius: number): readonly [Vec, Vec] | null {
   const line = meeting(a, b);
   const [one, other] = line ? [reachOf(a, line, radius), reachOf(b, line, radius)] : [null, null];
@@ -136,7 +136,7 @@ export function commonSegment(a: Sheet, b: Sheet, radius: number): readonly [Vec
   return low < high ? [along(line.from, line.way, low), along(line.from, line.way, high)] : null;
 }
 
-/** Coefficients under a pointer; null where the sheet is seen from its edge. */
+/** Coefficients of the point under a pointer; null if the sheet is seen edge-on. */
 export function under(sheet: Sheet, view: View, at: Flat): Flat | null {
   const [x, y] = seen(view, sheet.middle);
   const [[a, c], [b, d]] = [seen(view, sheet.first), seen(view, sheet.second)];

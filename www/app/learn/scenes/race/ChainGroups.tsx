@@ -4,9 +4,9 @@ import { params } from "../../state";
 import { drawRunner, type Scenery } from "./draw";
 import type { RaceRun, Runner } from "./run";
 
-/** A board for each sampler. */
+/** Pictures of the chains, one for each sampler. */
 export function ChainGroups({ run }: { run: RaceRun }) {
-  // Where they are now.
+  // Renders again after every step.
   run.step.value;
   const [image, view, models] = [run.image.value, run.view.value, run.models.value];
   const { side, break: what } = params("race").value;

@@ -2,7 +2,7 @@ import { number } from "../../../text/format";
 import { LessonNumber, LessonNumbers } from "../../parts/controls";
 import type { RaceRun } from "./run";
 
-/** E‖α‖²/q of both walks: the one number that the scaling move breaks. */
+/** E‖α‖²/q of both random walks, which the scaling move without its Hastings factor makes wrong. */
 export function Squares({ run }: { run: RaceRun }) {
   const [published, corrected] = run.diagnostics.value;
   return (
@@ -23,7 +23,7 @@ export function Squares({ run }: { run: RaceRun }) {
   );
 }
 
-/** How far the draws of the last runner are from the other model, beside what σ allows. */
+/** Mean distance of the draws of the last sampler to the other model, with σ. */
 export function Distance({ run }: { run: RaceRun }) {
   const last = run.diagnostics.value.length - 1;
   const sigma = run.models.value?.sigma;
@@ -33,11 +33,7 @@ export function Distance({ run }: { run: RaceRun }) {
         label="mean d, independence"
         metric={`race.${last}.figures.meanDistance`}
         value={run.diagnostics.value[last]?.meanDistance}
-        note={
-          sigma === undefined
-            ? undefined
-            : `σ is ${number(sigma)}: about as much is as it should be`
-        }
+        note={sigma === undefined ? undefined : `σ is ${number(sigma)}; d should be about as large`}
       />
     </LessonNumbers>
   );

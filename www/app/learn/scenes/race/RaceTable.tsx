@@ -5,9 +5,9 @@ import { SAMPLER_NAMES } from "../../sampling/names";
 import { R_HAT_LIMIT } from "../../sampling/verdicts";
 import type { Runner } from "./run";
 
-/** Effective draws of 1,000 evaluations: from hardly any to independent ones. */
+/** Range of the effective draws per 1,000 evaluations; 1,000 are independent draws. */
 const [LOW, HIGH] = [0.1, 1000];
-/** Bars so long have their number on them. */
+/** Share of the width from which on a bar has its number inside. */
 const INSIDE = 0.62;
 
 interface Props {
@@ -15,19 +15,19 @@ interface Props {
   diagnostics: readonly LaneFigures[];
 }
 
-/** What each sampler yields for the same work, over the logarithm, and whether its chains agree. */
+/** Table of effective draws per 1,000 evaluations, R-hat and acceptance of each sampler. */
 export function RaceTable({ runners, diagnostics }: Props) {
   return (
     <table class="race-table">
       <caption>
-        Effective draws of 1,000 evaluations of the density (a gradient counts as one more),
+        Effective draws per 1,000 evaluations of the density (a gradient counts as one more),
         logarithmic
       </caption>
       <thead>
         <tr>
           <th scope="col">Sampler</th>
           <th scope="col" class="race-scale">
-            <span class="unseen">Effective draws of 1,000 evaluations</span>
+            <span class="unseen">Effective draws per 1,000 evaluations</span>
             <span class="race-ticks" aria-hidden="true">
               {logTicks(LOW, HIGH).map((value) => (
                 <span key={value} style={{ left: `${100 * logShare(value, LOW, HIGH)}%` }}>

@@ -6,10 +6,10 @@ import { letterSpace } from "../../parts/lettering";
 import type { Moment } from "./run";
 
 const HEIGHT = 230;
-/** What the walk without its Hastings factor comes to on 50 coefficients, from a long run. */
+/** Limit of the walk without its Hastings factor for 50 coefficients, from a long run. */
 const WITHOUT = 0.53;
 
-/** E‖α‖²/q of both walks as they go on; 1 is right. */
+/** Plot of E‖α‖²/q of both random walks over the steps; 1 is right. */
 export function SquareChart({ curve, most }: { curve: readonly Moment[]; most: number }) {
   const last = curve.at(-1);
   const [published = Number.NaN, corrected = Number.NaN] = last?.meanSquares ?? [];
@@ -17,7 +17,7 @@ export function SquareChart({ curve, most }: { curve: readonly Moment[]; most: n
     <Chart
       name="squares"
       title="E‖α‖²/q of all draws so far"
-      about="1 for the target. Without the Hastings factor of the scaling move the walk comes to 0.53."
+      about="1 for the target. Without the Hastings factor of the scaling move the walk converges to 0.53."
       label={`Mean of ‖α‖²/q after ${count(last?.step ?? 0)} steps: ${number(published)} as published, ${number(corrected)} corrected; 1 is right.`}
       height={() => HEIGHT}
       draw={(width) => <Curves curve={curve} most={most} width={width} />}

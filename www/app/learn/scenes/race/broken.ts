@@ -1,4 +1,4 @@
-/** What is broken in a race, and where its pictures look. Pure. */
+/** The four failures of the scene: their settings, names and explanations, and the drawn range. Pure. */
 import type { LaneFigures, LessonAsk, LessonLaw, LessonSampler } from "../../../../worker/lessons";
 import { count, number, percent } from "../../../text/format";
 import { R_HAT_LIMIT, type Verdict } from "../../sampling/verdicts";
@@ -6,13 +6,13 @@ import type { BREAKS, SceneValues } from "../../scenes";
 
 export type Break = (typeof BREAKS)[number];
 
-/** Those that race, in the order of what they gain. */
+/** The compared samplers, in the order of their efficiency. */
 export const RACERS = ["paper", "paper-corrected", "mala", "hmc", "independence"] as const;
 const WALKERS = ["paper", "paper-corrected"] as const;
 
-/** Dimension on which the scaling move goes wrong for all to see. */
+/** Dimension in which the error of the scaling move is clearly visible. */
 export const DIMENSION = 50;
-/** By how much σ is too small, and by how many degrees B is turned. */
+/** Factor by which σ is too small, and degrees by which B is rotated. */
 const SIGMA_OVER = 30;
 const TURNED = 8;
 
@@ -40,7 +40,7 @@ export function broken(values: SceneValues<"race">): Broken {
   };
 }
 
-/** What a board shows: a square around the middle of the law, and the field around it. */
+/** Range of a picture: a square around the mean of the distribution, and that of the density. */
 export interface View {
   centre: [number, number];
   extent: number;
@@ -59,27 +59,27 @@ export function viewOf({ mean, covariance }: LessonLaw, target: string): View {
 }
 
 export interface BreakWords {
-  /** On its button. */
+  /** Label of its button. */
   name: string;
-  /** What is done. */
+  /** Explanation. */
   about: string;
 }
 
 export const BREAK_WORDS: Record<Break, BreakWords> = {
-  none: { name: "Nothing broken", about: "All five draw from the same intersection." },
+  none: { name: "Nothing broken", about: "All five samplers draw from the same intersection." },
   scaling: {
     name: "Uncorrected scaling",
-    about: `Both walks on a standard normal law of ${DIMENSION} coefficients, where ‖α‖²/q is 1 on average.`,
+    about: `Both random walks on a standard normal distribution of ${DIMENSION} coefficients, where ‖α‖²/q is 1 on average.`,
   },
   "one-chain": { name: "One chain", about: "Each sampler has a single chain." },
   sigma: { name: "σ far too small", about: "σ is a thirtieth of what it was." },
   misaligned: {
     name: "Misaligned models",
-    about: `B is turned by ${TURNED}° before it is compared, as after a careless alignment.`,
+    about: `B is rotated by ${TURNED}° before it is compared, as after a wrong alignment.`,
   },
 };
 
-/** What went wrong, and how one notices. */
+/** Explains a failure with its numbers, and how it can be detected. */
 export function raceVerdict(
   what: Break,
   diagnostics: readonly LaneFigures[],
@@ -87,24 +87,25 @@ export function raceVerdict(
 ): Verdict {
   const [published, corrected] = diagnostics;
   const last = diagnostics.at(-1);
-  if (!published || !corrected || !last) return { calm: true, text: "They are on their way." };
+  if (!published || !corrected || !last)
+    return { calm: true, text: "Waiting for the first diagnostics." };
   switch (what) {
     case "scaling":
       return scalingVerdict(published, corrected);
     case "one-chain":
       return {
         calm: false,
-        text: `With one chain R-hat can only compare its two halves (${rHat(corrected)} for the corrected walk). It does not know what the chain has never seen. One notices by starting several chains far apart.`,
+        text: `With one chain R-hat can only compare its two halves (${rHat(corrected)} for the corrected walk). It does not show which shapes the chain has not reached. Several chains with distant starting points would.`,
       };
     case "sigma":
       return {
         calm: false,
-        text: `The walk’s steps are far wider than the ridge: it accepts ${percent(corrected.acceptance)} of them and is worth ${draws(corrected)} effective draws in 1,000 evaluations. One notices by the acceptance, and by R-hat ${rHat(corrected)}.`,
+        text: `The steps of the random walk are far wider than the ridge of the density: it accepts ${percent(corrected.acceptance)} of them and has ${draws(corrected)} effective draws in 1,000 evaluations. The acceptance shows it, and R-hat ${rHat(corrected)}.`,
       };
     case "misaligned":
       return {
         calm: false,
-        text: `Good samplers converge all the same (R-hat ${rHat(last)}, independence): to shapes that B cannot make at all. No diagnostic of chains tells that. One notices by the draws’ distance to B, ${number(last.meanDistance ?? Number.NaN)}: ${count((last.meanDistance ?? 0) / sigma)} times σ.`,
+        text: `Good samplers converge nevertheless (R-hat ${rHat(last)}, independence), to shapes that B cannot make. No diagnostic of chains detects this. The distance of the draws to B does, ${number(last.meanDistance ?? Number.NaN)}: ${count((last.meanDistance ?? 0) / sigma)} times σ.`,
       };
     case "none":
       return wholeVerdict(corrected, last);
@@ -114,13 +115,14 @@ export function raceVerdict(
 function scalingVerdict(published: LaneFigures, corrected: LaneFigures): Verdict {
   return {
     calm: false,
-    text: `As published the walk shrinks: E‖α‖²/q is ${number(published.meanSquare)} instead of 1; with the Hastings factor it is ${number(corrected.meanSquare)}. R-hat does not tell right from wrong here (${rHat(corrected)} and ${rHat(published)}): chains can agree on the wrong law. One notices on a target whose answer is known, like this one.`,
+    text: `As published the random walk has too little variance: E‖α‖²/q is ${number(published.meanSquare)} instead of 1; with the Hastings factor it is ${number(corrected.meanSquare)}. R-hat does not detect this (${rHat(corrected)} and ${rHat(published)}): chains can agree on the wrong distribution. A test on a known distribution, like this one, does.`,
   };
 }
 
 function wholeVerdict(walk: LaneFigures, best: LaneFigures): Verdict {
   const [slow, fast] = [walk.essPerThousand, best.essPerThousand];
-  if (slow === null || fast === null) return { calm: true, text: "They are on their way." };
+  if (slow === null || fast === null)
+    return { calm: true, text: "Waiting for the first diagnostics." };
   const times = fast / slow;
   const doubt =
     walk.rHatMax !== null && walk.rHatMax >= R_HAT_LIMIT
@@ -129,11 +131,11 @@ function wholeVerdict(walk: LaneFigures, best: LaneFigures): Verdict {
   return times > 2
     ? {
         calm: true,
-        text: `For the same work the independence sampler yields ${count(times)} times as many effective draws as the walk: it proposes from a Gaussian fit that is nearly the target itself.${doubt}`,
+        text: `For the same number of evaluations the independence sampler has ${count(times)} times as many effective draws as the random walk: it proposes from a Gaussian fit that is nearly the target itself.${doubt}`,
       }
     : {
         calm: false,
-        text: `The independence sampler gains little here (${number(times)} times the walk): its fit is far from the target.${doubt}`,
+        text: `The independence sampler has little advantage here (${number(times)} times the random walk): its fit is far from the target.${doubt}`,
       };
 }
 

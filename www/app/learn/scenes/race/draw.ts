@@ -1,4 +1,4 @@
-/** A runner’s board: the target, where its chains were, where they are. */
+/** Draws the picture of a sampler: the target, and the recent and present states of its chains. */
 import type { LessonLaw } from "../../../../worker/lessons";
 import { chainColour, drawDot } from "../../canvas/chains";
 import type { Size } from "../../canvas/LessonCanvas";
@@ -12,7 +12,7 @@ type Pen = CanvasRenderingContext2D;
 export interface Scenery {
   view: View;
   image: HTMLCanvasElement;
-  /** The Gaussian fit: seen where the target is too thin for a picture of it. */
+  /** The Gaussian fit, drawn since the target may be too narrow to be visible. */
   fit: LessonLaw | null;
 }
 
@@ -72,11 +72,11 @@ const MARGIN = 9;
 interface Place {
   x: number;
   y: number;
-  /** How many chains have been pointed to before: arrows stand in a row. */
+  /** Number of arrows drawn so far; they are placed in a row. */
   outside: number;
 }
 
-/** A dot, or at the edge an arrow to where the chain is: out of sight is not gone. Whether it is in sight. */
+/** Draws a dot for a state, or an arrow at the edge if it is outside; returns whether it is inside. */
 function drawChain(
   pen: Pen,
   size: Size,

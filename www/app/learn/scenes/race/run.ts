@@ -1,4 +1,4 @@
-/** Samplers side by side on one target, whole and broken. */
+/** Runs the scene: several samplers on one target, with or without a failure. */
 import { batch, signal } from "@preact/signals";
 import type { LaneFigures, LessonModels, LessonSampler } from "../../../../worker/lessons";
 import { fieldImage } from "../../canvas/plane";
@@ -15,15 +15,15 @@ export type RaceValues = SceneValues<"race">;
 const BURN_IN = 200;
 const TRAIL = 90;
 const FIELD_SIZE = 144;
-/** How long a race lasts. */
+/** Milliseconds of the animation. */
 const RACE_MS = 10_000;
-/** Into how many parts one that is not watched is cut for its curves; the diagnostics of a long one take their time. */
+/** Number of parts of a run without animation, for its curves; diagnostics of a long run are slow. */
 const PARTS = { short: 25, long: 10 };
 const LONG = 1000;
-/** Steps that an engine is asked for between two frames. */
+/** Largest number of steps between two frames. */
 const MOST_AT_ONCE = 200;
 const DIAGNOSTICS_EVERY_MS = 120;
-/** Figures take at most one part of so many of the time. */
+/** Diagnostics take at most one part in this many of the time. */
 const DIAGNOSTICS_SHARE = 4;
 export const MOST_STEPS = 5000;
 const MORE = 2;
@@ -32,12 +32,12 @@ export interface Runner {
   sampler: LessonSampler;
   group: number;
   dimension: number;
-  /** Numbers of a state: chains × dimension. */
+  /** Length of a state: chains × dimension. */
   width: number;
   trail: Trail;
 }
 
-/** Mean of ‖α‖²/q of each runner after some steps. */
+/** Mean of ‖α‖²/q of each sampler after some steps. */
 export interface Moment {
   step: number;
   meanSquares: readonly number[];
@@ -112,7 +112,7 @@ export class RaceRun {
     if (!growing) await this.#jump(steps);
   }
 
-  /** Whether its curves are looked at: only where a law is known that they should come to. */
+  /** Whether curves are drawn: only if their limit is known. */
   get #curved(): boolean {
     return this.runners.peek().length === 2;
   }
@@ -128,7 +128,7 @@ export class RaceRun {
     if (now > 0) this.#turns.take(() => this.#stride(now));
   }
 
-  /** Stops where it is; resolves to the steps that were made. */
+  /** Pauses; resolves to the number of steps made. */
   async pause(): Promise<number> {
     this.playing.value = false;
     await this.#turns.idle();
@@ -137,7 +137,7 @@ export class RaceRun {
     return this.step.peek();
   }
 
-  /** Goes on to the end, or beyond it; `over` is told how far that was. */
+  /** Continues to the end, or beyond it; `over` gets the number of steps. */
   run(over: (steps: number) => void): void {
     const step = this.step.peek();
     if (step >= MOST_STEPS) return;
@@ -165,12 +165,12 @@ export class RaceRun {
     }
   }
 
-  /** As far as a link says, in parts, so that the curves are there too. */
+  /** Makes the steps of a link in parts, so that the curves are complete. */
   async #jump(steps: number): Promise<void> {
     const parts = !this.#curved ? 1 : steps > LONG ? PARTS.long : PARTS.short;
     for (let part = 1; part <= parts; part += 1) {
       const goal = Math.round((steps * part) / parts);
-      // The last of them one by one: their trails are seen.
+      // The last steps one by one, for the trails.
       const single = part === parts ? Math.min(TRAIL, goal - this.step.peek()) : 0;
       const before = goal - this.step.peek() - single;
       await this.#move(before);
@@ -186,7 +186,7 @@ export class RaceRun {
     this.step.value += steps;
   }
 
-  /** So many steps of every runner; what is shown of them comes after, or each would be drawn. */
+  /** Makes steps with every sampler; signals change once after all of them. */
   async #move(steps: number): Promise<void> {
     const ask = this.#ask;
     if (steps <= 0 || !ask) return;
@@ -211,7 +211,7 @@ export class RaceRun {
     this.#note();
   }
 
-  /** One runner at a time: together they would hold the race up. */
+  /** Requests the diagnostics of one sampler at a time: all together would delay the animation. */
   async #lookAtNext(): Promise<void> {
     const runners = this.runners.peek();
     const ask = this.#ask;

@@ -18,20 +18,20 @@ export function Traces({ run, chains }: { run: StepRun; chains: number }) {
         }}
       />
       <figcaption class="board-caption">
-        The last 300 steps of α₁ and α₂; dashed: ±2 SD. Chains that have converged cannot be told
-        apart.
+        The last 300 steps of α₁ and α₂; dashed: ±2 SD. The traces of chains that have converged
+        look alike.
       </figcaption>
     </figure>
   );
 }
 
-/** What the chains say of themselves, and what that means. */
+/** Diagnostics of the chains, with a sentence on their convergence. */
 export function ChainNumbers({ run }: { run: StepRun }) {
   const diagnostics = run.diagnostics.value;
   const progress = run.progress.value;
   return (
     <>
-      <LessonNumbers label="What the chains say of themselves">
+      <LessonNumbers label="Diagnostics of the chains">
         <LessonNumber
           label="steps of each chain"
           metric="settings.steps"

@@ -1,6 +1,6 @@
 import { MIXTURE, SCALING } from "../../sampling/names";
 
-/** Which part of the mixture proposed. */
+/** The component of the mixture that made the proposal. */
 export function Mixture({ part }: { part: number | undefined }) {
   return (
     <div class="step-mixture">

@@ -4,7 +4,7 @@ import { Mixture } from "./Mixture";
 import { drawNear } from "./near";
 import { EXTENT, type StepRun } from "./run";
 
-/** The plane with its chains, and the last step under a magnifier; drawn every frame. */
+/** Pictures of the chains in the plane of two coefficients, and of the last step magnified; drawn every frame. */
 export function Pictures({ run, slow, chains }: { run: StepRun; slow: boolean; chains: number }) {
   const image = run.image.value;
   const decisions = run.decisions.value;
@@ -24,13 +24,13 @@ export function Pictures({ run, slow, chains }: { run: StepRun; slow: boolean; c
           draw={(pen, size, palette) => shown && drawWalk(pen, size, palette, shown)}
         />
         <figcaption class="board-caption">
-          Bright: plausible in A, near B, and plausible there too. Dashed circles: 1, 2, 3 SD of A’s
-          own shapes.
+          Bright: high density of the intersection. Dashed circles: 1, 2 and 3 SD of the model’s own
+          shapes.
         </figcaption>
       </figure>
       <figure class="step-near">
         <LessonCanvas
-          label="The last step under a magnifier: the state, the circles or the ray of the proposal, the proposal, and whether it was accepted"
+          label="The last step magnified: the state, the circles or the ray of the proposal, the proposal, and whether it was accepted"
           aspect={1}
           draw={(pen, size, palette) => shown && drawNear(pen, size, palette, shown)}
         />

@@ -1,29 +1,30 @@
-/** What to think about before the answer is looked at. */
+/** Questions about the scene, with answers to unfold. */
 export function Questions() {
   return (
     <div class="scene-questions">
       <details>
-        <summary>Why is a worse proposal ever accepted?</summary>
+        <summary>Why is a less probable proposal ever accepted?</summary>
         <p>
-          If it never were, the walk would climb to the top and stay there: it would find the most
-          plausible shape, not how much shapes may vary. Accepting a proposal that is half as
-          plausible half of the time makes the time spent at each shape proportional to its density.
+          Otherwise the chain would go to the maximum of the density and stay there: it would find
+          the most probable shape, but not how much shapes vary. A proposal with half the density is
+          accepted half of the time, so the time spent at each shape is proportional to its density.
         </p>
       </details>
       <details>
-        <summary>What does the Hastings factor put right?</summary>
+        <summary>What does the Hastings factor correct?</summary>
         <p>
-          The scaling move draws a new length ‖α′‖ for the same direction. A step from long to short
-          lands on a smaller sphere, so it is met more often than its way back. The factor
-          (‖α′‖/‖α‖)<sup>q−1</sup> makes up for it. The paper leaves it out: its walk shrinks.
-          Choose “as published” and watch the last line but one, or break it in the race.
+          The scaling move draws a new norm ‖α′‖ for the same direction. It is symmetric in the
+          norm, but not as a density over α: spheres of smaller norm have less area. The factor
+          (‖α′‖/‖α‖)<sup>q−1</sup> corrects for this. The paper leaves it out, so the norms of its
+          walk are too small. Choose “as published” and see the line “Hastings factor”, or the
+          failure “Uncorrected scaling” in the scene “The race”.
         </p>
       </details>
       <details>
         <summary>Why so many steps for so few effective draws?</summary>
         <p>
-          Each state is near the one before it, so that a new one says little new. The effective
-          sample size is how many independent draws would know the mean as well.
+          Each state is near the one before it, so it adds little information. The effective sample
+          size is the number of independent draws that would estimate the mean equally well.
         </p>
       </details>
     </div>

@@ -5,18 +5,18 @@ import { stepVerdict } from "../../sampling/verdicts";
 
 interface Props {
   step: LessonStep | undefined;
-  /** Which share of the step has been told. */
+  /** Share of the animation of the step. */
   told: number;
   corrected: boolean;
 }
 
-/** The last step, worked through as on a blackboard. */
+/** Computation of the last step, line by line: log densities, Hastings factor, ratio, decision. */
 export function Working({ step, told, corrected }: Props) {
   const compared = step !== undefined && isSaid("compare", told);
   const decided = step !== undefined && isSaid("decide", told);
   const at = <T,>(said: boolean, value: T | undefined) => (said ? value : undefined);
   return (
-    <section class="step-working" aria-label="The last step, worked through">
+    <section class="step-working" aria-label="The last step in numbers">
       <dl class="step-sum">
         <Line
           label="log p(α′), of the proposal"
@@ -24,7 +24,7 @@ export function Working({ step, told, corrected }: Props) {
           value={at(compared, step?.logDensityTo)}
         />
         <Line
-          label="− log p(α), of where it is"
+          label="− log p(α), of the state"
           metric="logDensityFrom"
           value={at(compared, step?.logDensityFrom)}
         />
@@ -64,7 +64,7 @@ function Line({
   );
 }
 
-/** The ratio r on 0 … 1, and u as a needle: accepted where it falls on what r covers. */
+/** Bar of the ratio r from 0 to 1, with u as a mark: accepted if u is below r. */
 function RatioBar({
   step,
   compared,
@@ -94,7 +94,7 @@ function RatioBar({
       </div>
       <div class="ratio-scale" aria-hidden="true">
         <span>0</span>
-        <span class="ratio-words">accepted where u falls on r</span>
+        <span class="ratio-words">accepted if u is below r</span>
         <span>1</span>
       </div>
       <span

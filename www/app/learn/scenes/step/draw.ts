@@ -1,4 +1,4 @@
-/** The plane of the walk: the density, where the chains were, where they are, where they might go. */
+/** Draws the plane of the scene: the density, recent and present states of the chains, proposals. */
 import type { LessonStep } from "../../../../worker/lessons";
 import { chainColour, drawDot, drawOutcome, drawPrior, drawTrail } from "../../canvas/chains";
 import type { Size } from "../../canvas/LessonCanvas";
@@ -12,16 +12,16 @@ export interface Shown {
   image: HTMLCanvasElement;
   trail: Trail;
   decisions: readonly LessonStep[];
-  /** Which share of the last step has been told. */
+  /** Share of the animation of the last step. */
   told: number;
-  /** Whether single steps can be followed at all. */
+  /** Whether single steps are animated. */
   slow: boolean;
 }
 
 type Pen = CanvasRenderingContext2D;
 
 const TRAIL = 80;
-/** Half of what the magnifier shows: two standard deviations of the widest step, and some more. */
+/** Half width of the magnified picture: a little more than two standard deviations of the widest step. */
 export const NEAR = 0.46;
 
 export function drawWalk(pen: Pen, size: Size, palette: Palette, shown: Shown): void {
@@ -49,7 +49,7 @@ export function drawWalk(pen: Pen, size: Size, palette: Palette, shown: Shown): 
   if (shown.slow) drawLoupe(pen, plane, palette, positionOf(shown, followedOf(shown)));
 }
 
-/** Every state of late as a dot: where the walk stays longer they lie closer. */
+/** Draws recent states as dots, which are denser where the chain stays longer. */
 function drawVisited(pen: Pen, plane: Plane, trail: Trail, chains: number, hidden: number): void {
   pen.globalAlpha = 0.55;
   for (let chain = 0; chain < chains; chain += 1) {
@@ -65,7 +65,7 @@ function drawVisited(pen: Pen, plane: Plane, trail: Trail, chains: number, hidde
   pen.globalAlpha = 1;
 }
 
-/** Where a chain is while its step is told: it moves once that is decided. */
+/** State of a chain during the animation of its step: it moves after the decision. */
 export function positionOf(
   { trail, decisions, told, slow }: Shown,
   chain: number,
@@ -81,7 +81,7 @@ export function positionOf(
   return step.from.map((from, i) => from + way * ((to[i] ?? 0) - from));
 }
 
-/** The proposal on its way, and then what became of it. */
+/** Draws the proposal, and then whether it was accepted. */
 export function drawProposal(
   pen: Pen,
   plane: Plane,
@@ -108,7 +108,7 @@ export function drawProposal(
   else drawDot(pen, x, y, radius - 1, grey, palette.raised);
 }
 
-/** Which part of the plane is magnified. */
+/** Draws the frame of the magnified part of the plane. */
 function drawLoupe(pen: Pen, plane: Plane, palette: Palette, at: readonly number[]): void {
   const half = NEAR * plane.scale;
   pen.strokeStyle = palette.ink;
@@ -123,8 +123,8 @@ export function line(pen: Pen, x0: number, y0: number, x1: number, y1: number): 
   pen.stroke();
 }
 
-/** The chain under the magnifier: the last one, whose last step the command line tells too. */
+/** The magnified chain: the last one, whose last step the command line prints, too. */
 export const followedOf = ({ decisions }: Shown) => Math.max(0, decisions.length - 1);
 
-/** What is not decided yet has left no trace. */
+/** Number of states that are not shown yet: a step without a decision. */
 export const undecided = ({ slow, told }: Shown) => (slow && !isSaid("decide", told) ? 1 : 0);

@@ -1,4 +1,4 @@
-/** One chain of the walk under a magnifier. */
+/** Draws the magnified picture of one chain. */
 import type { LessonStep } from "../../../../worker/lessons";
 import { chainColour, drawDot, drawTrail } from "../../canvas/chains";
 import type { Size } from "../../canvas/LessonCanvas";
@@ -12,7 +12,7 @@ type Pen = CanvasRenderingContext2D;
 
 const TRAIL = 40;
 
-/** That chain’s step from near by: what proposes, what is proposed, what is decided. */
+/** Draws the step of a chain: distribution of the proposal, proposal, decision. */
 export function drawNear(pen: Pen, size: Size, palette: Palette, shown: Shown): void {
   const [followed, hidden] = [followedOf(shown), undecided(shown)];
   const at = positionOf(shown, followed);
@@ -28,11 +28,11 @@ export function drawNear(pen: Pen, size: Size, palette: Palette, shown: Shown): 
   if (step) drawMixture(pen, plane, palette, step);
   const [x, y] = [plane.x(at[0] ?? 0), plane.y(at[1] ?? 0)];
   drawDot(pen, x, y, 10, chainColour(followed), palette.raised);
-  // Where it was accepted the tick is on top of the state that goes there.
+  // The tick of an accepted proposal is drawn over the state that moves there.
   if (step) drawProposal(pen, plane, palette, step, shown.told, 11);
 }
 
-/** The part of the mixture that proposed: circles of 1 and 2 SD, or the ray of the scaling move. */
+/** Draws the component of the mixture that proposed: circles of 1 and 2 SD, or the ray of the scaling move. */
 function drawMixture(pen: Pen, plane: Plane, palette: Palette, step: LessonStep): void {
   const [x0 = 0, y0 = 0] = step.from;
   const [x, y] = [plane.x(x0), plane.y(y0)];

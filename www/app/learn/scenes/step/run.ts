@@ -1,4 +1,4 @@
-/** The walk of the scene: its chains in the engine, and what of them is shown. */
+/** Runs the scene: makes steps of the chains in the engine and keeps what is shown of them. */
 import { batch, computed, signal } from "@preact/signals";
 import type {
   LaneFigures,
@@ -17,20 +17,20 @@ import { lessonState } from "../../state";
 
 export type StepValues = SceneValues<"step">;
 
-/** Half the side of the plane, in standard deviations. */
+/** Half width of the plane, in standard deviations. */
 export const EXTENT = 3.4;
 const FIELD_SIZE = 192;
-/** Steps that the traces show. */
+/** Number of steps in the traces. */
 export const TRACED = 300;
-/** What is seen where nothing moves: by then the walk has found the ridge. */
+/** Number of steps that are shown with reduced motion: the chain has reached the ridge by then. */
 const TELLING_STEPS = 60;
-/** An engine tells of so many decisions at once, and of so many steps when it does not tell. */
+/** Largest number of steps in a request, with and without their decisions. */
 const MOST_TOLD = 4000;
 const MOST_AT_ONCE = 10_000;
 const DIAGNOSTICS_EVERY_MS = 300;
 export const MOST_STEPS = 20_000;
 const GROUP = 0;
-/** Models of two modes: what is drawn is all there is. */
+/** Settings of models with two modes, so that the plane shows all coefficients. */
 const MODES = 2;
 const FIRST_TWO: [number, number] = [0, 1];
 
@@ -42,7 +42,7 @@ export class StepRun {
   /** The last decision of every chain. */
   readonly decisions = signal<readonly LessonStep[]>([]);
   readonly playing = signal(false);
-  /** Which share of the last step has been told. */
+  /** Share of the animation of the last step. */
   readonly told = signal(1);
   readonly moving = computed(() => this.playing.value || this.told.value < 1);
   readonly trail = new Trail(TRACED);
@@ -52,7 +52,7 @@ export class StepRun {
   #sinceDiagnostics = 0;
   #over: ((step: number) => void) | null = null;
 
-  /** Opens the models, and goes to the step of a link; without one the walk begins by itself. */
+  /** Opens the models and goes to the step of a link; without one the animation starts. */
   async open(ask: Ask, values: StepValues, over: (step: number) => void): Promise<void> {
     const { pair, sigma, side, sampler, chains, seed, steps } = values;
     this.playing.value = false;
@@ -82,7 +82,7 @@ export class StepRun {
     });
   }
 
-  /** As many steps as are due after a frame. */
+  /** Makes the steps that are due after a frame. */
   frame(elapsedMs: number, perSecond: number): void {
     const told = isTold(perSecond);
     const time = this.playing.peek() && told ? 1000 / perSecond : ONE_STEP_MS;
@@ -110,7 +110,7 @@ export class StepRun {
     });
   }
 
-  /** Stops where it is; resolves to that step once its diagnostics are there. */
+  /** Pauses; resolves to the present step when its diagnostics are computed. */
   async pause(): Promise<number> {
     this.playing.value = false;
     await this.#turns.idle();
@@ -119,13 +119,13 @@ export class StepRun {
     return this.step;
   }
 
-  /** Goes on; `over` is told of the last step that there is. */
+  /** Continues; `over` gets the last step. */
   run(over: (step: number) => void): void {
     this.#over = over;
     if (this.step < MOST_STEPS) this.playing.value = true;
   }
 
-  /** A single step, told part by part. */
+  /** Makes a single step, animated in phases. */
   async one(): Promise<number> {
     this.playing.value = false;
     await this.#turns.idle();
@@ -147,7 +147,7 @@ export class StepRun {
     return Math.max(1, width / MODES);
   }
 
-  /** The last steps are watched, for their traces; those before them need not be. */
+  /** Makes many steps; only the last ones are returned with their states, for the traces. */
   async #goTo(step: number, chains: number): Promise<void> {
     const watched = Math.min(step, TRACED, Math.floor(MOST_TOLD / chains));
     for (let left = step - watched; left > 0; left -= MOST_AT_ONCE) {

@@ -1,4 +1,4 @@
-/** Both coefficients over the last steps, chain by chain. */
+/** Draws the traces of both coefficients over the last steps, for each chain. */
 
 import { chainColour } from "../../canvas/chains";
 import type { Size } from "../../canvas/LessonCanvas";
@@ -7,7 +7,7 @@ import type { Trail } from "../../sampling/trail";
 import { TRACED } from "./run";
 
 const NAMES = ["α₁", "α₂"] as const;
-/** Standard deviations above and below 0. */
+/** Range above and below 0, in standard deviations. */
 const RANGE = 3;
 const LEFT = 30;
 
@@ -42,7 +42,7 @@ export function drawTraces(
     pen.textAlign = "left";
     pen.fillText(name, 6, middle);
     pen.lineWidth = chains > 6 ? 1 : 1.5;
-    // As chains that wait for no one: the newest state is at the right once there are enough.
+    // The newest state is at the right end when there are enough.
     for (let chain = 0; chain < chains; chain += 1) {
       pen.strokeStyle = chainColour(chain);
       pen.beginPath();

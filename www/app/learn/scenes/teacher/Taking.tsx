@@ -1,7 +1,7 @@
 const EMBED = `<script type="module" src="shape-venn.js"></script>
 <shape-venn scene="step" seed="7"></shape-venn>`;
 
-/** How the lessons come into a lecture hall: by link, without a network, inside other pages. */
+/** How to use the lessons elsewhere: links, seeds, without a network, inside other pages, on a projector. */
 export function Taking() {
   return (
     <section aria-labelledby="teacher-taking">
@@ -9,15 +9,15 @@ export function Taking() {
       <dl class="teacher-taking">
         <dt>A link is a state</dt>
         <dd>
-          Whatever you set is in the address: copy it into slides, and everybody opens the same
-          picture with the same numbers. A link without settings opens a scene as it is at first,
-          already moving. Back undoes.
+          All settings are in the address: copy it into slides, and everybody sees the same picture
+          with the same numbers. A link without settings opens a scene with its defaults, animated.
+          Back undoes a change.
         </dd>
         <dt>The same draws for all, or different ones</dt>
         <dd>
           Random numbers follow from <code>seed=1</code> in the address. The same seed gives the
-          same draws, to the last digit, on every computer. Give each student another one, say{" "}
-          <code>seed=</code> and the last digits of their number, and compare.
+          same draws, to the last digit, on every computer. For different draws give each student
+          another seed, such as <code>seed=</code> and the last digits of their number, and compare.
         </dd>
         <dt>Check it elsewhere</dt>
         <dd>
@@ -35,13 +35,13 @@ export function Taking() {
           <pre>
             <code>{EMBED}</code>
           </pre>
-          with the address of <code>shape-venn.js</code> beside this page. Its attributes are the
-          keys of a link.
+          with the address of <code>shape-venn.js</code>, which is in the same folder as this page.
+          The attributes are the keys of a link.
         </dd>
         <dt>On a projector</dt>
         <dd>
-          Press P for large letters, F for the full screen. Movement stops on Space, and never
-          begins where the system asks for reduced motion.
+          Press P for large letters, F for full screen. Space pauses the animation; it does not
+          start by itself if the system asks for reduced motion.
         </dd>
       </dl>
     </section>

@@ -1,44 +1,44 @@
-/** How a lecture may go: what is done in which scene, for how long, and what is asked. */
+/** Goals of the lessons, and plans for lectures of 45 and 90 minutes: scenes, minutes, activities, questions. */
 import type { SceneName } from "../../scenes";
 
 export interface Goal {
   scene: SceneName;
-  /** Afterwards, students can … */
+  /** Completes the sentence “Students can …”. */
   can: string;
 }
 
 export const GOALS: readonly Goal[] = [
   {
     scene: "model",
-    can: "name mean, mode, coefficient and standard deviation in a picture, and say what ‖α‖ tells about plausibility",
+    can: "point out mean, mode, coefficient and standard deviation in a picture, and explain how ‖α‖ measures plausibility",
   },
   {
     scene: "agree",
-    can: "say what “both can make it” means: near a shape of the other model, and plausible in both",
+    can: "explain what “both can make it” means: near a shape of the other model, and plausible in both",
   },
   {
     scene: "planes",
-    can: "find x′, d and both likelihoods in a drawing, and say what σ is for",
+    can: "find x′, d and both likelihoods in a drawing, and explain the role of σ",
   },
   {
     scene: "step",
-    can: "carry out a Metropolis–Hastings step by hand, and say why no normalising constant is needed",
+    can: "carry out a Metropolis–Hastings step by hand, and explain why no normalising constant is needed",
   },
   {
     scene: "cloud",
-    can: "turn draws into a model by principal components, and predict how its error falls with their number",
+    can: "compute a model from draws by principal component analysis, and predict how its error depends on their number",
   },
   {
     scene: "difference",
-    can: "say why the difference has draws but no model",
+    can: "explain why the difference has draws but no model",
   },
   {
     scene: "race",
-    can: "compare samplers by effective draws, and recognise a run that must not be believed",
+    can: "compare samplers by effective draws, and recognise a run that has not converged",
   },
   {
     scene: "yours",
-    can: "read a comparison of two real models, and doubt it where that is due",
+    can: "read a comparison of two real models, and question its results",
   },
 ];
 
@@ -62,13 +62,13 @@ export const PLANS: readonly Plan[] = [
       {
         minutes: 6,
         scene: "model",
-        act: "Let it roam. Pause (Space), drag along α₁ alone, then α₂, then out to the third ring.",
+        act: "Watch the animation. Pause (Space), drag along α₁ alone, then α₂, then to the third ring.",
         question: "Which of two shapes is more plausible: α = (2, 0) or (0, 2)?",
       },
       {
         minutes: 6,
         scene: "agree",
-        act: "Vote by hands for each tip. Reveal. Raise σ until other tips move.",
+        act: "Vote on each tip by show of hands. Reveal. Raise σ until other tips move.",
         question: "Why does A∩B move the tip less than A and B do?",
       },
       {
@@ -80,32 +80,32 @@ export const PLANS: readonly Plan[] = [
       {
         minutes: 10,
         scene: "step",
-        act: "Five single steps (S), told aloud. Then let it run, faster and faster; then four chains.",
+        act: "Five single steps (S), explained aloud. Then run it, faster and faster; then four chains.",
         question: "The proposal is less probable. Why is it ever accepted?",
       },
       {
         minutes: 6,
         scene: "cloud",
-        act: "Let the draws pile up; read the curve of the Grassmann distance.",
+        act: "Run until all draws are made; read the curve of the Grassmann distance.",
         question: "How many draws for half the error?",
       },
       {
         minutes: 5,
         scene: "difference",
         act: "Flip the likelihood. Look at the hole, then at the ellipse over it.",
-        question: "What would principal components claim?",
+        question: "Which shapes would a PCA of these draws make?",
       },
       {
         minutes: 3,
         scene: "race",
-        act: "Start it, then break the scaling move.",
-        question: "How does one notice?",
+        act: "Run it, then choose “Uncorrected scaling”.",
+        question: "How can one detect it?",
       },
       {
         minutes: 2,
         scene: "yours",
-        act: "Open the heads; hand out the link.",
-        question: "What is in common here, and within which σ?",
+        act: "Open the heads; give the link to the class.",
+        question: "What do the models have in common, and at which σ?",
       },
     ],
   },
@@ -115,7 +115,7 @@ export const PLANS: readonly Plan[] = [
       {
         minutes: 10,
         scene: "model",
-        act: "As above; then pairs look for the least plausible shape that still looks like a star.",
+        act: "As above; then pairs search for the least plausible shape that still looks like a star.",
         question: "With 50 modes, are most shapes near the mean?",
       },
       {
@@ -139,32 +139,32 @@ export const PLANS: readonly Plan[] = [
       {
         minutes: 10,
         scene: "cloud",
-        act: "Each pair another sampler; collect the Grassmann distance at 2,000 draws on the board.",
+        act: "Each pair uses another sampler; collect the Grassmann distances at 2,000 draws.",
         question: "R-hat is 1.5. What do you do?",
       },
       {
         minutes: 10,
         scene: "difference",
         act: "σ from small to large; note the share of A that B cannot make.",
-        question: "What is the share worth without σ?",
+        question: "What does the share mean without σ?",
       },
       {
         minutes: 12,
         scene: "race",
-        act: "Four groups, four ways to break it; each tells the others how one notices.",
+        act: "Four groups, one failure each; each explains to the others how to detect it.",
         question: "What can a single chain not tell you?",
       },
       {
         minutes: 8,
         scene: "yours",
         act: "Heads, or models that students bring; the three questions.",
-        question: "Would you publish this figure?",
+        question: "Would you publish this result?",
       },
     ],
   },
 ];
 
-/** When each part of a plan begins, in minutes. */
+/** Start of each part of a plan, in minutes. */
 export function beginnings({ parts }: Plan): number[] {
   let minute = 0;
   return parts.map(({ minutes }) => {

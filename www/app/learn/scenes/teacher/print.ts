@@ -1,4 +1,4 @@
-/** On paper nothing unfolds: answers are open while the page is printed. Returns how to stop that. */
+/** Opens all answers while the page is printed. Returns a function that ends this. */
 export function openForPrint(within: HTMLElement): () => void {
   let folded: HTMLDetailsElement[] = [];
   const before = () => {

@@ -1,10 +1,10 @@
-/** Questions for a class, each with its answer and the state of a scene that shows it. */
+/** Questions for a class, each with its answer and a link to a scene that shows it. */
 import type { ComponentChildren } from "preact";
 import type { SceneName } from "../../scenes";
 
 export interface Question {
   scene: SceneName;
-  /** What of the scene’s link is not as at first. */
+  /** Keys of the scene's link that differ from the defaults. */
   link: string;
   ask: ComponentChildren;
   answer: ComponentChildren;
@@ -59,7 +59,7 @@ export const QUESTIONS: readonly Question[] = [
   {
     scene: "planes",
     link: "coefficients=-2.5,0",
-    ask: "x lies exactly on the line where the planes meet, but far out. Does it belong to A∩B?",
+    ask: "x lies exactly on the line where the planes meet, but far from both means. Does it belong to A∩B?",
     answer: (
       <>
         It is near, d = 0 and L<sub>D</sub> = 1, but not plausible: ‖α‖ or ‖α′‖ is large. An
@@ -70,12 +70,12 @@ export const QUESTIONS: readonly Question[] = [
   {
     scene: "planes",
     link: "tilt=0&lift=0.8",
-    ask: "Parallel planes never meet. What does the method return, and how does one notice?",
+    ask: "Parallel planes never meet. What does the method return, and how can one detect it?",
     answer: (
       <>
         d is the same everywhere, so L<sub>D</sub> is a constant factor, and constants cancel in
         every ratio that a sampler looks at. It returns the shapes that are plausible in both as if
-        they were common. The mean d beside σ gives it away: here 0.8 against 0.3.
+        they were common. The mean d compared with σ shows it: here 0.8 against 0.3.
       </>
     ),
   },
@@ -91,9 +91,9 @@ export const QUESTIONS: readonly Question[] = [
     ask: "A proposal is less probable than where the chain is. Why is it ever accepted?",
     answer: (
       <>
-        Otherwise the chain would climb to the top and stay: an optimiser. Accepting with
-        probability min(1, ratio) makes the time that it spends anywhere proportional to the density
-        there; that is detailed balance.
+        Otherwise the chain would go to the maximum and stay there, like an optimiser. Accepting
+        with probability min(1, ratio) makes the time that it spends anywhere proportional to the
+        density there; this follows from detailed balance.
       </>
     ),
   },
@@ -103,10 +103,11 @@ export const QUESTIONS: readonly Question[] = [
     ask: "The scaling move keeps the direction of α and draws a new norm r′ = r + 0.2 ε. Why is it not symmetric?",
     answer: (
       <>
-        It is symmetric in r, but the target is a density over α. There is more room at a larger
-        norm: a sphere of radius r has r<sup>q−1</sup> of it. So the ratio needs the factor (r′/r)
-        <sup>q−1</sup>. The paper leaves it out; then norms shrink, on N(0, I₅₀) to E‖α‖²/q = 0.53
-        instead of 1.
+        It is symmetric in r, but the target is a density over α. There is more volume at a larger
+        norm: the area of a sphere of radius r is proportional to r<sup>q−1</sup>. So the ratio
+        needs the factor (r′/r)
+        <sup>q−1</sup>. The paper leaves it out; then norms are too small, on N(0, I₅₀) to E‖α‖²/q =
+        0.53 instead of 1.
       </>
     ),
   },
@@ -116,7 +117,8 @@ export const QUESTIONS: readonly Question[] = [
     ask: "You have 2,000 draws. How many for half the error of the model?",
     answer: (
       <>
-        Four times as many, if they are as independent as the first: the error falls as 1/√N
+        Four times as many, if they are as independent as the first: the error is proportional to
+        1/√N
         <sub>eff</sub>. Neighbours in a chain resemble each other, so N<sub>eff</sub> is less than
         the count, and keeping every tenth draw alone makes nothing better.
       </>
@@ -128,9 +130,8 @@ export const QUESTIONS: readonly Question[] = [
     ask: "Eight chains, R-hat = 1.5. The model looks fine. Do you believe it?",
     answer: (
       <>
-        No. The chains disagree more with each other than with themselves: they have not yet
-        forgotten where they started. Run longer, or take a better sampler; below 1.01 one may go
-        on.
+        No. The chains differ from each other more than they vary themselves: they still depend on
+        where they started. Run longer, or use a better sampler; below 1.01 one may go on.
       </>
     ),
   },
@@ -140,16 +141,16 @@ export const QUESTIONS: readonly Question[] = [
     ask: "Why are there draws of the difference but no model of it?",
     answer: (
       <>
-        A model is a mean and a covariance, a Gaussian, and a Gaussian fills whatever lies between
-        its draws. The difference has a hole just there: often the mean of its draws is itself a
-        shape that both can make.
+        A model is a Gaussian with a mean and a covariance, and its density is highest at the mean.
+        The difference has a hole there: often the mean of its draws is itself a shape that both can
+        make.
       </>
     ),
   },
   {
     scene: "difference",
     link: "sigma=0.03&flipped=yes",
-    ask: "As σ goes to 0, what becomes of the share of A that B cannot make?",
+    ask: "As σ goes to 0, what happens to the share of A that B cannot make?",
     answer: (
       <>
         It goes to 100 %, unless A lies within B’s plane. E[1 − L<sub>D</sub>] counts all shapes
@@ -161,12 +162,12 @@ export const QUESTIONS: readonly Question[] = [
   {
     scene: "race",
     link: "",
-    ask: "Why does the independence sampler win by so much, and when would it lose?",
+    ask: "Why is the independence sampler so much better, and when would it not be?",
     answer: (
       <>
         The target is log-concave and nearly Gaussian, on the stars exactly, and the sampler
-        proposes from a Gaussian fitted to it: almost every proposal is accepted and owes nothing to
-        the one before. Where the fit misses a tail of the target, a chain that gets there stays for
+        proposes from a Gaussian fitted to it: almost every proposal is accepted and does not depend
+        on the one before. If the fit misses a tail of the target, a chain that gets there stays for
         very long; R-hat and the effective draws show it.
       </>
     ),
@@ -177,8 +178,8 @@ export const QUESTIONS: readonly Question[] = [
     ask: "What can a single chain not tell you?",
     answer: (
       <>
-        What it has not seen. R-hat can then only compare its first half with its second; a chain
-        that never left one region agrees with itself perfectly. Dispersed starts are what makes
+        Which shapes it has not reached. R-hat can then only compare its first half with its second;
+        a chain that never left one region agrees with itself perfectly. Dispersed starts make
         disagreement visible.
       </>
     ),

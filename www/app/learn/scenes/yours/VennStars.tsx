@@ -2,10 +2,10 @@ import { useSignal } from "@preact/signals";
 import { still, useFrames } from "../../clock";
 import { pathOf, starOf } from "../../star";
 
-/** When both tips of a star are well out of their places. */
+/** Time at which both tips of a star are clearly moved. */
 const TELLING = 1.3;
 
-/** The first picture of the lessons once more: two circles, and in each a star that does what it can. */
+/** Illustration of A∩B: two circles, each with a star that moves as its model can. */
 export function VennStars() {
   const seconds = useSignal(TELLING);
   const playing = useSignal(!still.peek());

@@ -1,4 +1,4 @@
-/** What to look for once faces are compared; the numbers are those of `shapevenn compare`. */
+/** Questions about the comparison of heads, with answers; the numbers are those of `shapevenn compare`. */
 export interface TryOut {
   ask: string;
   href: string;
@@ -13,12 +13,12 @@ export const TRY_OUT: readonly TryOut[] = [
     link: "Male and female heads, coloured by the distance to the other model",
     answer:
       "With σ = 1 mm about 92 % of the male heads lie outside the female model, and 86 % the other " +
-      "way. That sounds like two species. But the female model makes 94 % of the variance of the male " +
-      "one, and what it misses is 2 mm on average. A share says how often, not how much; the colours " +
-      "say how much, and where.",
+      "way round. But the female model can make 94 % of the variance of the male one, and the mean " +
+      "distance of those outside is about 2 mm. A share says how often heads differ, not by how much; the " +
+      "colours show how much, and where.",
   },
   {
-    ask: "And if near means 0.3 mm?",
+    ask: "And with σ = 0.3 mm?",
     href: "#v=1&demo=heads-sex&sigma=0.3",
     link: "The same heads with σ = 0.3 mm",
     answer:
@@ -30,8 +30,8 @@ export const TRY_OUT: readonly TryOut[] = [
     href: "#v=1&demo=heads-expression",
     link: "Identity and expression",
     answer:
-      "Little: expression makes about a fifth of the variance of identity, and identity not half of " +
-      "that of expression. A∩B exists all the same, since whoever asks for the nearest gets an answer: " +
-      "look at how far its shapes lie from both models before you call it common.",
+      "Little: expression can make about a fifth of the variance of identity, and identity less than " +
+      "half of that of expression. The method returns an A∩B nevertheless: check how far its shapes " +
+      "lie from both models before you call them common.",
   },
 ];
