@@ -20,7 +20,7 @@ export interface Coefficient {
   mode: number;
 }
 
-/** More lines in one plot cannot be told apart. */
+/** Largest number of lines that can be distinguished in one plot. */
 const MOST_CHAINS = 32;
 
 /** The draws of each chain. */
@@ -38,8 +38,8 @@ export function shownChains(chains: number, named: number | null): number[] {
 }
 
 /**
- * The coefficient to look at first, of one side or of either: the one whose chains agree least; where all
- * agree, the one with the fewest effective draws.
+ * The coefficient with the worst diagnostics, of one model or of both: the largest R-hat, or, if all are below the
+ * limit, the fewest effective draws.
  */
 export function worstCoefficient(report: Report, side: "a" | "b" | null): Coefficient {
   const both = report.intersection.coefficients;
@@ -68,17 +68,17 @@ export function worstCoefficient(report: Report, side: "a" | "b" | null): Coeffi
 }
 
 export interface RankBand {
-  /** Draws in each bar if all chains are alike. */
+  /** Expected draws in each bar if the chains agree. */
   expected: number;
   low: number;
   high: number;
 }
 
-/** Standard deviations that bands reach to either side. */
+/** Half width of a band in standard deviations. */
 const BAND = 2;
 
 /**
- * What chance allows a bar of a rank plot: of N ranks in bins, each goes to one of the chains, so a bar is
+ * Band of the bars of a rank plot by chance: of N ranks in bins, each goes to one of the chains, so a bar is
  * hypergeometric with variance e (1 − 1/chains)(1 − 1/bins), e its mean.
  */
 export function rankBand({ ranks, chains, bins }: ChainFigures): RankBand {
@@ -136,7 +136,7 @@ export function ellipseOf({ mean, covariance }: Gaussian, i: number, j: number):
   };
 }
 
-/** Share of the draws that lie within so many standard deviations in two of their coordinates. */
+/** Share of the draws within a number of standard deviations in two of their coefficients. */
 export function shareWithin(
   diagnostics: PairFigures,
   i: number,

@@ -1,7 +1,7 @@
 /** Made-up draws for tests of plots and advice. */
 import type { ChainFigures } from "../../worker/protocol";
 
-/** Numbers that look like draws of N(0, 1), the same ones each time. */
+/** Pseudo-random numbers of N(0, 1), always the same. */
 export function normals(seed: number): () => number {
   let state = seed >>> 0 || 1;
   const uniform = () => {

@@ -39,7 +39,7 @@ export function angleLabel(angles: readonly number[]): string {
 
 const MOST = 0.95;
 
-/** How many of the modes hold a share of the variance. */
+/** Number of modes that explain a share of the variance. */
 export function modesFor(compactness: readonly number[], share: number): number | null {
   const found = compactness.findIndex((value) => value >= share);
   return found < 0 ? null : found + 1;
@@ -77,7 +77,7 @@ export function hasSplitting({ differences }: Report): boolean {
   return Boolean(differences.aWithoutB.linearSplit || differences.bWithoutA.linearSplit);
 }
 
-/** What the baseline is, and why it may have negative variance. */
+/** Explains linear splitting, and why it may have negative variance. */
 export const SPLITTING_SENTENCES =
   "Linear splitting (Hall, Marshall & Martin 2000) treats a model as a mixture of A∩B, with its weight, and a Gaussian remainder: mean and covariance of the remainder then follow without draws. " +
   "The model is not such a mixture. In directions where A∩B has more variance than the mixture allows, the remainder gets negative variance, which no distribution has; the larger the negative share, the less the remainder describes shapes.";

@@ -210,7 +210,7 @@ function differences(report: Report): Phrase {
   ];
 }
 
-/** The paper whose method this is, and the program. */
+/** BibTeX entries of the paper and of this program. */
 export function bibTeX(engine: string): string {
   return `@inproceedings{weiherer2024approximating,
   author        = {Weiherer, Maximilian and Klein, Finn and Egger, Bernhard},

@@ -20,7 +20,7 @@ export interface Circle {
 export interface Venn {
   a: Circle;
   b: Circle;
-  /** Where the circles cross; none when they are apart or one holds the other. */
+  /** Point of intersection of the circles; null if they are apart or one contains the other. */
   crossing: { x: number; y: number } | null;
   paths: { a: string; b: string; aWithoutB: string; bWithoutA: string; intersection: string };
 }
@@ -79,7 +79,7 @@ export function centreDistance(r1: number, r2: number, area: number): number {
 /** Lays the diagram out in a box, the larger circle never wider than the box is high. */
 export function layOut(sizes: VennSizes, width: number, height: number, margin: number): Venn {
   const largest = Math.max(sizes.a, sizes.b, 1e-300);
-  // Below a tenth of the other's radius a circle could not be hit with a finger.
+  // A circle below a tenth of the other's radius would be too small for a finger.
   const radius = (variance: number) => Math.max(0.1, Math.sqrt(Math.max(0, variance) / largest));
   const [ra, rb] = [radius(sizes.a), radius(sizes.b)];
   const area = (sizes.shared / largest) * Math.PI;

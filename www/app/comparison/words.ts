@@ -100,7 +100,7 @@ const HARD: Record<Exclude<DifferenceName, "soft">, string> = {
 
 export type DifferencePicture = DifferenceName | "exclusiveModes";
 
-/** What each definition of a difference means. */
+/** Names and explanations of the definitions of a difference. */
 export const DEFINITIONS: Record<DifferencePicture, { label: string; help: string }> = {
   soft: {
     label: "paper’s",
@@ -417,7 +417,7 @@ export function stageName(stage: Progress["stage"]): string {
   return STAGES[stage];
 }
 
-/** Seconds left, once there is something to judge by. */
+/** Estimated seconds until a run is finished; null at its beginning. */
 export function secondsLeft(fraction: number, seconds: number): number | null {
   return fraction < 0.03 || seconds < 0.5 ? null : (seconds * (1 - fraction)) / fraction;
 }

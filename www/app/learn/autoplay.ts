@@ -74,7 +74,7 @@ export function useAutoplay({ chosen, standard, path, write, limits }: AutoplayO
   };
 }
 
-/** How far the arrow keys move a point; null for other keys. */
+/** Step by which an arrow key moves a point; null for other keys. */
 export function nudge({ key, shiftKey }: KeyboardEvent): [number, number] | null {
   const far = shiftKey ? 0.5 : 0.1;
   switch (key) {

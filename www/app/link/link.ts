@@ -1,8 +1,8 @@
 /**
  * Writes the state of the page as a URL fragment and reads it back: plain `key=value` that can be edited by hand.
  *
- * Every link of an older page must keep opening: unknown keys are ignored, unreadable values fall
- * back to the default, and what is not given is the default.
+ * Links of older pages must keep opening: unknown keys are ignored, and missing or unreadable values are replaced by
+ * the default.
  */
 import type { PointSelection, Preparation, Settings, SidePreparation } from "../../worker/protocol";
 import { defaultLesson, type LessonState, readLesson, writeLesson } from "../learn/link";
@@ -153,7 +153,7 @@ function lookPairs(state: LinkState): [string, string | number][] {
   return [...plain, ...writeExplorer(state.explorer)];
 }
 
-/** Settings that links leave out while they are the default, to stay short. */
+/** Keys of settings that differ from their defaults; the others are left out. */
 function rareSettings(settings: Settings): [string, string | number][] {
   const pairs: [string, Exclude<keyof Settings, "prepare">, (string | number | null)?][] = [
     ["fit", "fit"],

@@ -29,7 +29,7 @@ const PICTURE_PX = 84;
 /** Card of model A or B: name, format, mean shape, number of points and modes, standard deviations. */
 export function ModelCard({ side }: { side: Side }) {
   const slot = slots[side].value;
-  // Before the engine is up, the stored report already describes both models.
+  // Before the engine has started, the stored report describes both models.
   const report = slot?.report ?? result.value?.report.models[side];
   const ofFile = slot && slot.source.kind !== "demo" ? nameOf(slot.source) : undefined;
   const asked = linked.value && askedName(linked.value, side);

@@ -16,7 +16,7 @@ export interface Shown {
   overlaid: boolean;
   /** What the differences show other than their draws; empty if only their draws. */
   differences: string;
-  /** The vertex whose ellipsoid is drawn, how many SD, and in how many dimensions. */
+  /** The vertex whose ellipsoid is drawn, its size in SD, and the dimension. */
   vertex: { number: number; deviations: number; dimension: 2 | 3 } | null;
 }
 

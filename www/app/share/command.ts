@@ -6,7 +6,7 @@ import { budgetOf, DEFAULTS } from "../state/settings";
 export interface CommandModel {
   /** `demo:NAME`, or the name of a file. */
   source: string;
-  /** Null for the first of the file. */
+  /** Part of the file; null for the first. */
   part: string | null;
   /** Whether the shapes of a set were scaled to one size. */
   scale: boolean;

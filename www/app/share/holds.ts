@@ -34,5 +34,5 @@ function holds(files: Unlinkable["files"]): string {
           "the same file",
           "it is",
         ];
-  return `The link has all settings and the ${which}. Whoever opens it drops ${them}, and the page checks that ${are} the same.`;
+  return `The link contains all settings and the ${which}. To open it, drop ${them}; the page checks that ${are} the same.`;
 }

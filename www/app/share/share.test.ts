@@ -62,7 +62,7 @@ test("what a link holds is said for files, for more models and for lists of poin
   assert.match(holdsSentences(none).join(" "), /^The link contains the models, all settings/);
   assert.equal(
     holdsSentences({ ...none, files: ["a", "b"] })[0],
-    "The link has all settings and the fingerprints of your two files, not the files. Whoever opens it drops the same files, and the page checks that they are the same.",
+    "The link contains all settings and the fingerprints of your two files, not the files. To open it, drop the same files; the page checks that they are the same.",
   );
   assert.match(holdsSentences({ ...none, files: ["b"] })[0] ?? "", /fingerprint of your file, B/);
   assert.equal(holdsSentences({ files: [], modelList: true, points: true }).length, 3);

@@ -14,7 +14,7 @@ const NAMES: Record<Tab, string> = {
 export function Tabs() {
   const list = useRef<HTMLElement>(null);
   const shown = tab.value;
-  // On narrow screens the list scrolls sideways, and only that: the page stays where it is.
+  // On narrow screens only the list scrolls sideways, not the page.
   useEffect(() => {
     const current = list.current?.querySelector<HTMLElement>(`[data-tab="${shown}"]`);
     if (list.current && current) {

@@ -1,7 +1,7 @@
 /** Standard deviations and axes of the covariance ellipsoid of a vertex. Pure. */
 import type { Ellipsoid } from "../../worker/protocol";
 
-/** Lengths of its semi-axes, so many standard deviations each, longest first. */
+/** Lengths of its semi-axes for a number of standard deviations, longest first. */
 export function semiAxes({ centre, axes }: Ellipsoid, deviations: number): number[] {
   const dimension = centre.length;
   return Array.from({ length: dimension }, (_, i) => {

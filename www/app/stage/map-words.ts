@@ -12,7 +12,7 @@ interface MapWords {
 }
 
 interface ShownAs {
-  /** Which mode, from 0. */
+  /** Mode, from 0. */
   mode: number;
   signed: boolean;
 }

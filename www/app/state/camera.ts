@@ -4,7 +4,7 @@ export interface Camera {
   yaw: number;
   /** Radians above the horizontal plane. */
   pitch: number;
-  /** 1 shows a whole shape in its pane. */
+  /** Zoom; 1 shows a whole shape in its pane. */
   zoom: number;
   /** Shift in the image, in radii of the shape. */
   x: number;

@@ -61,8 +61,8 @@ export function rounded(coefficient: number): number {
 }
 
 /**
- * A standard normal coefficient for each axis, cut off at the ends of the sliders. Sums of twelve
- * uniform numbers: the same bits in every browser, as logarithms and cosines are not.
+ * Standard normal coefficients for the axes, clamped to the range of the sliders. They are sums of twelve uniform
+ * numbers, which have the same bits in every browser, unlike logarithms and cosines.
  */
 export function randomCoefficients(seed: string, count: number): number[] {
   let state = 2_166_136_261;

@@ -1,4 +1,4 @@
-/** Settings of a run: the defaults and ranges of src/settings.rs, for the page. */
+/** Settings of a run for the page: choices, defaults and ranges, the same as in src/settings.rs. */
 import type {
   Alignment,
   DifferenceName,

@@ -1,15 +1,15 @@
 /**
  * Keeps the steps of undo in the browser's history, so that Undo is Back and never leaves the page.
  *
- * The browser does not say how far it can go in either direction: every entry carries its number, and
- * what no address can hold is kept here beside it. Entries of an earlier life of the page (before it was
- * loaded anew) have numbers too, which mean nothing any more.
+ * The browser does not tell how many entries there are in either direction, so every entry has a number, and state
+ * that no address can hold is kept here under that number. Entries from before a reload have numbers, too, which are
+ * no longer valid.
  */
 import { computed, signal } from "@preact/signals";
 
 export type Entries = Pick<History, "state" | "pushState" | "replaceState" | "go">;
 
-/** What an entry of the history carries. */
+/** Data of an entry of the history. */
 interface Mark {
   life: number;
   step: number;

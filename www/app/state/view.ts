@@ -47,7 +47,7 @@ export interface ViewState {
   /** Model and coefficient, from 0, of the diagnostic plots; null for the worst. */
   side: "a" | "b" | null;
   coefficient: number | null;
-  /** The region shown alone, if one is. */
+  /** The region that is shown alone, if any. */
   region: Region | null;
   picture: Picture;
   /** How much of what the other model misses is added to a shape of a difference. */

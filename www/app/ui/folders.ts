@@ -20,7 +20,7 @@ interface FolderEntry extends Entry {
 /** Largest number of files: listing more would take minutes. */
 export const MOST_FILES = 20_000;
 
-/** All files below these entries, in the order of their paths; what cannot be read is left out. */
+/** All files below these entries, in the order of their paths; unreadable ones are left out. */
 export async function filesBelow(entries: Entry[]): Promise<DroppedFile[]> {
   const found: DroppedFile[] = [];
   const waiting = entries.filter(isMeant);

@@ -10,7 +10,7 @@ export interface GestureTarget {
   setCamera(camera: Camera): void;
   /** Whether shapes are 2-D: dragging shifts them instead of turning. */
   flat(): boolean;
-  /** Whether a plain wheel belongs to the canvas rather than to scrolling the page. */
+  /** Whether the wheel zooms instead of scrolling the page. */
   ownsWheel(): boolean;
   /** CSS pixels per radius of the shape. */
   pixelsPerRadius(): number;
@@ -74,7 +74,7 @@ export function listen(canvas: HTMLCanvasElement, target: GestureTarget): () => 
     } else if (painting) {
       target.paint(event.offsetX, event.offsetY);
     } else {
-      // While the left button paints, the right one turns.
+      // While the left button paints, the right button turns.
       drag(dx, dy, event.shiftKey || (event.buttons === 2 && !target.paints()));
     }
   });

@@ -45,7 +45,7 @@ const LARGEST_TILE = 2048;
 interface Pane {
   content: PaneContent;
   objects: Object3D[];
-  /** Drawn over each of the shapes. */
+  /** Ellipsoid that is drawn over each of the shapes. */
   ellipsoid: Object3D | null;
 }
 

@@ -67,12 +67,12 @@ export function writeColours(
   }
 }
 
-/** mean + times · (shape − mean): what differs from the mean, so many times as large. */
+/** Magnifies the deviation from the mean: mean + times · (shape − mean). */
 export function magnified(shape: Float32Array, mean: Float32Array, times: number): Float32Array {
   return times === 1 ? shape : blended(mean, shape, times);
 }
 
-/** one + share · (other − one). */
+/** Interpolates linearly: one + share · (other − one). */
 export function blended(one: Float32Array, other: Float32Array, share: number): Float32Array {
   const made = new Float32Array(other.length);
   for (let i = 0; i < made.length; i += 1) {
@@ -82,7 +82,7 @@ export function blended(one: Float32Array, other: Float32Array, share: number): 
   return made;
 }
 
-/** Indices come from cells and lengths that fit; a check in each of these loops would cost more than it tells. */
+/** Reads an array element without a check: the indices are known to be valid, and checks would slow the loops. */
 function at(list: Float32Array | Uint32Array, index: number): number {
   return list[index] as number;
 }

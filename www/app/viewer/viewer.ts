@@ -85,7 +85,7 @@ export interface Viewer {
   /** Sets the rectangles of the panes on the canvas, in CSS pixels. */
   setLayout(width: number, height: number, panes: ReadonlyMap<Region, Rect>): void;
   setMesh(panes: PaneContent[], frame: Frame): void;
-  /** Moves what `setMesh` was given last, in its order; cells, tints and frame stay. */
+  /** Moves the contents of the last `setMesh`, in the same order; cells, tints and frame stay. */
   morph(moved: readonly (Moved | null)[]): void;
   setColors(range: readonly [number, number] | null): void;
   setCamera(camera: Camera): void;
@@ -97,7 +97,7 @@ export interface Viewer {
   pointAt(region: Region, through: readonly number[], x: number, y: number): number[] | null;
   /** Draws the canvas or another picture with `scale` pixels per CSS pixel, and copies it in the same task. */
   capture(scale: number, shot?: Shot): HTMLCanvasElement;
-  /** One shape alone, for a card. */
+  /** Draws a single shape, for a model card. */
   thumbnail(content: PaneContent, frame: Frame, size: number): HTMLCanvasElement;
   dispose(): void;
 }

@@ -1,4 +1,4 @@
-/** The colours of the page, for canvases. */
+/** Reads the colours and the font of the page for drawing on canvases. */
 export interface Palette {
   paper: string;
   stage: string;

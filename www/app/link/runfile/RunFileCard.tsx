@@ -62,8 +62,8 @@ function Awaited({ run }: { run: ExpectedRun }) {
         </div>
         <p class="small">
           {run.link &&
-            "A link holds no files: drop the same ones anywhere, and the page checks that they are. "}
-          Once they are open it runs by itself{!empty && "; until then nothing changes"}.
+            "A link contains no files: drop the same files anywhere; the page checks that they are the same. "}
+          The comparison starts when they are open{!empty && "; until then nothing changes"}.
         </p>
         <div class="card-row">
           {complete && (

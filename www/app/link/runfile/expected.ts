@@ -8,7 +8,7 @@ export interface ExpectedModel {
   /** Null if a link does not state it. */
   name: string | null;
   part: string | null;
-  /** `demo:NAME`, an address, or null for a file of one's own. */
+  /** `demo:NAME`, an address, or null for the visitor's own file. */
   source: string | null;
   /** Hash of its content, or the start of it; older reports have none. */
   fingerprint: string | null;
@@ -83,7 +83,7 @@ export type Verdict = "same" | "other" | "unknown" | "missing";
 
 export interface OpenModel {
   report: Pick<ModelReport, "name" | "fingerprint">;
-  /** As a run file says it. */
+  /** Its source as a run file states it. */
   source: string | null;
 }
 

@@ -93,7 +93,7 @@ function itself(page: URL): URL {
   return page;
 }
 
-/** A path as one piece of another path; it may be escaped already. */
+/** Escapes a path as one segment of another path; it may be escaped already. */
 function whole(path: string): string {
   return encodeURIComponent(decoded(path));
 }

@@ -55,7 +55,7 @@ export function refused({ href, host }: URL, status: number): EngineFailure {
     return failure(
       "not-found",
       `${href} does not exist: ${host} answered ${status}.`,
-      "Check the address, or ask whoever sent the link.",
+      "Check the address, or ask the person who sent the link.",
     );
   }
   if (status === 401 || status === 403) {

@@ -57,7 +57,7 @@ export function namesOf(models: readonly Slot[], name: (slot: Slot) => string): 
     const own = name(slot);
     return slot.parts.length > 1 ? `${own}, ${slot.part}` : own;
   });
-  // Two files of one name are told apart by number.
+  // Two files with the same name are numbered.
   return names.map((one, i) => {
     const before = names.slice(0, i).filter((other) => other === one).length;
     return before === 0 ? one : `${one} (${before + 1})`;

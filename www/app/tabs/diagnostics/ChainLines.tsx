@@ -18,7 +18,7 @@ interface Props {
   values: ArrayLike<number>;
   advice: Advice;
   upName: string;
-  /** Of the file and above the table. */
+  /** Name of the CSV file, and caption of its table. */
   file: string;
   caption: string;
   /** A level that is marked by a line, if it is within the range of the values. */

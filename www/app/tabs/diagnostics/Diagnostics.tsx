@@ -70,7 +70,7 @@ function Verdict({ report }: { report: Report }) {
 
 function Plots({ found }: { found: Result }) {
   const chosen = chosenCoefficient(found.report);
-  // The engine holds what it is asked about, and what the report tells of.
+  // The engine must hold the comparison of the report.
   const asks = run.value === null && held.value?.key === found.key;
   const chains = useAnswer(asks ? { found, ...chosen } : null, (signal, { side, mode }) =>
     engineClient().diagnose(signal, side, mode),

@@ -16,7 +16,7 @@ import { PlayIcon, StopIcon } from "../../ui/icons";
 import { play, playing, stopPlaying } from "./playing";
 import { missedText, orderSentence, valueText, valueWords } from "./words";
 
-/** How many are shown at first. */
+/** Number of sliders that are shown at first. */
 const FIRST = 10;
 
 export function Sliders() {

@@ -48,7 +48,7 @@ interface Layer {
   outline: boolean;
 }
 
-/** A shape of A or of B, and the other model's nearest to it. */
+/** A shape of A or of B, and the nearest shape of the other model. */
 function ofOne({ state, explored }: ExploreScene, space: "a" | "b"): Layer[] {
   const other = otherOf(space);
   const nearest = explored.placed?.[other];

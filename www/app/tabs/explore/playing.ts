@@ -9,14 +9,14 @@ const PERIOD_MS = 4000;
 
 export interface Playing {
   axis: number;
-  /** Whether the next one follows. */
+  /** Whether the next slider follows. */
   all: boolean;
 }
 export const playing = signal<Playing | null>(null);
 
 let frame = 0;
 let begun = 0;
-/** Where the slider stood before it swung. */
+/** Value of the slider before the animation. */
 let before = 0;
 
 /** Coefficient of an animated slider after some time, in standard deviations; it begins at `from`. */
@@ -31,7 +31,7 @@ export function play(axis: number, all: boolean): void {
   frame = requestAnimationFrame(next);
 }
 
-/** The slider stays where it is. */
+/** Stops the animation; the slider keeps its value. */
 export function stopPlaying(): void {
   if (playing.peek() === null) return;
   cancelAnimationFrame(frame);

@@ -64,7 +64,7 @@ export function Matrix() {
   );
 }
 
-/** Numbers of all pairs that are known. */
+/** Values of all computed pairs. */
 function valuesShown(name: MeasureName): number[] {
   const { value } = MEASURES[name];
   return modelList.value.flatMap((row) =>

@@ -15,7 +15,7 @@ export class DifferenceRun {
   /** Share of the model that the other cannot make, over σ. */
   readonly shares = signal<readonly Share[]>([]);
   #sharesOf = "";
-  /** 0: L_D; 1: 1 − L_D; between them while it flips. */
+  /** 0 for L_D, 1 for 1 − L_D, between them during the flip. */
   readonly flip = signal(0);
   /** The one that it changes to. */
   readonly flipped = signal(false);

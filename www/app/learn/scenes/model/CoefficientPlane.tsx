@@ -10,7 +10,7 @@ import { tintedField } from "../../canvas/tint";
 
 /** Range of the plane, in standard deviations. */
 export const EXTENT = 3.4;
-/** Places that the point came through, for its tail. */
+/** Number of previous positions of the point in its tail. */
 const TAIL = 70;
 
 interface Props {
@@ -59,7 +59,7 @@ export function CoefficientPlane({
   const grab = ({ x, y, size }: Pointer) => {
     const plane = planeOf(size, EXTENT);
     const [u, v] = [plane.x(coefficients[0]) - x, plane.y(coefficients[1]) - y];
-    // Only a point that is held moves: elsewhere fingers scroll the page.
+    // Only a drag that begins on the point moves it: elsewhere fingers scroll the page.
     if (Math.hypot(u, v) > REACH) return false;
     apart.current = [u, v];
     return true;

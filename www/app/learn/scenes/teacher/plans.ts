@@ -46,7 +46,7 @@ export interface Part {
   minutes: number;
   scene: SceneName;
   act: string;
-  /** Said to the class. */
+  /** Question for the class. */
   question: string;
 }
 
