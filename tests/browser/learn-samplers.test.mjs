@@ -200,7 +200,7 @@ test("every way to break a race shows its failure", async () => {
     const error = Math.sqrt(2 / 50 / (4 * 3));
     assert.ok(Math.abs(corrected - 1) < 4 * error, `${corrected} ± ${error}`);
     assert.ok(Math.abs(published - 0.53) < 4 * error && published < 0.75, `${published}`);
-    await page.locator(".advice", { hasText: /walk shrinks/ }).waitFor();
+    await page.locator(".advice", { hasText: /walk has too little variance/ }).waitFor();
 
     await race("one-chain");
     await page.locator(".advice", { hasText: /R-hat can only compare its two halves/ }).waitFor();

@@ -298,7 +298,7 @@ test("shapes that are not like the model's are refused beside it, in words", asy
     // What was compared is still there.
     assert.equal(await chart(page, "angles").count(), 1);
     // No button where the page does not have the shapes that a model was made of.
-    assert.equal(await page.getByRole("button", { name: /^Use the shapes/ }).count(), 0);
+    assert.equal(await page.getByRole("button", { name: /^Use the training shapes/ }).count(), 0);
   });
 });
 

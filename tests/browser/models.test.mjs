@@ -336,7 +336,7 @@ test("work on the table can be ended and gone on with", async () => {
     await page.goto(`${url}#${STARS}&room=models&shelf=${all}`);
     await page.waitForFunction(() => globalThis.held.length === 1);
     await models(page).getByText("Computing 0 of 132 pairs").waitFor();
-    await page.getByRole("button", { name: "Cancel working out the table" }).click();
+    await page.getByRole("button", { name: "Cancel computing the table" }).click();
     await models(page).getByText("Stopped at 0 of 132 pairs").waitFor();
     await page.evaluate(() => {
       globalThis.holding = false;

@@ -48,7 +48,7 @@ test("shapes of a set are brought to one size on request, and the modes wanted a
     await openFolders(page, url);
     const box = card(page, "A").getByRole("checkbox", { name: "Also scale to one size" });
     await box.check();
-    await card(page, "A").getByText("aligned rigidly and brought to one size.").waitFor();
+    await card(page, "A").getByText("aligned rigidly and scaled to one size.").waitFor();
     assert.equal(await box.isChecked(), true);
     await untilState(page, "done");
 
