@@ -129,7 +129,7 @@ test("four models that are dropped become a table of four by four, and one that 
     await openLink(page, url, STARS);
     const files = ["double.h5", "group.h5", "cpp-0.9.h5", "bfm-groups.h5"];
     await dropFiles(page, "body", files.map(fixture));
-    const dialog = page.getByRole("dialog", { name: "Which two are compared?" });
+    const dialog = page.getByRole("dialog", { name: "Which two models are compared?" });
     assert.deepEqual(await accessibilityFaults(page), []);
     await dialog.getByRole("button", { name: "All: show the table" }).click();
     await untilTable(page, 4);

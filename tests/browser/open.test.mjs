@@ -70,7 +70,7 @@ test("three models ask which two are meant, and closing the question changes not
     await openLink(page, url, STARS);
     const files = ["double.h5", "group.h5", "bfm-groups.h5"].map(fixture);
     await dropFiles(page, "body", files);
-    const dialog = page.getByRole("dialog", { name: "Which two are compared?" });
+    const dialog = page.getByRole("dialog", { name: "Which two models are compared?" });
     await dialog.getByText("3 models were found: “double.h5”, “group.h5”").waitFor();
     assert.deepEqual(await accessibilityFaults(page), []);
     await page.keyboard.press("Escape");

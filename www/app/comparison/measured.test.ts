@@ -42,7 +42,7 @@ test("the noise is stated with its unit and why it matters", () => {
 });
 
 test("a divergence beyond all bounds is not given as a number", () => {
-  assert.equal(divergence(1.7976931348623157e308), "too large to tell");
+  assert.equal(divergence(1.7976931348623157e308), "too large to show");
   assert.equal(divergence(2.5), "2.500");
 });
 

@@ -9,7 +9,7 @@ import type { Group } from "./numbers";
 const BEYOND = 1e300;
 
 export function divergence(value: number): string {
-  return value >= BEYOND ? "too large to tell" : number(value, 4);
+  return value >= BEYOND ? "too large to show" : number(value, 4);
 }
 
 /** Why Bhattacharyya distance and Kullback–Leibler divergence need noise to be finite. */

@@ -81,7 +81,7 @@ test("differences are told apart by how much differs", () => {
   assert.match(said(0.001, 0.002), /almost nothing differs/);
   assert.match(
     said(0.3, 0.6),
-    /30\u202f% of male heads and 60\u202f% of female heads are out of the other model’s reach/,
+    /30\u202f% of male heads and 60\u202f% of female heads cannot be made by the other model at this σ/,
   );
 });
 

@@ -87,9 +87,13 @@ export function differences(report: Report, nouns: Nouns): Phrase {
     ];
   }
   if (Math.max(a, b) <= 1 - NEARLY_ALL) {
-    return ["At this σ almost nothing differs: only ", ...each, " are out of the other’s reach."];
+    return [
+      "At this σ almost nothing differs: only ",
+      ...each,
+      " cannot be made by the other model.",
+    ];
   }
-  return [...each, " are out of the other model’s reach at this σ."];
+  return [...each, " cannot be made by the other model at this σ."];
 }
 
 const HARD: Record<Exclude<DifferenceName, "soft">, string> = {

@@ -33,7 +33,7 @@ function Dialog({ models }: { models: NamedSource[] }) {
           void openChosen(source("a"), source("b"));
         }}
       >
-        <h2 id="chooser-title">Which two are compared?</h2>
+        <h2 id="chooser-title">Which two models are compared?</h2>
         <p>{sentence(models)}</p>
         {SIDES.map((side) => (
           <label key={side} class="chooser-side" data-side={side}>

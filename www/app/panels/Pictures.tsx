@@ -46,7 +46,7 @@ export function Pictures({ ready }: { ready: boolean }) {
         <button
           type="button"
           disabled={!ready}
-          title="A mode that swings, or the way from A to B, as GIF or WebM"
+          title="Animation of a mode, or of the change from A to B, as GIF or WebM"
           onClick={() => {
             pictureDialog.value = "film";
           }}

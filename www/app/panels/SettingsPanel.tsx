@@ -44,7 +44,7 @@ export function SettingsPanel() {
         parse={parseSeed}
         onChange={(seed) => change({ seed })}
         wrong="a whole number below 2⁶⁴"
-        help="Start of the random numbers. The same seed gives the same draws, to the last bit; another one gives other draws from the same distribution."
+        help="Seed of the random number generator. The same seed gives the same draws, to the last bit; another one gives other draws from the same distribution."
       />
       <CountField
         label="Chains"
@@ -208,7 +208,7 @@ function ModesField() {
       }
       onChange={(modes) => change({ modes })}
       wrong="a whole number, or nothing for all"
-      help="The first modes of both models. With fewer, both models make fewer shapes and the comparison is faster; the variance of the modes left out counts as noise."
+      help="The first modes of both models. With fewer modes both models are less flexible and the comparison is faster; the variance of the modes left out counts as noise."
     />
   );
 }

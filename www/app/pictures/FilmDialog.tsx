@@ -127,7 +127,7 @@ export function FilmDialog({ onClose }: { onClose: () => void }) {
             <option value="dark">Dark</option>
           </select>
         </label>
-        <label class="check" title="Ends where it began; a GIF then begins again">
+        <label class="check" title="The animation ends where it began, and a GIF repeats">
           <input
             type="checkbox"
             checked={loops}

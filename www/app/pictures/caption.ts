@@ -34,7 +34,7 @@ function what({ shows, map, shapes, overlaid, differences }: Shown): string {
     case "means":
       return `Mean shapes of ${BLOCKS}.${also}`;
     case "shapes": {
-      const how = overlaid ? "one over the other" : "side by side";
+      const how = overlaid ? "overlaid" : "side by side";
       return `Random shapes of ${BLOCKS}, ${count(shapes)} of each, ${how}.${also}`;
     }
     case "variance":

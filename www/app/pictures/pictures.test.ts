@@ -94,7 +94,7 @@ test("a caption says models, σ, seed and what is shown", () => {
   const map = captionOf({ ...shown, shows: "variance", vertex, differences: "γ 1.0" }, report);
   assert.match(map, /^Standard deviation per vertex, mm, on the mean shapes of A/);
   assert.match(map, /Of A∖B and B∖A: γ 1\.0\. Ellipses: covariance of vertex 5 at 2 SD\./);
-  assert.match(captionOf({ ...shown, overlaid: true, shapes: 60 }, report), /60 of each, one over/);
+  assert.match(captionOf({ ...shown, overlaid: true, shapes: 60 }, report), /60 of each, overlaid/);
 });
 
 test("a figure is as wide as asked for, in pixels or in print", () => {

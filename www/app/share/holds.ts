@@ -11,14 +11,14 @@ export interface Unlinkable {
 
 /** Message after copying a link. */
 export function copiedWords({ files, modelList, points }: Unlinkable): string {
-  if (files.length > 0) return "Link copied; it holds no files";
+  if (files.length > 0) return "Link copied; it contains no files";
   return modelList || points ? "Link copied; it does not contain everything" : "Link copied";
 }
 
 export function holdsSentences({ files, modelList, points }: Unlinkable): string[] {
   const said = [holds(files)];
   if (modelList) said.push("Your own models other than A and B are not in the link.");
-  if (points) said.push("Which points are compared is a list too long for a link: use a run file.");
+  if (points) said.push("The list of compared points is too long for a link: use a run file.");
   return said;
 }
 

@@ -103,8 +103,8 @@ test("what the other model misses of a direction is said, but not of what is ord
 test("how plausible a shape is goes from nearly all to one in a million", () => {
   assert.match(unusual(0.995, "B"), /more plausible than nearly all/);
   assert.match(unusual(0.62, "B"), /more plausible than 6 in 10/);
-  assert.match(unusual(1 / 40, "B"), /among the least plausible 1 in 40 of B’s own shapes/);
-  assert.match(unusual(1e-9, "B"), /among the least plausible 1 in a million/);
+  assert.match(unusual(1 / 40, "B"), /among the rarest 1 in 40 of B’s own shapes/);
+  assert.match(unusual(1e-9, "B"), /rarer than 1 in a million/);
 });
 
 test("a swing begins where the slider stood and reaches both ends", () => {

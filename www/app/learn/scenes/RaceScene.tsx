@@ -46,8 +46,8 @@ export function RaceScene() {
     <>
       <p class="lead">
         The paper’s random walk makes many small steps. Other samplers use the gradient, or propose
-        from a Gaussian fit. Which one has the most <em>effective</em> draws for the same target and
-        the same number of steps?
+        from a Gaussian fit. Which one has the most <em>effective</em> draws for the same number of
+        evaluations of the density?
       </p>
       <fieldset class="race-breaks">
         <legend>Break it</legend>

@@ -29,7 +29,7 @@ export function insecure({ href, hostname }: URL): EngineFailure {
 export function keptFromOthers({ href }: URL, host: string): EngineFailure {
   return failure(
     "not-shared",
-    `${href} cannot be read: ${host} let no other site read them (no Access-Control-Allow-Origin header).`,
+    `${href} cannot be read: other sites cannot read ${host} (no Access-Control-Allow-Origin header).`,
     `Open the address in a tab, ${DROP}; or put the file where other sites may read it, such as a repository on GitHub or a record on Zenodo.`,
   );
 }
@@ -61,7 +61,7 @@ export function refused({ href, host }: URL, status: number): EngineFailure {
   if (status === 401 || status === 403) {
     return failure(
       "forbidden",
-      `${href} may not be read by everybody: ${host} answered ${status}.`,
+      `${href} is not public: ${host} answered ${status}.`,
       `If you have access, ${DROP}; or make the file public.`,
     );
   }

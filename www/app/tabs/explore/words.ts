@@ -94,10 +94,10 @@ export function unusual(share: number, model: string): string {
 export function rarity(share: number): string {
   if (share > 0.99) return "more plausible than nearly all";
   if (share >= 0.5) return `more plausible than ${Math.floor(10 * share)} in 10`;
-  if (share < 1e-6) return "among the least plausible 1 in a million";
+  if (share < 1e-6) return "rarer than 1 in a million";
   const odds = Number((1 / share).toPrecision(2));
   const digits = odds < 10 ? 1 : 2;
-  return `among the least plausible 1 in ${number(odds, digits)}`;
+  return `among the rarest 1 in ${number(odds, digits)}`;
 }
 
 /** Likelihood L_D at a distance of σ, and at 2 σ. */

@@ -9,7 +9,7 @@ import { SaveTable } from "../../ui/SaveTable";
 import { Numbers } from "./Numbers";
 
 const ALONE: Group = {
-  title: "Intersection model of each",
+  title: "Intersection model from each alone",
   columns: ["from A", "from B"],
   rows: [
     {
