@@ -90,7 +90,7 @@ test("a link opens a scene with its numbers, those of the command line, and the 
   });
 });
 
-test("the point roams until it is stopped, and a link has where it was stopped", async () => {
+test("the point moves until it is stopped, and a link has where it was stopped", async () => {
   await withPage({}, async ({ url, page }) => {
     await open(page, url, "scene=model");
     const factor = page.locator(".equation-factor output").first();

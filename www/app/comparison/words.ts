@@ -1,4 +1,7 @@
-/** Writes the sentences of the results from a report: overlap, differences, convergence, accuracy. Pure: no DOM, no engine. */
+/**
+ * Writes the sentences of the results from a report: overlap, differences, convergence, accuracy. Pure: no DOM, no
+ * engine.
+ */
 import type {
   BothSides,
   DifferenceName,
@@ -336,7 +339,9 @@ export function worstModes(report: Report): Phrase | null {
   ];
 }
 
-/** Standard error of a mode's direction from which on the mode is not determined alone, in radians; as in src/report.rs. */
+/**
+ * Standard error of a mode's direction from which on the mode is not determined alone, in radians; as in src/report.rs.
+ */
 const MOST_TURN = 0.2;
 
 /** Groups of neighbouring modes that are not determined one by one, counted from 1. */

@@ -48,7 +48,10 @@ const asked = computed(
   () => held.value && { key: held.value.key, running: running.value, result: result.value },
 );
 
-/** Whether fetched values are of the chosen map and comparison; those of the last comparison count until the next has some. */
+/**
+ * Whether fetched values are of the chosen map and comparison; those of the last comparison count until the next has
+ * some.
+ */
 function answers(found: Fetched): boolean {
   const { name, mode, key } = found;
   if (name !== vertexMap.value || (name === "mode" && mode !== mapMode.value)) return false;

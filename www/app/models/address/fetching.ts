@@ -1,4 +1,6 @@
-/** Downloads the file of a model from its address, after asking if it is large, and checks that it is not a web page. */
+/**
+ * Downloads the file of a model from its address, after asking if it is large, and checks that it is not a web page.
+ */
 import type { DroppedFile } from "../../../worker/protocol";
 import { fileAddress, fileName } from "./address";
 import { askFirst, isAllowed, UNASKED_BYTES } from "./consent";

@@ -1,4 +1,7 @@
-/** Closes models in the engine that are no longer used: neither as A or B, nor in the model list, nor while being opened. */
+/**
+ * Closes models in the engine that are no longer used: neither as A or B, nor in the model list, nor while being
+ * opened.
+ */
 import type { Handle } from "../../../worker/protocol";
 import { engineClient } from "../../state/engine";
 import { modelList, slots } from "../../state/state";
