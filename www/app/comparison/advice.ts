@@ -15,10 +15,10 @@ import {
   deviation,
   drawsOf,
   gaussianShare,
+  insignificantLag,
   pairsOf,
   rankBand,
   shareWithin,
-  silentLag,
 } from "./diagnosing";
 import { ESS, R_HAT } from "./words";
 
@@ -102,7 +102,7 @@ export function autocorrelationAdvice(
   sampler: SamplerName,
 ): Advice {
   const draws = drawsOf(diagnostics);
-  const lag = silentLag(diagnostics.autocorrelation, draws);
+  const lag = insignificantLag(diagnostics.autocorrelation, draws);
   const last = diagnostics.autocorrelation.length - 1;
   if (essBulk >= ESS) {
     const far =

@@ -7,12 +7,12 @@ import {
   drawsOf,
   ellipseOf,
   gaussianShare,
+  insignificantLag,
   noiseBand,
   pairsOf,
   rankBand,
   shareWithin,
   shownChains,
-  silentLag,
   worstCoefficient,
 } from "./diagnosing";
 import { diagnosticsOf, independent, normals } from "./draws.fixture";
@@ -95,8 +95,8 @@ test("about a twentieth of the bars of like chains leaves the band, and most of 
 
 test("noise begins at the first lag within 2/√N", () => {
   near(noiseBand(400), 0.1);
-  assert.equal(silentLag([1, 0.5, -0.2, 0.09, 0.3], 400), 3);
-  assert.equal(silentLag([1, 0.5, 0.2], 400), null);
+  assert.equal(insignificantLag([1, 0.5, -0.2, 0.09, 0.3], 400), 3);
+  assert.equal(insignificantLag([1, 0.5, 0.2], 400), null);
 });
 
 test("an ellipse has the eigenvalues of its covariance, turned as it is", () => {

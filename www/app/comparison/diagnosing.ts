@@ -99,7 +99,7 @@ export function noiseBand(draws: number): number {
 }
 
 /** The first lag whose autocorrelation is not significant; null if there is none. */
-export function silentLag(autocorrelation: ArrayLike<number>, draws: number): number | null {
+export function insignificantLag(autocorrelation: ArrayLike<number>, draws: number): number | null {
   const band = noiseBand(draws);
   const lag = Array.from(autocorrelation).findIndex((value) => Math.abs(value) < band);
   return lag < 0 ? null : lag;

@@ -1,6 +1,6 @@
 import { embedded } from "../state/state";
 import { isDark } from "../state/theme";
-import { type Exhibit, HALLS, linkTo } from "./exhibits";
+import { EXHIBIT_GROUPS, type Exhibit, linkTo } from "./exhibits";
 import "./gallery.css";
 
 /** Gallery of example comparisons, each with a picture and a sentence. */
@@ -14,7 +14,7 @@ export function Gallery() {
           turned, changed and shared.
         </p>
       </header>
-      {HALLS.map(({ title, exhibits }) => (
+      {EXHIBIT_GROUPS.map(({ title, exhibits }) => (
         <section key={title} aria-label={title}>
           <h3>{title}</h3>
           <ul>

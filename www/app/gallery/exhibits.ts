@@ -14,7 +14,7 @@ export interface ExhibitGroup {
   exhibits: Exhibit[];
 }
 
-export const HALLS: ExhibitGroup[] = [
+export const EXHIBIT_GROUPS: ExhibitGroup[] = [
   {
     title: "Heads",
     exhibits: [
@@ -93,7 +93,7 @@ export const HALLS: ExhibitGroup[] = [
   },
 ];
 
-export const EXHIBITS: Exhibit[] = HALLS.flatMap(({ exhibits }) => exhibits);
+export const EXHIBITS: Exhibit[] = EXHIBIT_GROUPS.flatMap(({ exhibits }) => exhibits);
 
 export function linkTo({ link }: Exhibit): string {
   return `#v=1&${link}`;

@@ -35,7 +35,7 @@ export function finishPainting(): void {
   change({ prepare: { points: whole ? null : { by: "region", ranges } } });
 }
 
-export function givePaintingUp(): void {
+export function cancelPainting(): void {
   painting.value = null;
 }
 

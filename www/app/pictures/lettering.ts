@@ -1,6 +1,6 @@
 /** Draws text and colour bars on the canvas of a figure or animation. */
 import { colourOf, type Palette, shareIn } from "../text/colormap";
-import { number, signed, withoutDust } from "../text/format";
+import { number, signed, withoutRoundingError } from "../text/format";
 
 export const FONT = "system-ui, sans-serif";
 export const INK = { light: "#20242c", dark: "#e9e7e2" } as const;
@@ -31,7 +31,9 @@ export function drawBar(pen: CanvasRenderingContext2D, bar: Bar, place: Place): 
   const ink = pen.fillStyle;
   const [low, high] = bar.range;
   const show = (value: number) =>
-    (bar.ends ? signed : number)(withoutDust(value, Math.max(Math.abs(low), Math.abs(high))));
+    (bar.ends ? signed : number)(
+      withoutRoundingError(value, Math.max(Math.abs(low), Math.abs(high))),
+    );
   const before = bar.ends ? `${bar.ends[0]}  ${show(low)}` : show(low);
   const after = bar.ends ? `${show(high)}  ${bar.ends[1]}` : show(high);
   pen.save();

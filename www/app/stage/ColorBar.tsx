@@ -1,6 +1,6 @@
 import { lockedRange, unit } from "../state/state";
 import { gradientOf } from "../text/colormap";
-import { number, signed, withoutDust } from "../text/format";
+import { number, signed, withoutRoundingError } from "../text/format";
 import { MAP_WORDS, mapCaption, scaleEnds } from "./map-words";
 import { mapProblem, mapRange, ownRange, shownMap } from "./maps";
 
@@ -16,7 +16,7 @@ export function ColorBar() {
   const slack = 1e-5 * (high - low);
   const beyond = own !== null && (own[0] < low - slack || own[1] > high + slack);
   const ends = scaleEnds(map.name, map.signed);
-  const text = (value: number) => (map.signed ? signed : number)(withoutDust(value, high));
+  const text = (value: number) => (map.signed ? signed : number)(withoutRoundingError(value, high));
   return (
     <figure class="color-bar" data-low={low} data-high={high}>
       <figcaption title={MAP_WORDS[map.name].help}>

@@ -2,11 +2,11 @@ import { useLayoutEffect, useRef } from "preact/hooks";
 import {
   BRUSHES,
   beginStroke,
+  cancelPainting,
   chooseBrush,
   choosePaintTool,
   clearPainting,
   finishPainting,
-  givePaintingUp,
   invertPainting,
   paintedCount,
   undoStroke,
@@ -63,7 +63,7 @@ export function PaintBar() {
           />
         </label>
         <span class="grow" />
-        <button type="button" class="quiet" onClick={givePaintingUp}>
+        <button type="button" class="quiet" onClick={cancelPainting}>
           Cancel
         </button>
         <button type="button" class="primary" onClick={finishPainting}>
@@ -107,7 +107,7 @@ function take(input: HTMLInputElement): void {
 
 function onKey(event: KeyboardEvent): void {
   const typing = event.target instanceof HTMLInputElement && event.target.type === "text";
-  if (event.key === "Escape") givePaintingUp();
+  if (event.key === "Escape") cancelPainting();
   if (typing || event.altKey) return;
   if (event.ctrlKey || event.metaKey) {
     if (event.key.toLowerCase() !== "z" || event.shiftKey) return;

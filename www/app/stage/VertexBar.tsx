@@ -1,7 +1,7 @@
 import type { Region } from "../../worker/protocol";
 import { compared, slots, tab, unit, vertex, view } from "../state/state";
 import { REGIONS } from "../state/view";
-import { number, signed, withoutDust } from "../text/format";
+import { number, signed, withoutRoundingError } from "../text/format";
 import { NumberField } from "../ui/NumberField";
 import { ELLIPSOID_SD } from "../viewer/contents";
 import { semiAxes } from "./ellipsoid";
@@ -75,8 +75,8 @@ function VertexTable({ vertex: chosen }: { vertex: number }) {
   }
   const value = (region: Region) => map.values[region]?.[chosen];
   const size = slots.a.value?.report.size ?? 0;
-  const length = (value: number) => number(withoutDust(value, size));
-  const show = (value: number) => (map.signed ? signed : number)(withoutDust(value, size));
+  const length = (value: number) => number(withoutRoundingError(value, size));
+  const show = (value: number) => (map.signed ? signed : number)(withoutRoundingError(value, size));
   const axes = semiAxesOf(ellipsoids.value);
   const rows = Math.max(0, ...Object.values(axes).map((lengths) => lengths.length));
   return (

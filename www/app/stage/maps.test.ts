@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { MAPS } from "../state/view";
 import { colourOf, commonRange, gradientOf, type Rgb, symmetricRange } from "../text/colormap";
-import { signed, withoutDust } from "../text/format";
+import { signed, withoutRoundingError } from "../text/format";
 import { contentsOf, type Scene } from "../viewer/contents";
 import { semiAxes } from "./ellipsoid";
 import { MAP_WORDS, mapCaption, mapUnit, scaleEnds } from "./map-words";
@@ -121,8 +121,8 @@ test("signs are shown, rounding error is not", () => {
   assert.equal(signed(1.5), "+1.50");
   assert.equal(signed(-1.5), "−1.50");
   assert.equal(signed(0), "0");
-  assert.equal(withoutDust(1e-16, 3), 0);
-  assert.equal(withoutDust(1e-3, 3), 1e-3);
+  assert.equal(withoutRoundingError(1e-16, 3), 0);
+  assert.equal(withoutRoundingError(1e-3, 3), 1e-3);
 });
 
 test("semi-axes are the lengths of the columns, so many deviations each", () => {

@@ -12,7 +12,7 @@ export function number(value: number, digits = 3): string {
 }
 
 /** Replaces rounding error, relative to a size, by 0. */
-export function withoutDust(value: number, size: number): number {
+export function withoutRoundingError(value: number, size: number): number {
   return Math.abs(value) < 1e-9 * size ? 0 : value;
 }
 

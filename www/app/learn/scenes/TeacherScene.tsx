@@ -6,7 +6,7 @@ import { large } from "../state";
 import { beginnings, GOALS, PLANS, type Plan } from "./teacher/plans";
 import { openForPrint } from "./teacher/print";
 import { QUESTIONS } from "./teacher/questions";
-import { Taking } from "./teacher/Taking";
+import { Usage } from "./teacher/Usage";
 import "./teacher.css";
 
 /** Page for teachers: goals, plans, questions with answers, keys, and how to use the lessons elsewhere. */
@@ -80,7 +80,7 @@ export function TeacherScene() {
           ))}
         </dl>
       </section>
-      <Taking />
+      <Usage />
     </div>
   );
 }

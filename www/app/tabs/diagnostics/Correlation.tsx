@@ -1,5 +1,5 @@
 import type { ChainFigures } from "../../../worker/protocol";
-import { drawsOf, noiseBand, silentLag } from "../../comparison/diagnosing";
+import { drawsOf, insignificantLag, noiseBand } from "../../comparison/diagnosing";
 import { number } from "../../text/format";
 import { linear, ticks } from "../../text/plots";
 import type { Advice } from "../../ui/Chart";
@@ -19,7 +19,7 @@ export function Correlation({ diagnostics, advice, which, file }: Props) {
   const found = Array.from(diagnostics.autocorrelation);
   const draws = drawsOf(diagnostics);
   const band = noiseBand(draws);
-  const silent = silentLag(found, draws);
+  const silent = insignificantLag(found, draws);
   return (
     <Chart
       name="autocorrelation"

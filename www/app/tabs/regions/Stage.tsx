@@ -26,7 +26,7 @@ import {
   vertexMap,
   view,
 } from "../../state/state";
-import { number, signed, withoutDust } from "../../text/format";
+import { number, signed, withoutRoundingError } from "../../text/format";
 import { BackIcon, ExpandIcon } from "../../ui/icons";
 import { contentOf } from "../../viewer/contents";
 import { DifferenceBar } from "./DifferenceBar";
@@ -194,7 +194,7 @@ function valueAt(name: Region, vertex: number): string | null {
     const value = map.values[name]?.[vertex];
     if (value === undefined) return null;
     const size = map.name === "ratio" ? 0 : (slots.a.value?.report.size ?? 0);
-    const text = (map.signed ? signed : number)(withoutDust(value, size));
+    const text = (map.signed ? signed : number)(withoutRoundingError(value, size));
     return `${map.name === "sd" ? "SD " : ""}${text} ${mapUnit(map.name, unit.value)}`;
   }
   const { geometry } = scene.value;

@@ -1,5 +1,5 @@
 import type { LessonModels } from "../../../../worker/lessons";
-import { number, withoutDust } from "../../../text/format";
+import { number, withoutRoundingError } from "../../../text/format";
 import { TIPS } from "../../shape";
 import { TIP_NAMES } from "./tips";
 
@@ -43,7 +43,7 @@ export function TipTable({ models, shared, guess }: Props) {
                 <td key={key} data-whose={key}>
                   <span class="tip-bar" style={{ width: `${(100 * sd) / most}%` }} />
                   <span class="num" data-metric={`tips.${tip}.${key}`} data-value={sd}>
-                    {number(withoutDust(sd, most), 2)}
+                    {number(withoutRoundingError(sd, most), 2)}
                   </span>
                 </td>
               );

@@ -46,7 +46,7 @@ export function drawWalk(pen: Pen, size: Size, palette: Palette, shown: Shown): 
     const [x = 0, y = 0] = positionOf(shown, chain);
     drawDot(pen, plane.x(x), plane.y(y), radius, chainColour(chain), palette.raised);
   }
-  if (shown.slow) drawLoupe(pen, plane, palette, positionOf(shown, followedOf(shown)));
+  if (shown.slow) drawMagnifiedFrame(pen, plane, palette, positionOf(shown, followedOf(shown)));
 }
 
 /** Draws recent states as dots, which are denser where the chain stays longer. */
@@ -109,7 +109,7 @@ export function drawProposal(
 }
 
 /** Draws the frame of the magnified part of the plane. */
-function drawLoupe(pen: Pen, plane: Plane, palette: Palette, at: readonly number[]): void {
+function drawMagnifiedFrame(pen: Pen, plane: Plane, palette: Palette, at: readonly number[]): void {
   const half = NEAR * plane.scale;
   pen.strokeStyle = palette.ink;
   pen.lineWidth = 1.25;

@@ -2,7 +2,7 @@ const EMBED = `<script type="module" src="shape-venn.js"></script>
 <shape-venn scene="step" seed="7"></shape-venn>`;
 
 /** How to use the lessons elsewhere: links, seeds, without a network, inside other pages, on a projector. */
-export function Taking() {
+export function Usage() {
   return (
     <section aria-labelledby="teacher-taking">
       <h3 id="teacher-taking">Links, seeds, no network, other pages</h3>
