@@ -21,6 +21,7 @@ pub(super) mod stl;
 pub(super) mod tps;
 pub(super) mod vtk;
 pub(super) mod vtp;
+mod vtp_numbers;
 
 use super::error::Fault;
 use crate::formats::input::sniffing::Content;
