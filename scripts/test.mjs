@@ -7,7 +7,7 @@
 import { audits } from "./audit.mjs";
 import { browserTests } from "./browser.mjs";
 import { buildEngine, buildPage, checkInputs } from "./build.mjs";
-import { checkFeatures } from "./features.mjs";
+import { checkFeatures, checkLibrary } from "./features.mjs";
 import { documentationTests, rustTests } from "./rust.mjs";
 import {
   ensureBrowser,
@@ -122,6 +122,7 @@ await main(async () => {
   await test("Clippy, native", ["linters"], () =>
     check("cargo", ["clippy", ...locked, "--all-targets", "--", "-D", "warnings"]),
   );
+  await test("The library without the command line", [], checkLibrary);
   await test("Rust documentation", [], () =>
     check("cargo", ["doc", ...locked, "--no-deps"], { env: { RUSTDOCFLAGS: "-D warnings" } }),
   );

@@ -6,7 +6,16 @@
 //! & Egger, "Approximating Intersections and Differences Between Linear Statistical Shape Models Using Markov Chain
 //! Monte Carlo", WACV 2024; `docs/method.md` in the repository has the definitions and what is done differently.
 //!
-//! As a library, leave out the command line and what it needs: `cargo add shapevenn --no-default-features`.
+//! # Use it as a library
+//!
+//! By default the crate builds the command line too, with clap and what else that needs. A library does without:
+//!
+//! ```toml
+//! [dependencies]
+//! shapevenn = { version = "0.1", default-features = false }
+//! ```
+//!
+//! The feature `cli`, the only one and on by default, adds the program `shapevenn` and nothing to the library.
 //!
 //! # Open a model, and ask whether two can be compared
 //!
