@@ -94,7 +94,7 @@ fn text_has_the_numbers_by_their_paths_and_names_other_keys() {
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let line = text.lines().find(|line| line.starts_with("point.distance ")).unwrap();
     assert_eq!(line.split_whitespace().last(), Some("0.383022"), "{text}");
-    assert!(text.contains("! camera is no key of a scene's figures"), "{text}");
+    assert!(text.contains("! camera is no key that changes the numbers of a scene"), "{text}");
 }
 
 #[test]

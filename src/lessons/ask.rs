@@ -6,16 +6,16 @@ use serde::{Deserialize, Serialize};
 use super::LessonError;
 use crate::settings::Plausibility;
 
-/// Chains of a lane at the most.
+/// Chains of a group at the most.
 pub const MOST_CHAINS: usize = 64;
 /// Steps of one ask at the most; of one that watches, steps × chains.
 pub const MOST_STEPS: usize = 20_000;
 /// Rows and columns of a field at the most.
 pub const MOST_ROWS: usize = 256;
-/// Draws that a lane keeps at the most, over all chains; then it does no more.
+/// Draws that a group of chains keeps at the most, over all chains; then it does no more.
 pub const MOST_DRAWS: usize = 200_000;
-/// Lanes at the most.
-pub const MOST_LANES: u32 = 32;
+/// Groups of chains at the most.
+pub const MOST_CHAIN_GROUPS: u32 = 32;
 /// Dimension of a standard normal law at the most.
 pub const MOST_DIMENSIONS: usize = 100;
 

@@ -35,22 +35,22 @@ pub enum LessonError {
     },
     /// The pooled draws do not vary.
     Flat,
-    /// There is no such lane.
-    NoLane {
+    /// There is no such group of chains.
+    NoChainGroup {
         /// Its number.
-        lane: u32,
+        group: u32,
     },
-    /// A lane draws from something else than what is needed.
-    OtherLane {
+    /// A group of chains draws from something else than what is needed.
+    OtherTarget {
         /// Its number.
-        lane: u32,
+        group: u32,
         /// What is needed.
         needed: &'static str,
     },
     /// There are too few draws to say anything of.
     NoDraws {
-        /// The lane.
-        lane: u32,
+        /// Number of the group of chains.
+        group: u32,
     },
     /// The other model holds every shape of this one: there is no difference.
     EmptyDifference {
@@ -71,8 +71,8 @@ impl LessonError {
             Self::Pair(error) => error.code(),
             Self::Fit { .. } => "not-finite",
             Self::Flat => "flat-intersection",
-            Self::NoLane { .. } => "no-lane",
-            Self::OtherLane { .. } => "other-lane",
+            Self::NoChainGroup { .. } => "no-lane",
+            Self::OtherTarget { .. } => "other-lane",
             Self::NoDraws { .. } => "no-draws",
             Self::EmptyDifference { .. } => "empty-difference",
             Self::NoStart => "no-start",
@@ -90,8 +90,10 @@ impl LessonError {
             Self::Pair(error) => error.hint(),
             Self::Fit { .. } => "Try a larger σ, or fewer modes.",
             Self::Flat => "Draw more, or try a larger σ.",
-            Self::NoLane { .. } => "Begin chains in it first.",
-            Self::OtherLane { .. } => "Ask for another lane, or begin other chains in this one.",
+            Self::NoChainGroup { .. } => "Begin chains with this number first.",
+            Self::OtherTarget { .. } => {
+                "Ask for another chain group, or begin other chains in this one."
+            }
             Self::NoDraws { .. } => "Advance it beyond its burn-in first.",
             Self::EmptyDifference { .. } => "Choose models of which one lacks something.",
             Self::NoStart => "Leave the start out, or choose chains.",
@@ -112,11 +114,11 @@ impl fmt::Display for LessonError {
                 write!(f, "The Gaussian fit of side {side} overflows at σ = {sigma}.")
             }
             Self::Flat => write!(f, "The pooled draws do not vary: they make no model."),
-            Self::NoLane { lane } => write!(f, "There are no chains in lane {lane}."),
-            Self::OtherLane { lane, needed } => {
-                write!(f, "Lane {lane} does not draw from {needed}.")
+            Self::NoChainGroup { group } => write!(f, "There is no chain group {group}."),
+            Self::OtherTarget { group, needed } => {
+                write!(f, "Chain group {group} does not draw from {needed}.")
             }
-            Self::NoDraws { lane } => write!(f, "Lane {lane} has too few draws yet."),
+            Self::NoDraws { group } => write!(f, "Chain group {group} has too few draws yet."),
             Self::EmptyDifference { side } => {
                 let other = if *side == "A" { "B" } else { "A" };
                 write!(f, "{other} holds every shape of {side}: the difference is empty.")

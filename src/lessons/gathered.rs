@@ -2,7 +2,7 @@
 //!
 //! d_G falls with the number of draws as √(Σ_{i≤k<j} λᵢλⱼ/(λᵢ − λⱼ)²/N_ij), the λ those of the closed form.
 //! What turns mode i towards j is the mean of zᵢzⱼ, the draws' coordinates in its modes: N_ij is the
-//! effective sample size of that product, which the faster of the two decides. Two lanes of N₁ and N₂
+//! effective sample size of that product, which the faster of the two decides. Two groups of chains with N₁ and N₂
 //! effective draws count as 4/(1/N₁ + 1/N₂), since both sides are pooled equally.
 //!
 //! A difference is not convex: the shapes between its draws need not be in it. The share of a Gaussian's
@@ -14,7 +14,7 @@ use nalgebra::DVector;
 use super::LessonError;
 use super::answer::{Fall, LessonIntersection, LessonModel, LessonPrincipal};
 use super::ask::LessonTarget;
-use super::lane::Lane;
+use super::chain_group::ChainGroup;
 use super::models::Opened;
 use crate::linalg::Moments;
 use crate::measure::{
@@ -32,26 +32,26 @@ const LEAST_DRAWS: usize = 3;
 /// Fewer draws of a chain say nothing about how it mixes.
 const LEAST_DRAWS_OF_A_CHAIN: usize = 4;
 
-/// A lane by its number.
-pub(super) type Numbered<'a> = (u32, &'a Lane);
+/// A group of chains with its number.
+pub(super) type Numbered<'a> = (u32, &'a ChainGroup);
 
-/// A∩B from the pooled draws of two lanes.
+/// A∩B from the pooled draws of two groups of chains.
 pub(super) fn intersection(
     opened: &Opened,
-    lanes: [Numbered; 2],
+    groups: [Numbered; 2],
     counts: &[usize],
 ) -> Result<LessonIntersection, LessonError> {
-    for ((number, lane), side) in lanes.into_iter().zip([Side::A, Side::B]) {
-        if lane.target != LessonTarget::Intersection || lane.side != side {
+    for ((number, group), side) in groups.into_iter().zip([Side::A, Side::B]) {
+        if group.target != LessonTarget::Intersection || group.side != side {
             let needed = ["the intersection posterior of A", "the intersection posterior of B"];
-            return Err(LessonError::OtherLane { lane: number, needed: needed[side.index()] });
+            return Err(LessonError::OtherTarget { group: number, needed: needed[side.index()] });
         }
-        if lane.length() * lane.chains() < LEAST_DRAWS {
-            return Err(LessonError::NoDraws { lane: number });
+        if group.length() * group.chains() < LEAST_DRAWS {
+            return Err(LessonError::NoDraws { group: number });
         }
     }
-    let lanes = lanes.map(|(_, lane)| lane);
-    let whole = pooled(opened, lanes, usize::MAX);
+    let groups = groups.map(|(_, group)| group);
+    let whole = pooled(opened, groups, usize::MAX);
     let model = opened.joint.model(&whole, opened.most_modes()).ok_or(LessonError::Flat)?;
     let distance = |moments: &Moments| {
         let truth = opened.truth.as_ref()?;
@@ -62,11 +62,11 @@ pub(super) fn intersection(
         let spaces: [AffineSpace; 2] = [&model, truth].map(AffineSpace::of);
         Some(affine_grassmann_distance(&spaces[0], &spaces[1], Displacement::Full))
     });
-    let most = lanes.map(|lane| lane.length() * lane.chains());
+    let most = groups.map(|group| group.length() * group.chains());
     let counts = counts.iter().map(|count| (*count).clamp(LEAST_DRAWS, most[0].min(most[1])));
-    let expected = Expected::new(opened, lanes);
+    let expected = Expected::new(opened, groups);
     let fall = |draws: usize| {
-        let grassmann = distance(&pooled(opened, lanes, draws));
+        let grassmann = distance(&pooled(opened, groups, draws));
         Fall { draws, grassmann }
     };
     Ok(LessonIntersection {
@@ -79,10 +79,10 @@ pub(super) fn intersection(
     })
 }
 
-/// The law of the first `count` draws of each lane together, in the joint basis.
-fn pooled(opened: &Opened, lanes: [&Lane; 2], count: usize) -> Moments {
+/// The moments of the first `count` draws of each group together, in the joint basis.
+fn pooled(opened: &Opened, groups: [&ChainGroup; 2], count: usize) -> Moments {
     let [a, b] = Side::BOTH.map(|side| {
-        let draws = lanes[side.index()].first(count);
+        let draws = groups[side.index()].first(count);
         let modes = opened.sides[side.index()].mode_count();
         opened.joint.lift(side, &Moments::of(draws.into_iter(), modes))
     });
@@ -90,14 +90,14 @@ fn pooled(opened: &Opened, lanes: [&Lane; 2], count: usize) -> Moments {
 }
 
 /// Pairs of a mode that counts and one that does not: their variances, and which share of the draws of each
-/// lane is effective for their product.
+/// group is effective for their product.
 struct Expected(Vec<([f64; 2], [f64; 2])>);
 
 impl Expected {
-    fn new(opened: &Opened, lanes: [&Lane; 2]) -> Option<Self> {
+    fn new(opened: &Opened, groups: [&ChainGroup; 2]) -> Option<Self> {
         let kept = opened.truth.as_ref().map(LinearModel::mode_count)?;
         let (modes, variances) = opened.closed_form.principal_components();
-        let coordinates = Side::BOTH.map(|side| lanes[side.index()].in_modes(opened, &modes));
+        let coordinates = Side::BOTH.map(|side| groups[side.index()].in_modes(opened, &modes));
         let pair = |i: usize, j: usize| {
             let shares = Side::BOTH.map(|side| effective_share(&coordinates[side.index()], i, j));
             ([variances[i], variances[j]], shares)
@@ -107,7 +107,7 @@ impl Expected {
         Some(Self((0..kept.min(count)).flat_map(of_mode).map(|(i, j)| pair(i, j)).collect()))
     }
 
-    /// The error of sampling after `draws` draws of each lane.
+    /// The error of sampling after `draws` draws of each group.
     fn after(&self, draws: usize) -> f64 {
         let square = |([first, other], shares): &([f64; 2], [f64; 2])| {
             let both = 4.0 * draws as f64 / (1.0 / shares[0] + 1.0 / shares[1]);
@@ -129,23 +129,23 @@ fn effective_share(chains: &[Vec<DVector<f64>>], i: usize, j: usize) -> f64 {
     (summarise(&products).ess_bulk / (length * products.len()) as f64).min(1.0)
 }
 
-/// What principal components would make of a lane's draws.
+/// What principal components would make of a group's draws.
 pub(super) fn principal(
     opened: &Opened,
-    (number, lane): Numbered,
+    (number, group): Numbered,
 ) -> Result<LessonPrincipal, LessonError> {
-    if lane.target == LessonTarget::Normal {
-        return Err(LessonError::OtherLane { lane: number, needed: "shapes of a model" });
+    if group.target == LessonTarget::Normal {
+        return Err(LessonError::OtherTarget { group: number, needed: "shapes of a model" });
     }
-    let count = lane.length() * lane.chains();
+    let count = group.length() * group.chains();
     if count < LEAST_DRAWS {
-        return Err(LessonError::NoDraws { lane: number });
+        return Err(LessonError::NoDraws { group: number });
     }
-    let moments = lane.moments();
+    let moments = group.moments();
     let factor = moments.factor();
-    let mut random = stream(SEED, Stream::Display, lane.side.index(), 0);
+    let mut random = stream(SEED, Stream::Display, group.side.index(), 0);
     let mut z = DVector::zeros(factor.ncols());
-    let operator = &opened.sides[lane.side.index()];
+    let operator = &opened.sides[group.side.index()];
     let is_common = |distance: f64| distance_likelihood(distance, opened.sigma) > 0.5;
     let misled = (0..SHAPES)
         .filter(|_| {
@@ -154,9 +154,9 @@ pub(super) fn principal(
             is_common(operator.mean_vertex_distance(point.as_slice()))
         })
         .count();
-    let distances = lane.draws().statistics.iter();
+    let distances = group.draws().statistics.iter();
     let misled_draws = distances
-        .flat_map(|chain| chain.iter().take(lane.length()))
+        .flat_map(|chain| chain.iter().take(group.length()))
         .filter(|distance| is_common(**distance))
         .count();
     Ok(LessonPrincipal {
@@ -164,6 +164,6 @@ pub(super) fn principal(
         covariance: moments.covariance.as_slice().to_vec(),
         misled: misled as f64 / SHAPES as f64,
         misled_draws: misled_draws as f64 / count as f64,
-        side: lane.side,
+        side: group.side,
     })
 }

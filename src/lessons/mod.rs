@@ -1,30 +1,30 @@
 //! Lessons: the method on the paper's stars and on two planes, one question at a time.
 //!
-//! A [`Lesson`] holds two small models and *lanes*, ensembles of chains that are run step by step and looked
-//! at. It answers [`LessonAsk`]s: what a density, its gradient and a distance are at a point or over a plane;
+//! A [`Lesson`] holds two small models and *groups of chains* that are run step by step.
+//! It answers [`LessonAsk`]s: what a density, its gradient and a distance are at a point or over a plane;
 //! what a walk proposed and why it was accepted; what the draws say. Every number is that of the engine:
 //! targets, fits, samplers, diagnostics and measures are those of a comparison, here in double precision
 //! throughout and with the single steps to be seen.
 //!
-//! The same asks give the same answers, natively and in the browser, bit for bit; what a lane draws does not
+//! The same asks give the same answers, natively and in the browser, bit for bit; what a group draws does not
 //! depend on how its steps are cut.
 //!
-//! **Limits.** Models made by code alone, since every evaluation is on its own. A lane keeps at most 200,000
+//! **Limits.** Models made by code alone, since every evaluation is on its own. A group keeps at most 200,000
 //! draws, or as many as five million numbers hold, and then does no more.
 //!
 //! **References.** Weiherer, Klein & Egger, WACV 2024; the targets, samplers and measures name theirs.
 //!
-//! [`Scene`] has the scenes of the page's lessons: their links, their defaults, their figures.
+//! [`Scene`] has the scenes of the page's lessons: their links, their defaults, their numbers.
 
 mod answer;
 mod ask;
+mod chain_group;
 mod error;
 mod gathered;
-mod lane;
 mod models;
-mod place;
+mod points_and_fields;
 mod scene;
-mod scene_figures;
+mod scene_numbers;
 mod target;
 #[cfg(test)]
 mod tests;
@@ -35,24 +35,24 @@ pub use answer::{
     LessonStep,
 };
 pub use ask::{
-    Beginning, FieldName, LessonAsk, LessonSampler, LessonTarget, MOST_CHAINS, MOST_DIMENSIONS,
-    MOST_DRAWS, MOST_LANES, MOST_ROWS, MOST_STEPS, Opening,
+    Beginning, FieldName, LessonAsk, LessonSampler, LessonTarget, MOST_CHAIN_GROUPS, MOST_CHAINS,
+    MOST_DIMENSIONS, MOST_DRAWS, MOST_ROWS, MOST_STEPS, Opening,
 };
 pub use error::LessonError;
 pub use scene::{Break, Scene, SceneName};
-pub use scene_figures::{PointFigures, RaceFigures, SceneFigures, Tip};
+pub use scene_numbers::{PointNumbers, RaceNumbers, SceneNumbers, Tip};
 
 use std::collections::BTreeMap;
 
-use lane::Lane;
+use chain_group::ChainGroup;
 use models::Opened;
-use place::Grid;
+use points_and_fields::Grid;
 
 /// Two models and the chains on them.
 #[derive(Debug, Default)]
 pub struct Lesson {
     opened: Option<Opened>,
-    lanes: BTreeMap<u32, Lane>,
+    groups: BTreeMap<u32, ChainGroup>,
 }
 
 impl Lesson {
@@ -71,7 +71,7 @@ impl Lesson {
                 let opened = Opened::new(&opening)?;
                 let answer = opened.answer()?;
                 self.opened = Some(opened);
-                self.lanes.clear();
+                self.groups.clear();
                 LessonAnswer::Models(Box::new(answer))
             }
             LessonAsk::Point { side, coefficients } => {
@@ -82,36 +82,45 @@ impl Lesson {
             }
             LessonAsk::Field { of, side, modes, at, extent, size } => {
                 let grid = Grid { modes, at: &at, extent, size };
-                LessonAnswer::Field(place::field(self.opened.as_ref(), of, side, &grid)?)
+                LessonAnswer::Field(points_and_fields::field(
+                    self.opened.as_ref(),
+                    of,
+                    side,
+                    &grid,
+                )?)
             }
-            LessonAsk::Begin { lane, how } => {
-                if lane >= MOST_LANES {
-                    let expected = format!("a whole number below {MOST_LANES}");
-                    let found = lane.to_string();
-                    return Err(LessonError::Value { what: "A lane", expected, found });
+            LessonAsk::Begin { lane: number, how } => {
+                if number >= MOST_CHAIN_GROUPS {
+                    let expected = format!("a whole number below {MOST_CHAIN_GROUPS}");
+                    let found = number.to_string();
+                    return Err(LessonError::Value {
+                        what: "The number of a chain group",
+                        expected,
+                        found,
+                    });
                 }
-                let (begun, start) = Lane::new(self.opened.as_ref(), &how)?;
-                self.lanes.insert(lane, begun);
+                let (begun, start) = ChainGroup::new(self.opened.as_ref(), &how)?;
+                self.groups.insert(number, begun);
                 LessonAnswer::Begun(start)
             }
             LessonAsk::Advance { lane: number, steps, watch } => {
-                let lane = self.lanes.get_mut(&number);
-                let lane = lane.ok_or(LessonError::NoLane { lane: number })?;
-                LessonAnswer::Progress(lane.advance(self.opened.as_ref(), steps, watch)?)
+                let group = self.groups.get_mut(&number);
+                let group = group.ok_or(LessonError::NoChainGroup { group: number })?;
+                LessonAnswer::Progress(group.advance(self.opened.as_ref(), steps, watch)?)
             }
-            LessonAsk::Draws { lane, most } => LessonAnswer::Draws(self.lane(lane)?.show(most)),
-            LessonAsk::Figures { lane } => LessonAnswer::Figures(self.lane(lane)?.figures()),
+            LessonAsk::Draws { lane, most } => LessonAnswer::Draws(self.group(lane)?.show(most)),
+            LessonAsk::Figures { lane } => LessonAnswer::Figures(self.group(lane)?.figures()),
             LessonAsk::Intersection { lanes: [a, b], counts } => {
-                let lanes = [(a, self.lane(a)?), (b, self.lane(b)?)];
-                LessonAnswer::Intersection(gathered::intersection(self.opened()?, lanes, &counts)?)
+                let groups = [(a, self.group(a)?), (b, self.group(b)?)];
+                LessonAnswer::Intersection(gathered::intersection(self.opened()?, groups, &counts)?)
             }
             LessonAsk::Shapes { lane, side, most } => {
-                let lane = self.lane(lane)?;
-                let side = side.unwrap_or(lane.side);
-                LessonAnswer::Shapes(lane.shapes(self.opened()?, side, most)?)
+                let group = self.group(lane)?;
+                let side = side.unwrap_or(group.side);
+                LessonAnswer::Shapes(group.shapes(self.opened()?, side, most)?)
             }
             LessonAsk::Principal { lane } => {
-                let numbered = (lane, self.lane(lane)?);
+                let numbered = (lane, self.group(lane)?);
                 LessonAnswer::Principal(gathered::principal(self.opened()?, numbered)?)
             }
         })
@@ -121,7 +130,7 @@ impl Lesson {
         self.opened.as_ref().ok_or(LessonError::NotOpen)
     }
 
-    fn lane(&self, lane: u32) -> Result<&Lane, LessonError> {
-        self.lanes.get(&lane).ok_or(LessonError::NoLane { lane })
+    fn group(&self, group: u32) -> Result<&ChainGroup, LessonError> {
+        self.groups.get(&group).ok_or(LessonError::NoChainGroup { group })
     }
 }

@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 use super::LessonError;
 use super::answer::{Law, LessonModel, LessonModels};
 use super::ask::{LessonTarget, Opening, number};
-use super::target::LaneTarget;
+use super::target::ChainTarget;
 use crate::comparison::settled_fit;
 use crate::demos::{self, PlanesAt, STAR_ROWS, planes_at, star_intersection};
 use crate::linalg::Moments;
@@ -50,7 +50,7 @@ pub(super) struct Opened {
     pub(super) sigma: f64,
     pub(super) fits: [Gaussian; 2],
     pub(super) joint: Joint,
-    /// The law of A∩B by the fits, in the joint basis.
+    /// The moments of A∩B by the fits, in the joint basis.
     pub(super) closed_form: Moments,
     /// The known intersection.
     pub(super) truth: Option<LinearModel>,
@@ -150,11 +150,11 @@ impl Opened {
         Intersection::exact(&self.sides[side.index()], self.sigma)
     }
 
-    pub(super) fn target(&self, target: LessonTarget, side: Side) -> LaneTarget<'_> {
+    pub(super) fn target(&self, target: LessonTarget, side: Side) -> ChainTarget<'_> {
         match target {
-            LessonTarget::Intersection => LaneTarget::Intersection(self.posterior(side)),
-            LessonTarget::Difference => LaneTarget::Difference(self.difference(side)),
-            LessonTarget::Prior | LessonTarget::Normal => LaneTarget::Normal {
+            LessonTarget::Intersection => ChainTarget::Intersection(self.posterior(side)),
+            LessonTarget::Difference => ChainTarget::Difference(self.difference(side)),
+            LessonTarget::Prior | LessonTarget::Normal => ChainTarget::Normal {
                 dimension: self.modes(side),
                 side: Some(&self.sides[side.index()]),
             },
@@ -212,7 +212,7 @@ impl Opened {
             _ => None,
         };
         let intersection = self.joint.model(&self.closed_form, self.most_modes());
-        let law = |side: Side| {
+        let fit = |side: Side| {
             let fit = &self.fits[side.index()];
             Law::of(fit.mean().as_slice(), &fit.covariance())
         };
@@ -229,7 +229,7 @@ impl Opened {
             b: LessonModel::of(b),
             truth: self.truth.as_ref().map(LessonModel::of),
             intersection: LessonModel::of(&intersection.ok_or(LessonError::Flat)?),
-            fits: Sides::each(law),
+            fits: Sides::each(fit),
             angles: angles.into_iter().map(f64::to_degrees).collect(),
             distances: Sides::each(distance),
             recommended: recommended_tolerance(&self.pair, sides.into(), None).sigma,

@@ -58,7 +58,7 @@ pub enum Break {
     Misaligned,
 }
 
-/// A scene with all that makes its figures.
+/// A scene with all that makes its numbers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Scene {
@@ -134,7 +134,7 @@ impl Scene {
         }
     }
 
-    /// The scene of a link, by its keys and values, and the keys that say nothing of its figures.
+    /// The scene of a link, by its keys and values, and the keys that do not change its numbers.
     ///
     /// # Errors
     /// [`LessonError`] when it names no scene, or a value cannot be read.

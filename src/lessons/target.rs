@@ -1,11 +1,11 @@
-//! What the chains of a lane draw from.
+//! The densities that the chains of a lesson draw from.
 
 use crate::pair::{Difference, Intersection, ResidualOperator};
 use crate::sampling::{Evaluation, RejectionTarget, Target};
 
-/// A target of a lane, in double precision: the models are small, and every number may be looked at.
+/// A target of chains, in double precision: the models are small, and every number may be looked at.
 #[derive(Debug)]
-pub(super) enum LaneTarget<'a> {
+pub(super) enum ChainTarget<'a> {
     /// The intersection posterior.
     Intersection(Intersection<'a>),
     /// The soft difference.
@@ -19,7 +19,7 @@ pub(super) enum LaneTarget<'a> {
     },
 }
 
-impl Target for LaneTarget<'_> {
+impl Target for ChainTarget<'_> {
     fn dimension(&self) -> usize {
         match self {
             Self::Intersection(target) => target.dimension(),
@@ -55,7 +55,7 @@ impl Target for LaneTarget<'_> {
 }
 
 /// All of them are shares of N(0, I): 1 − L_D, L_D·L_P (of the paper's product) and 1.
-impl RejectionTarget for LaneTarget<'_> {
+impl RejectionTarget for ChainTarget<'_> {
     fn dimension(&self) -> usize {
         Target::dimension(self)
     }

@@ -461,7 +461,7 @@ fn faults_are_sentences_with_what_was_expected_and_found() {
     assert_eq!(said(begin(65)), "The number of chains is a whole number from 1 to 64, not “65”.");
     assert_eq!(
         said(json!({ "ask": "advance", "lane": 4, "steps": 1 })),
-        "There are no chains in lane 4."
+        "There is no chain group 4."
     );
     let mut lesson = opened(json!({ "ask": "open", "pair": "planes", "tilt": 0 })).0;
     let ask = json!({ "ask": "begin", "lane": 0, "target": "difference", "sampler": "rejection" });
@@ -475,5 +475,5 @@ fn faults_are_sentences_with_what_was_expected_and_found() {
     );
     let ask = json!({ "ask": "intersection", "lanes": [0, 0], "counts": [] });
     let error = asked(&mut lesson, ask).unwrap_err().to_string();
-    assert_eq!(error, "Lane 0 does not draw from the intersection posterior of A.");
+    assert_eq!(error, "Chain group 0 does not draw from the intersection posterior of A.");
 }

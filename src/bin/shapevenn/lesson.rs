@@ -1,4 +1,4 @@
-//! `shapevenn lesson`: the figures of a scene of the page's lessons, from its link.
+//! `shapevenn lesson`: the numbers of a scene of the page's lessons, from its link.
 
 use clap::Args;
 use serde_json::Value;
@@ -28,16 +28,16 @@ impl From<LessonError> for Failure {
 pub(crate) fn lesson(arguments: &Arguments) -> Result<(), Failure> {
     let link = Link::parse(&arguments.link);
     let (scene, others) = Scene::of_link(link.pairs())?;
-    let figures = scene.figures()?;
+    let numbers = scene.numbers()?;
     if arguments.json {
-        println!("{}", to_json(&figures)?);
+        println!("{}", to_json(&numbers)?);
         return Ok(());
     }
     let document =
-        serde_json::to_value(&figures).map_err(|error| Failure::System(error.to_string()))?;
+        serde_json::to_value(&numbers).map_err(|error| Failure::System(error.to_string()))?;
     print("", &document);
     for key in others {
-        println!("! {key} is no key of a scene's figures");
+        println!("! {key} is no key that changes the numbers of a scene");
     }
     Ok(())
 }

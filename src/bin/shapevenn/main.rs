@@ -90,7 +90,7 @@ enum Command {
     },
     /// Generalization and specificity of a model (Davies), by shapes of its kind
     Evaluate(evaluate::Arguments),
-    /// The figures of a scene of the page's lessons, from its link
+    /// The numbers of a scene of the page's lessons, from its link
     Lesson(lesson::Arguments),
     /// Run the paper's experiments again, beside its printed figures
     Reproduce(reproduce::Arguments),

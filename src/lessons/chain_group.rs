@@ -1,7 +1,6 @@
-//! A lane: chains of one sampler on one target, under observation.
+//! A group of chains: several chains of one sampler on one target, advanced step by step.
 //!
-//! Lanes run as far as they are asked to, at most until they have kept as many draws as there is room
-//! for. Rejection makes its proposals in blocks, but hands its draws out one a step: how often it is asked
+//! They run as far as they are asked to, at most until they have kept as many draws as there is room for. Rejection makes its proposals in blocks, but hands its draws out one a step: how often it is asked
 //! does not change them.
 
 use crate::model::Side;
@@ -14,7 +13,7 @@ use super::ask::{
     padded, within,
 };
 use super::models::{Opened, standard};
-use super::target::LaneTarget;
+use super::target::ChainTarget;
 use crate::comparison::MOST_LEAPS;
 use crate::linalg::{Moments, single};
 use crate::pair::formed;
@@ -23,7 +22,7 @@ use crate::sampling::{
     Schedule, WhitenedChains,
 };
 
-/// Numbers that a lane keeps at the most: 40 MB.
+/// Numbers that a group keeps at the most: 40 MB.
 const MOST_NUMBERS: usize = 5_000_000;
 /// Proposals after which rejection gives up.
 const MOST_PROPOSALS: u64 = 1 << 20;
@@ -41,9 +40,9 @@ enum Runner {
     Rejection(Box<Rejection>, usize),
 }
 
-/// Chains under observation.
+/// Chains of one sampler on one target.
 #[derive(Debug)]
-pub(super) struct Lane {
+pub(super) struct ChainGroup {
     pub(super) target: LessonTarget,
     pub(super) side: Side,
     dimension: usize,
@@ -51,15 +50,15 @@ pub(super) struct Lane {
     runner: Runner,
 }
 
-/// The target of a lane; N(0, I) of some dimension needs no models.
+/// The target of a group; N(0, I) of some dimension needs no models.
 pub(super) fn target_of(
     opened: Option<&Opened>,
     target: LessonTarget,
     side: Side,
     dimension: usize,
-) -> Result<LaneTarget<'_>, LessonError> {
+) -> Result<ChainTarget<'_>, LessonError> {
     match (target, opened) {
-        (LessonTarget::Normal, _) => Ok(LaneTarget::Normal { dimension, side: None }),
+        (LessonTarget::Normal, _) => Ok(ChainTarget::Normal { dimension, side: None }),
         (_, Some(opened)) => Ok(opened.target(target, side)),
         (_, None) => Err(LessonError::NotOpen),
     }
@@ -74,7 +73,7 @@ pub(super) fn seed_of(seed: &str) -> Result<u64, LessonError> {
     })
 }
 
-impl Lane {
+impl ChainGroup {
     /// Chains that have made no step yet.
     pub(super) fn new(
         opened: Option<&Opened>,
@@ -95,14 +94,14 @@ impl Lane {
         let kept = MOST_DRAWS.min(MOST_NUMBERS / dimension) / chains;
         let schedule = Schedule { chains, burn_in, thin: 1, kept };
         let runner = runner(opened, how, dimension, schedule)?;
-        let mut lane = Self { target, side, dimension, schedule, runner };
+        let mut group = Self { target, side, dimension, schedule, runner };
         let density = target_of(opened, target, side, dimension)?;
-        lane.begin(&density, how)?;
-        let states = lane.states();
-        Ok((lane, LaneStart { states, dimension, chains }))
+        group.begin(&density, how)?;
+        let states = group.states();
+        Ok((group, LaneStart { states, dimension, chains }))
     }
 
-    fn begin(&mut self, density: &LaneTarget, how: &Beginning) -> Result<(), LessonError> {
+    fn begin(&mut self, density: &ChainTarget, how: &Beginning) -> Result<(), LessonError> {
         let start = how.start.as_ref();
         let start = start.map(|start| padded("The start", start, self.dimension)).transpose()?;
         let chains: &mut dyn Chains = match &mut self.runner {
@@ -233,8 +232,8 @@ impl Lane {
     pub(super) fn in_modes(&self, opened: &Opened, modes: &DMatrix<f64>) -> Vec<Vec<DVector<f64>>> {
         let centred = |draw: &[f64]| {
             let coefficients = DVector::from_column_slice(draw);
-            let placed = opened.joint.coordinates_of_coefficients(self.side, &coefficients);
-            modes.tr_mul(&(placed - &opened.closed_form.mean))
+            let coordinates = opened.joint.coordinates_of_coefficients(self.side, &coefficients);
+            modes.tr_mul(&(coordinates - &opened.closed_form.mean))
         };
         let chains = self.draws().values.iter();
         let draws = |chain: &Vec<f64>| {
@@ -316,7 +315,7 @@ impl Lane {
             Runner::Rejection(run, _) => Some(run.probability()),
             _ => None,
         };
-        let law = Law::of(mean.as_slice(), &covariance);
+        let Law { mean, covariance } = Law::of(mean.as_slice(), &covariance);
         LaneFigures {
             chains: self.chains(),
             draws: count,
@@ -326,8 +325,8 @@ impl Lane {
             ess_bulk_min: quality.map(|(ess, _)| ess),
             ess_per_thousand: quality.filter(|_| draws.evaluations > 0).map(|q| per_thousand(q.0)),
             mean_square: squares / (at_least_one * self.dimension as f64),
-            mean: law.mean,
-            covariance: law.covariance,
+            mean,
+            covariance,
             mean_distance: (has_models && count > 0).then(|| distances.sum::<f64>() / at_least_one),
             probability: probability.map(|(share, _)| share),
             standard_error: probability.map(|(_, error)| error),
@@ -335,7 +334,7 @@ impl Lane {
     }
 }
 
-/// Draws of a law of fewer coefficients are shapes of a model with more.
+/// The coefficients of a draw, with zeros for the modes that it does not have.
 fn coefficients(draw: &[f64], modes: usize) -> DVector<f64> {
     DVector::from_fn(modes, |index, _| draw.get(index).copied().unwrap_or(0.0))
 }
