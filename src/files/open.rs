@@ -1,0 +1,93 @@
+//! Opens model files, demo models and the shapes that evaluate a model.
+
+use super::Error;
+use crate::demos;
+use crate::formats::{self, Input, Options, Origin};
+use crate::inspect::guessed_unit;
+use crate::measure::{self, Evaluation};
+use crate::model::{Alignment, LinearModel, Unit};
+use crate::report::ModelReport;
+
+/// One model that was opened, with what the report says of it.
+#[derive(Debug, Clone)]
+pub struct Described {
+    /// Names of all models of the file, this one's among them.
+    pub parts: Vec<String>,
+    /// "shape", "expression", "color", or a group's name.
+    pub part: String,
+    /// Where the model comes from.
+    pub origin: Origin,
+    /// The model.
+    pub model: LinearModel,
+    /// Its description.
+    pub report: ModelReport,
+}
+
+/// Opens the model that files make together: usually one file, else a group of [`formats::groups`].
+///
+/// # Errors
+/// [`Error::Format`].
+pub fn open(inputs: &[Input], options: &Options) -> Result<Described, Error> {
+    let opened = formats::open(inputs, options)?;
+    let part = opened.part;
+    let model = match &part.map {
+        Some(map) => part.model.with_point_numbers(map),
+        None => part.model,
+    };
+    let report = ModelReport {
+        orthogonality: Some(part.check.orthogonality_error),
+        dropped_modes: Some(part.check.dropped_modes),
+        unit_guess: Some(&model)
+            .filter(|model| model.unit() == Unit::Unknown)
+            .and_then(guessed_unit),
+        part: Some(part.name.clone()),
+        fingerprint: Some(model.fingerprint()),
+        ..ModelReport::new(&model, &opened.format, &part.notes)
+    };
+    Ok(Described { parts: opened.parts, part: part.name, origin: part.origin, model, report })
+}
+
+/// Opens a demo model; `bytes` is the packaged file where it is one.
+///
+/// # Errors
+/// [`Error::Demo`], or [`Error::Format`] when the packaged file is damaged.
+pub fn open_demo(name: &str, bytes: Option<&[u8]>) -> Result<Described, Error> {
+    if let Some(model) = demos::generated(name) {
+        let part = "shape".to_owned();
+        let report = ModelReport {
+            part: Some(part.clone()),
+            fingerprint: Some(model.fingerprint()),
+            ..ModelReport::new(&model, "Made by Shapevenn", &[])
+        };
+        return Ok(Described {
+            parts: vec![part.clone()],
+            part,
+            origin: Origin::File,
+            model,
+            report,
+        });
+    }
+    let known = name.strip_prefix("heads-").is_some_and(|head| demos::HEADS.contains(&head));
+    match bytes {
+        Some(bytes) if known => open(&[Input::of_bytes(name, bytes)], &Options::default()),
+        _ => Err(Error::Demo { name: name.to_owned() }),
+    }
+}
+
+/// Evaluates a model by shapes that test it, or by those that it was made of (`training`).
+///
+/// # Errors
+/// [`Error::Format`] when they cannot be read, [`Error::Evaluation`] when they do not fit the model.
+pub fn evaluate(
+    described: &Described,
+    shapes: &[Input],
+    training: bool,
+) -> Result<Evaluation, Error> {
+    let alignment = match described.origin {
+        Origin::Shapes { scaled: true, .. } => Alignment::Similarity,
+        _ => Alignment::Rigid,
+    };
+    let set = formats::read_shapes(shapes)?;
+    measure::evaluate(&described.model, set.dimension, set.shapes, training, alignment)
+        .map_err(Error::Evaluation)
+}
