@@ -1,4 +1,4 @@
-//! How often tests repeat a statistical law.
+//! How many repetitions a statistical test makes, by default and at full length.
 
 /// `short` times in `npm test`; as many times more as `SHAPEVENN_LONG` says, in `npm run test:long`. Bounds that follow
 /// from the number of repetitions shrink with it.

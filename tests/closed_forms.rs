@@ -88,16 +88,16 @@ fn draws_of_lines_and_planes_have_the_exact_mean_and_covariance() {
 fn a_proposal_that_is_too_wide_and_beside_the_mark_gives_the_same_draws() {
     let (name, a, b) = lines_and_planes().swap_remove(1);
     let (side, sigma) = (ResidualOperator::new(&a, &b), 0.3);
-    let law = exact(&a, &b, sigma);
+    let gaussian = exact(&a, &b, sigma);
     let scaled = |factor: f64, shift: f64| {
-        let mean = law.mean() + law.transform() * DVector::from_element(2, shift);
-        Gaussian::from_precision(mean, law.precision() * factor).unwrap()
+        let mean = gaussian.mean() + gaussian.transform() * DVector::from_element(2, shift);
+        Gaussian::from_precision(mean, gaussian.precision() * factor).unwrap()
     };
     let schedule = Schedule { chains: 16, burn_in: 10, thin: 1, kept: 2000 };
     let wide = without_distance(&side).unwrap();
     let mut chains = IndependenceChains::new(scaled(0.5, 0.4), wide, schedule, 1, 0);
-    chains.advance(&Intersection::new(&side, sigma, law.mean()), usize::MAX);
-    let off = standard_errors_from(chains.draws(), &law);
+    chains.advance(&Intersection::new(&side, sigma, gaussian.mean()), usize::MAX);
+    let off = standard_errors_from(chains.draws(), &gaussian);
     assert!(off < 5.0, "{name}: {off} standard errors");
     // What a sampler without the weights, or with their square roots, would draw from.
     for (what, factor, shift) in [("no", 0.5, 0.4), ("half of the", 0.75, 0.4 / 3.0)] {
@@ -111,10 +111,10 @@ fn log_p_minus_log_q_is_constant_where_the_posterior_is_gaussian() {
     for (name, a, b) in lines_and_planes() {
         for (from, to) in [(&a, &b), (&b, &a)] {
             let (side, sigma) = (ResidualOperator::new(from, to), 0.1);
-            let law = exact(from, to, sigma);
+            let gaussian = exact(from, to, sigma);
             let rms = fit_rms(&side, sigma).unwrap();
-            assert!((rms.mean() - law.mean()).amax() < 1e-10, "{name}: mean of the fit");
-            let off = (rms.precision() - law.precision()).amax() / law.precision().amax();
+            assert!((rms.mean() - gaussian.mean()).amax() < 1e-10, "{name}: mean of the fit");
+            let off = (rms.precision() - gaussian.precision()).amax() / gaussian.precision().amax();
             assert!(off < 1e-12, "{name}: precision of the fit");
             assert!(spread(&side, sigma, &rms) < 1e-9, "{name}");
         }
@@ -209,22 +209,22 @@ fn shared_modes_multiply_and_own_modes_shrink_to_the_tolerance() {
         DVector::from_vec(vec![share(0), share(1), 1.0 + alone * alone])
     };
     let (first, second) = ([3.0, 2.0, 1.5], [4.0, 1.8, 1.2]);
-    let laws = [expected(first, second), expected(second, first)].map(|diagonal| {
+    let gaussians = [expected(first, second), expected(second, first)].map(|diagonal| {
         Gaussian::from_precision(DVector::zeros(3), DMatrix::from_diagonal(&diagonal)).unwrap()
     });
-    for ((from, to), law) in [(&a, &b), (&b, &a)].into_iter().zip(&laws) {
+    for ((from, to), gaussian) in [(&a, &b), (&b, &a)].into_iter().zip(&gaussians) {
         let side = ResidualOperator::new(from, to);
         let fit = fit_reweighted(&side, sigma, &fit_rms(&side, sigma).unwrap(), 6).unwrap();
-        let off = (fit.precision() - law.precision()).amax() / law.precision().amax();
+        let off = (fit.precision() - gaussian.precision()).amax() / gaussian.precision().amax();
         assert!(off < 1e-10, "closed form: {off}");
     }
     let run = compared(&a, &b, Settings { sigma: Some(sigma), ..Settings::default() });
-    for (draws, law) in run.results().intersection.iter().zip(&laws) {
-        let off = standard_errors_from(draws, law);
+    for (draws, gaussian) in run.results().intersection.iter().zip(&gaussians) {
+        let off = standard_errors_from(draws, gaussian);
         assert!(off < 5.0, "draws: {off} standard errors");
     }
-    let swapped = standard_errors_from(&run.results().intersection.a, &laws[1]);
-    assert!(swapped > 5.0, "the other side's law passes with {swapped}");
+    let swapped = standard_errors_from(&run.results().intersection.a, &gaussians[1]);
+    assert!(swapped > 5.0, "the other side's Gaussian passes with {swapped}");
     // In shapes, a shared mode of both sides has the product's variance 1/(1/λ_A + 1/λ_B).
     let found = report(&run).intersection.standard_deviations;
     for (deviation, (x, y)) in found.iter().zip([(3.0, 4.0), (2.0, 1.8)]) {
@@ -273,8 +273,8 @@ fn a_model_inside_another_has_an_empty_difference_and_the_other_has_not() {
     let outer = model(3, mean, &base, &[3.0, 2.5, 2.0, 1.5]);
     let run = compared(&inner, &outer, Settings { sigma: Some(0.05), ..Settings::default() });
     let diagonal = DVector::from_vec(vec![1.0 + 4.0 / 9.0, 1.0 + 1.0 / 6.25]);
-    let law = Gaussian::from_precision(DVector::zeros(2), DMatrix::from_diagonal(&diagonal));
-    let off = standard_errors_from(&run.results().intersection.a, &law.unwrap());
+    let gaussian = Gaussian::from_precision(DVector::zeros(2), DMatrix::from_diagonal(&diagonal));
+    let off = standard_errors_from(&run.results().intersection.a, &gaussian.unwrap());
     assert!(off < 5.0, "the inner side has no distance term: {off} standard errors");
     let found = report(&run);
     assert_eq!(found.differences.a_without_b.probability, 0.0, "inner without outer");

@@ -1,4 +1,4 @@
-//! Draws of the difference, which rejection makes exactly, against laws known in closed form.
+//! Draws of the difference, which rejection makes exactly, against distributions known in closed form.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use crate::common::{
@@ -34,7 +34,7 @@ fn lines(height: f64, length: f64, angle: f64) -> Lines {
     }
 }
 
-/// The law of r ~ N(m, s²) tilted by 1 − exp(−½ r²/σ²): N(m, s²) less Z times the narrower N(m′, v′).
+/// The distribution of r ~ N(m, s²) tilted by 1 − exp(−½ r²/σ²): N(m, s²) less Z times the narrower N(m′, v′).
 struct Tilted {
     mean: f64,
     deviation: f64,
@@ -80,7 +80,7 @@ impl Tilted {
     }
 }
 
-/// P(√N D > 2.4) is below 2·exp(−2·2.4²) = 2e-5 for draws of the law.
+/// P(√N D > 2.4) is below 2·exp(−2·2.4²) = 2e-5 for draws of the tilted.
 const MOST: f64 = 2.4;
 
 /// Kolmogorov's distance times √N.
@@ -132,22 +132,22 @@ fn the_share_of_a_that_b_cannot_make_and_its_draws_have_their_closed_form() {
     for (height, length, angle) in [(0.0, 1.0, 0.8), (0.5, 2.0, 0.4), (1.5, 0.7, 1.2)] {
         let lines = lines(height, length, angle);
         for sigma in [0.05, 0.4, 2.0] {
-            let law = Tilted::new(&lines, sigma);
+            let tilted = Tilted::new(&lines, sigma);
             let name = format!("h = {height}, s = {length}, t = {angle}, σ = {sigma}");
             let settings =
                 Settings { sigma: Some(sigma), difference_draws: 8000, ..Settings::default() };
             let run = compared(&lines.a, &lines.b, settings);
             let found = report(&run).differences.a_without_b;
-            let off = (found.probability - law.probability()).abs();
+            let off = (found.probability - tilted.probability()).abs();
             assert!(off < 5.0 * found.standard_error, "{name}: {} ± {}", found.probability, off);
             let distances = &run.results().differences.a.statistics[0];
             let squares: Vec<f64> = distances.iter().map(|d| d * d).collect();
             let (mean, error) = crate::common::mean_and_error(&[squares]);
             assert!(
-                (mean - law.mean_square()).abs() < 5.0 * error,
+                (mean - tilted.mean_square()).abs() < 5.0 * error,
                 "{name}: E d² {mean} ± {error}"
             );
-            let gap = kolmogorov(distances, |d| law.distribution(d));
+            let gap = kolmogorov(distances, |d| tilted.distribution(d));
             assert!(gap < MOST, "{name}: Kolmogorov {gap}");
             // A tolerance that is half as large again is told apart, unless it hardly matters.
             let wrong = Tilted::new(&lines, 1.5 * sigma);
@@ -190,7 +190,7 @@ fn the_standard_error_is_the_spread_over_repeats() {
     let repeats = repetitions(400);
     let lines = lines(0.3, 1.0, 0.7);
     let side = ResidualOperator::new(&lines.a, &lines.b);
-    let law = Tilted::new(&lines, 0.5);
+    let tilted = Tilted::new(&lines, 0.5);
     let criterion =
         Criterion::new(DifferenceDefinition::Soft, Level::Value(0.5), &side, &lines.a, 1, 0);
     assert!(matches!(criterion.envelope(), Envelope::Tilted(_)), "E t = 0.96");
@@ -199,7 +199,7 @@ fn the_standard_error_is_the_spread_over_repeats() {
             .map(|seed| {
                 let run = rejected(&side, &criterion, envelope.clone(), 500, 100 + seed as u64);
                 let (share, error) = run.probability();
-                (share - law.probability()) / error
+                (share - tilted.probability()) / error
             })
             .collect();
         let count = repeats as f64;
@@ -330,7 +330,7 @@ fn both_envelopes_draw_from_the_same_law() {
         let [tilted, plain] = runs.each_ref().map(Rejection::overlap);
         let error = (tilted.1 * tilted.1 + plain.1 * plain.1).sqrt();
         assert!((tilted.0 - plain.0).abs() < 5.0 * error, "{name}: {tilted:?}, {plain:?}");
-        // The law of the proposals would not pass, for either envelope.
+        // The distribution of the proposals would not pass, for either envelope.
         for extreme in [1e3 * sigma, 1e-3 * sigma] {
             let criterion =
                 Criterion::new(DifferenceDefinition::Soft, Level::Value(extreme), &side, &a, 1, 0);
@@ -483,8 +483,9 @@ fn far_shapes_in_two_modes_have_the_exponential_law() {
         assert!((found - expected).abs() < 5.0 * error, "{share}: {found}, not {expected}");
         let distances = &run.draws().statistics[0];
         assert!(distances.iter().all(|d| *d >= least), "{share}: d ≥ ε");
-        let law = |d: f64| 1.0 - libm::exp(-0.5 * (d * d - least * least) / (LENGTH * LENGTH));
-        let gap = kolmogorov(distances, law);
+        let distribution =
+            |d: f64| 1.0 - libm::exp(-0.5 * (d * d - least * least) / (LENGTH * LENGTH));
+        let gap = kolmogorov(distances, distribution);
         assert!(gap < MOST, "{share}: Kolmogorov {gap}");
     }
 }

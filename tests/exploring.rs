@@ -494,7 +494,7 @@ fn before_a_run_has_ended_there_is_what_needs_no_draws() {
     assert_eq!(run.ellipsoids(0).unwrap().len(), 5, "all five");
 }
 
-/// Models along the axes of the coordinates, so that laws fall apart into one-dimensional ones.
+/// Models along the axes of the coordinates, so that distributions fall apart into one-dimensional ones.
 fn along_axes(deviations: &[f64; 4], shift: f64) -> LinearModel {
     let mut mean = DVector::from_fn(12, |i, _| i as f64);
     mean[0] += shift;

@@ -65,13 +65,13 @@ fn the_moments_are_those_of_the_target_and_not_those_of_the_fit() {
     let settings = Settings { sigma: Some(SIGMA), draws: 96_000, ..Settings::of(Sampler::Hmc) };
     let run = compared(&a, &b, settings);
     let draws = &run.results().intersection.a;
-    let law = Gaussian::from_precision(
+    let gaussian = Gaussian::from_precision(
         long.total.mean.clone(),
         long.total.covariance.clone().try_inverse().unwrap(),
     )
     .unwrap();
     // 12 means and 78 products: the largest of 90 standard errors is below 4.5 with probability 0.999.
-    let right = standard_errors_from(draws, &law);
+    let right = standard_errors_from(draws, &gaussian);
     assert!(right < 4.5, "{right} standard errors from the weighted moments");
     let wrong = standard_errors_from(draws, &fit);
     assert!(wrong > 6.0, "the fit itself passes with {wrong}");

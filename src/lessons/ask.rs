@@ -16,7 +16,7 @@ pub const MOST_ROWS: usize = 256;
 pub const MOST_DRAWS: usize = 200_000;
 /// Groups of chains at the most.
 pub const MOST_CHAIN_GROUPS: u32 = 32;
-/// Dimension of a standard normal law at the most.
+/// Dimension of a standard normal distribution at the most.
 pub const MOST_DIMENSIONS: usize = 100;
 
 /// What two models are compared, and how.
@@ -120,7 +120,7 @@ pub struct Beginning {
     /// Steps of each chain that are thrown away at its start.
     #[serde(default)]
     pub burn_in: usize,
-    /// Dimension of the standard normal law.
+    /// Dimension of the standard normal distribution.
     #[serde(default)]
     pub dimension: Option<usize>,
     /// Where all chains start; else where the sampler starts them.

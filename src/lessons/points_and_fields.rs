@@ -91,7 +91,7 @@ pub(super) struct Grid<'a> {
     pub(super) size: usize,
 }
 
-/// Numbers over two coefficients. Without models only the standard normal law has any.
+/// Numbers over two coefficients. Without models only the standard normal distribution has any.
 pub(super) fn field(
     opened: Option<&Opened>,
     of: FieldName,

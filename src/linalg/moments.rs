@@ -34,7 +34,7 @@ impl Moments {
         Self { mean, covariance: gram(&centred) / (count - 1.0).max(1.0) }
     }
 
-    /// Of the equal mixture of two laws.
+    /// Of the equal mixture of two distributions.
     pub fn pooled(first: &Self, second: &Self) -> Self {
         let mean = (&first.mean + &second.mean) * 0.5;
         let apart = (&first.mean - &second.mean) * 0.5;

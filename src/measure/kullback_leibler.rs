@@ -60,19 +60,19 @@ mod tests {
 
     #[test]
     fn it_is_nought_on_itself_and_the_mean_of_the_log_ratio_otherwise() {
-        let law = |seed: usize| {
+        let moments = |seed: usize| {
             let mixed = DMatrix::from_fn(3, 3, |i, j| libm::sin((seed + 4 * i + 7 * j) as f64));
             let mean = DVector::from_fn(3, |i, _| libm::cos((seed * (i + 1)) as f64));
             Moments { mean, covariance: &mixed * mixed.transpose() + DMatrix::identity(3, 3) }
         };
-        let (one, two) = (law(1), law(2));
+        let (one, two) = (moments(1), moments(2));
         assert!(kullback_leibler(&one, &one, 0.3).unwrap().abs() < 1e-14, "0 on itself");
         // E₁ ln(p₁/p₂) over points that have the mean and covariance of the first exactly; the logarithm of a
         // quotient of Gaussians is a quadratic.
         let factor = one.covariance.clone().cholesky().unwrap().l();
-        let log_density = |law: &Moments, x: &DVector<f64>| {
-            let cholesky = law.covariance.clone().cholesky().unwrap();
-            let apart = x - &law.mean;
+        let log_density = |gaussian: &Moments, x: &DVector<f64>| {
+            let cholesky = gaussian.covariance.clone().cholesky().unwrap();
+            let apart = x - &gaussian.mean;
             -0.5 * apart.dot(&cholesky.solve(&apart)) - 0.5 * libm::log(cholesky.determinant())
         };
         let mut sum = 0.0;

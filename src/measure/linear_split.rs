@@ -1,6 +1,6 @@
 //! Linear splitting: what is left of a model when another is taken out of it, as Gaussians go.
 //!
-//! If a law were the mixture w·I + (1 − w)·D, its moments would be those of the merged eigenspace models of Hall,
+//! If a distribution were the mixture w·I + (1 − w)·D, its moments would be those of the merged eigenspace models of Hall,
 //! Marshall & Martin, m = w m_I + (1 − w) m_D and C = w C_I + (1 − w) C_D + w(1 − w)(m_I − m_D)(m_I − m_D)ᵀ.
 //! Splitting solves them for D:
 //!
@@ -8,7 +8,7 @@
 //!
 //! It is the baseline for a set difference: moments alone, without a draw and without a notion of distance.
 //! The intersection is no component of the model, so C_D may be indefinite: the share of its variance that
-//! is negative says how far from a law it is. Where a covariance is needed, negative eigenvalues are
+//! is negative says how far it is from a distribution. Where a covariance is needed, negative eigenvalues are
 //! set to 0.
 //!
 //! **Where we depart.** Hall et al. weigh by numbers of observations; models have none left, and w is the
@@ -65,7 +65,7 @@ pub fn linear_split(whole: &Moments, part: &Moments, weight: f64) -> Option<Line
 mod tests {
     use super::*;
 
-    fn law(seed: usize) -> Moments {
+    fn moments(seed: usize) -> Moments {
         let mixed = DMatrix::from_fn(4, 4, |i, j| libm::sin((seed + 3 * i + 5 * j * j) as f64));
         let mean = DVector::from_fn(4, |i, _| libm::cos((seed * (i + 2)) as f64));
         Moments { mean, covariance: &mixed * mixed.transpose() }
@@ -73,7 +73,7 @@ mod tests {
 
     #[test]
     fn what_was_merged_is_split_again() {
-        let (part, rest, w) = (law(1), law(2), 0.3);
+        let (part, rest, w) = (moments(1), moments(2), 0.3);
         let apart = &part.mean - &rest.mean;
         let merged = Moments {
             mean: &part.mean * w + &rest.mean * (1.0 - w),
@@ -84,7 +84,7 @@ mod tests {
         let found = linear_split(&merged, &part, w).unwrap();
         assert!((&found.moments.mean - &rest.mean).amax() < 1e-14, "mean");
         assert!((&found.moments.covariance - &rest.covariance).amax() < 1e-13, "covariance");
-        assert!(found.negative_share < 1e-14, "a law");
+        assert!(found.negative_share < 1e-14, "a covariance");
         let off = &found.factor * found.factor.transpose() - &rest.covariance;
         assert!(off.amax() < 1e-13, "its factor");
         let other = linear_split(&merged, &part, 0.4).unwrap();
@@ -106,9 +106,12 @@ mod tests {
 
     #[test]
     fn nothing_is_left_where_the_part_is_all_of_it() {
-        assert_eq!(linear_split(&law(1), &law(2), 1.0), None, "w = 1");
-        assert_eq!(linear_split(&law(1), &law(2), f64::NAN), None, "no weight");
-        let all = linear_split(&law(1), &law(2), 0.0).unwrap();
-        assert!((all.moments.covariance - law(1).covariance).amax() < 1e-15, "w = 0: the whole");
+        assert_eq!(linear_split(&moments(1), &moments(2), 1.0), None, "w = 1");
+        assert_eq!(linear_split(&moments(1), &moments(2), f64::NAN), None, "no weight");
+        let all = linear_split(&moments(1), &moments(2), 0.0).unwrap();
+        assert!(
+            (all.moments.covariance - moments(1).covariance).amax() < 1e-15,
+            "w = 0: the whole"
+        );
     }
 }

@@ -26,7 +26,7 @@ use crate::linalg::{Moments, eigen};
 /// Scores, one a column, and the ratios of their variances, largest first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RelativeEigenmodes {
-    /// w (p × p), each of unit variance under the second law with noise.
+    /// w (p × p), each of unit variance under the second Gaussian with noise.
     pub scores: DMatrix<f64>,
     /// ρ (p).
     pub ratios: DVector<f64>,
@@ -81,7 +81,7 @@ mod tests {
     use super::*;
     use crate::sampling::{Stream, fill_normal, stream};
 
-    fn law(seed: u64, size: usize, modes: usize) -> (Moments, DMatrix<f64>) {
+    fn moments(seed: u64, size: usize, modes: usize) -> (Moments, DMatrix<f64>) {
         let mut values = vec![0.0; size * modes];
         fill_normal(&mut stream(seed, Stream::Display, 9, 0), &mut values);
         let scaled = DMatrix::from_vec(size, modes, values);
@@ -89,17 +89,18 @@ mod tests {
         (Moments { mean: DVector::zeros(size), covariance }, scaled)
     }
 
-    fn variance(law: &Moments, noise: f64, w: &DVector<f64>) -> f64 {
-        w.dot(&(&law.covariance * w)) + noise * noise * w.norm_squared()
+    fn variance(gaussian: &Moments, noise: f64, w: &DVector<f64>) -> f64 {
+        w.dot(&(&gaussian.covariance * w)) + noise * noise * w.norm_squared()
     }
 
     #[test]
     fn axes_that_are_common_have_the_ratios_of_their_variances() {
-        let law = |variances: [f64; 3]| Moments {
+        let moments = |variances: [f64; 3]| Moments {
             mean: DVector::zeros(3),
             covariance: DMatrix::from_diagonal(&DVector::from_column_slice(&variances)),
         };
-        let found = relative_eigenmodes(&law([4.0, 1.0, 0.0]), &law([1.0, 4.0, 1.0]), 0.5).unwrap();
+        let found =
+            relative_eigenmodes(&moments([4.0, 1.0, 0.0]), &moments([1.0, 4.0, 1.0]), 0.5).unwrap();
         for (found, expected) in found.ratios.iter().zip([4.25 / 1.25, 1.25 / 4.25, 0.25 / 1.25]) {
             assert!((found - expected).abs() < 1e-14, "{found}, not {expected}");
         }
@@ -110,7 +111,7 @@ mod tests {
 
     #[test]
     fn ratios_are_quotients_of_variances_and_none_is_larger_than_the_first() {
-        let ((first, _), (second, _), noise) = (law(1, 9, 4), law(2, 9, 5), 0.3);
+        let ((first, _), (second, _), noise) = (moments(1, 9, 4), moments(2, 9, 5), 0.3);
         let found = relative_eigenmodes(&first, &second, noise).unwrap();
         let quotient = |w: &DVector<f64>| variance(&first, noise, w) / variance(&second, noise, w);
         for (k, ratio) in found.ratios.iter().enumerate() {
@@ -131,11 +132,11 @@ mod tests {
 
     #[test]
     fn a_linear_map_of_both_leaves_the_ratios() {
-        let ((first, _), (second, _)) = (law(4, 6, 6), law(5, 6, 6));
-        let (_, map) = law(6, 6, 6);
-        let mapped = |law: &Moments| Moments {
-            mean: law.mean.clone(),
-            covariance: &map * &law.covariance * map.transpose(),
+        let ((first, _), (second, _)) = (moments(4, 6, 6), moments(5, 6, 6));
+        let (_, map) = moments(6, 6, 6);
+        let mapped = |gaussian: &Moments| Moments {
+            mean: gaussian.mean.clone(),
+            covariance: &map * &gaussian.covariance * map.transpose(),
         };
         let before = relative_eigenmodes(&first, &second, 0.0).unwrap().ratios;
         let after = relative_eigenmodes(&mapped(&first), &mapped(&second), 0.0).unwrap().ratios;
@@ -148,7 +149,7 @@ mod tests {
 
     #[test]
     fn the_pattern_is_the_regression_of_the_shape_on_its_score() {
-        let ((first, scaled), (second, _)) = (law(7, 8, 3), law(8, 8, 4));
+        let ((first, scaled), (second, _)) = (moments(7, 8, 3), moments(8, 8, 4));
         let found = relative_eigenmodes(&first, &second, 0.2).unwrap();
         let (steps, places) = patterns(&found.scores, &scaled);
         assert_eq!(steps.ncols(), 3, "as many as A has modes");

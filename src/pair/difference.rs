@@ -403,14 +403,14 @@ mod tests {
             DifferenceDefinition::Outside,
         ] {
             let criterion = Criterion::new(definition, Level::Value(1e3), &side, pair.a(), 1, 0);
-            let Envelope::Tilted(law) = criterion.envelope() else {
+            let Envelope::Tilted(tilted) = criterion.envelope() else {
                 panic!("{definition:?}: the quadratic is below 1 on average");
             };
             let target = Difference::new(&side, &criterion);
             let mut random = stream(5, Stream::Display, 9, 0);
             let mut point = vec![0.0; 4];
             for _ in 0..200 {
-                let bound = law.draw(&mut random, &mut point);
+                let bound = tilted.draw(&mut random, &mut point);
                 let (score, _) = target.scores(&point)[0];
                 let scaled = score
                     * score

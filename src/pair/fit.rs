@@ -320,12 +320,13 @@ impl<const D: usize> Residuals<D> {
     /// Norms, directions and curvatures of all vertices.
     fn moments(&self) -> Vec<NormMoments<D>> {
         let quadrature = NormQuadrature::new();
-        let blocks = parallel::map(self.laws.len().div_ceil(BLOCK), |block| {
-            let laws = &self.laws[block * BLOCK..((block + 1) * BLOCK).min(self.laws.len())];
+        let blocks = parallel::map(self.gaussians.len().div_ceil(BLOCK), |block| {
+            let gaussians =
+                &self.gaussians[block * BLOCK..((block + 1) * BLOCK).min(self.gaussians.len())];
             let moments = |(mean, covariance): &([f64; D], [[f64; D]; D])| {
                 quadrature.moments(*mean, *covariance, self.scale)
             };
-            laws.iter().map(moments).collect::<Vec<_>>()
+            gaussians.iter().map(moments).collect::<Vec<_>>()
         });
         blocks.concat()
     }

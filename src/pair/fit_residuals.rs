@@ -1,7 +1,7 @@
 //! What the fits sum over the residuals of all vertices, or of one in every k.
 //!
 //! For a ~ N(μ, TTᵀ) the residual of vertex v is r_v ~ N(r₀ + R_vμ, (R_vT)(R_vT)ᵀ). [`Residuals`] are
-//! these laws, [`weighted_gram`] is Σ_v R_vᵀW_vR_v and [`weighted_sum`] Σ_v R_vᵀw_v.
+//! these Gaussians, [`weighted_gram`] is Σ_v R_vᵀW_vR_v and [`weighted_sum`] Σ_v R_vᵀw_v.
 //!
 //! **Cost.** T is triangular and the Gram matrix symmetric: d·n·q² multiplications and additions each,
 //! beside what fills up vectors. They run in the precision in which R is kept, over tiles of 32 vertices
@@ -63,7 +63,7 @@ impl Vertices {
 /// Means and covariances of residuals.
 #[derive(Debug)]
 pub(crate) struct Residuals<const D: usize> {
-    pub(crate) laws: Vec<([f64; D], [[f64; D]; D])>,
+    pub(crate) gaussians: Vec<([f64; D], [[f64; D]; D])>,
     /// √(Σ_v ‖m_v‖² + tr RᵀR): what a residual is nothing beside.
     pub(crate) scale: f64,
 }
@@ -88,22 +88,22 @@ impl<const D: usize> Residuals<D> {
             }
         }
         let pieces = vertices.pieces();
-        let laws = parallel::map(pieces.len(), |piece| {
-            simd::dispatch(Laws::<T, D> {
+        let gaussians = parallel::map(pieces.len(), |piece| {
+            simd::dispatch(ResidualGaussians::<T, D> {
                 rows: Picked { rows, modes, vertices, piece: pieces[piece].clone() },
                 offset: side.offset(),
                 mean: gaussian.mean().as_slice(),
                 transform: &transform,
             })
         });
-        let laws = laws.concat();
-        let squares: f64 = laws.iter().map(|(mean, _)| square(mean)).sum();
-        Self { laws, scale: (squares + side.gram().trace()).sqrt() }
+        let gaussians = gaussians.concat();
+        let squares: f64 = gaussians.iter().map(|(mean, _)| square(mean)).sum();
+        Self { gaussians, scale: (squares + side.gram().trace()).sqrt() }
     }
 
     /// E‖r_v‖².
     pub(crate) fn mean_square(&self, index: usize) -> f64 {
-        let (mean, covariance) = &self.laws[index];
+        let (mean, covariance) = &self.gaussians[index];
         (0..D).map(|axis| mean[axis] * mean[axis] + covariance[axis][axis]).sum()
     }
 }
@@ -154,7 +154,7 @@ impl<'a, T: Real> Picked<'a, T> {
 }
 
 /// Means and covariances of some residuals.
-struct Laws<'a, T, const D: usize> {
+struct ResidualGaussians<'a, T, const D: usize> {
     rows: Picked<'a, T>,
     offset: &'a [f64],
     mean: &'a [f64],
@@ -162,7 +162,7 @@ struct Laws<'a, T, const D: usize> {
     transform: &'a [T],
 }
 
-impl<T: Real, const D: usize> WithSimd for Laws<'_, T, D> {
+impl<T: Real, const D: usize> WithSimd for ResidualGaussians<'_, T, D> {
     type Output = Vec<([f64; D], [[f64; D]; D])>;
 
     #[inline(always)]

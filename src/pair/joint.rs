@@ -84,12 +84,12 @@ impl Joint {
         // BᵀM is K, (W/s)ᵀH and what the formed directions see.
         let seen =
             side_by_side(&[&cross(&joint.formed, b.basis()), &cross(&joint.formed, &joint.apart)]);
-        joint.place(&stacked(&[&k, &cross(&w_over_s, &h), &seen]), length);
+        joint.set_coordinates(&stacked(&[&k, &cross(&w_over_s, &h), &seen]), length);
         joint
     }
 
     /// Takes BᵀUᵢ and Bᵀ(mᵢ − m₁) from BᵀM, `length` being that of m₂ − m₁.
-    fn place(&mut self, coordinates: &DMatrix<f64>, length: f64) {
+    fn set_coordinates(&mut self, coordinates: &DMatrix<f64>, length: f64) {
         let [a, b] = &self.models;
         let (size, modes) = (coordinates.nrows(), b.mode_count());
         let mut scaled = coordinates.columns(0, modes).into_owned();
@@ -167,7 +167,7 @@ impl Joint {
         (inside.column(0).into_owned(), outside)
     }
 
-    /// The law of shapes of side 0 (A) or 1 (B) whose coefficients have the given moments.
+    /// The moments of shapes of side A or B whose coefficients have the given moments.
     pub fn lift(&self, side: Side, coefficients: &Moments) -> Moments {
         let scaled = &self.scaled[side.index()];
         let half = product(scaled, &coefficients.covariance);
@@ -191,7 +191,7 @@ impl Joint {
         &self.means[side.index()]
     }
 
-    /// The prior law of model A (0) or B (1).
+    /// The prior moments of model A or B.
     pub fn prior(&self, side: Side) -> Moments {
         let rows = self.scaled[side.index()].transpose();
         Moments { mean: self.means[side.index()].clone(), covariance: gram(&rows) }
@@ -225,7 +225,7 @@ impl Joint {
         self.vertex_deviations(&scaled)
     }
 
-    /// The same of a law whose coordinates have covariance F Fᵀ (F is p × k).
+    /// The same of a distribution whose coordinates have covariance F Fᵀ (F is p × k).
     pub fn vertex_deviations(&self, factor: &DMatrix<f64>) -> Vec<f64> {
         let squares = row_squares_of(&self.parts(), &product(&self.mixing, factor));
         lengths(&squares, self.models[0].dimension())

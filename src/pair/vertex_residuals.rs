@@ -1,7 +1,7 @@
 //! Distance of every vertex to the other model, and exaggeration of a shape along its residual.
 //!
 //! ‖r_v(a)‖ is how far point v of the shape x = m₁ + U₁ a lies from its projection x′. For coefficients
-//! with mean μ and covariance F Fᵀ, of whatever law, E‖r_v‖² = ‖r₀ᵥ + R_v μ‖² + ‖R_v F‖²: the prior has
+//! with mean μ and covariance F Fᵀ, of whatever distribution, E‖r_v‖² = ‖r₀ᵥ + R_v μ‖² + ‖R_v F‖²: the prior has
 //! ‖r₀ᵥ‖² + ‖R_v‖², the draws of a difference their own moments. No shape is formed and nothing is drawn.
 //!
 //! x + γ r(a) exaggerates what the other model lacks; γ = −1 is the projection itself.

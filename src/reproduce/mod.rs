@@ -157,7 +157,7 @@ pub struct Row<T> {
     pub case: String,
     /// σ, in the unit of the models.
     pub sigma: f64,
-    /// The paper's figure, where it prints one.
+    /// The paper's number, where it prints one.
     pub paper: Option<f64>,
     /// Its standard deviation.
     pub paper_sd: Option<f64>,
@@ -178,7 +178,7 @@ pub struct Row<T> {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct Means {
-    /// The paper's figures.
+    /// The paper's numbers.
     pub paper: Option<f64>,
     /// Our default.
     pub default: f64,
@@ -291,7 +291,7 @@ impl Trial {
         found.map_or([MomentSource::Draws; 2], |both| [both.a.moments, both.b.moments])
     }
 
-    /// The law of the intersection by the Gaussian fits alone, in the joint basis.
+    /// The moments of the intersection by the Gaussian fits alone, in the joint basis.
     fn closed_form(&self) -> Option<(Joint, Moments)> {
         let joint = self.run.pair().joint();
         let Sides { a, b } = self.run.fits()?.map(Gaussian::moments);

@@ -1,5 +1,4 @@
-//! What the paper prints, table by table, and nothing else. Figures are as printed; budgets are those of
-//! its section 4.
+//! Numbers that the paper prints, table by table, as printed; the budgets are those of its section 4.
 
 /// A printed mean with its standard deviation.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]

@@ -1,4 +1,4 @@
-//! The paper's scaling move on a law that is known.
+//! Measures the bias of the paper's scaling move on a distribution that is known, N(0, I).
 //!
 //! On N(0, I_q) every sampler must give E‖a‖²/q = 1. The paper calls its mixture symmetric; without
 //! the factor (r′/r)^{q−1} its walk gives 0.53 at q = 50 ([`crate::sampling::Scaling`]).
@@ -22,7 +22,7 @@ pub struct RadialCheck {
     pub as_published: f64,
     /// With the Hastings factor.
     pub corrected: f64,
-    /// Monte-Carlo standard error of the corrected figure.
+    /// Monte-Carlo standard error of the corrected value.
     pub standard_error: f64,
 }
 

@@ -104,10 +104,10 @@ pub fn sigma(
     Ok(Ablation { main, heads })
 }
 
-/// The one figure of the ablation that the paper prints: table 1's mean.
+/// The one number of the ablation that the paper prints: table 1's mean.
 fn mean_of_table_1() -> Printed {
-    let figures = TABLE_1.map(|row| row.intersection.mean);
-    let MeanSd { mean, sd } = MeanSd::of(&figures);
+    let means = TABLE_1.map(|row| row.intersection.mean);
+    let MeanSd { mean, sd } = MeanSd::of(&means);
     Printed { mean, sd }
 }
 

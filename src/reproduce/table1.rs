@@ -34,7 +34,7 @@ pub struct Table1 {
     pub at_small_sigma: Table<StarFacts>,
     /// What follows from the geometry alone, row by row.
     pub truth: Vec<StarTruth>,
-    /// The paper's walk on a known law.
+    /// The paper's walk on a known distribution.
     pub radial: Vec<RadialCheck>,
 }
 

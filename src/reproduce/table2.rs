@@ -261,7 +261,7 @@ impl Split {
         let (joint, moments) = ours.closed_form()?;
         let inside = joint.basis().tr_mul(&known.basis);
         let away = DMatrix::identity(inside.nrows(), inside.nrows()) - &inside * inside.transpose();
-        // The law along the shared vectors, and along all others.
+        // The distribution along the shared vectors, and along all others.
         let [first, others] = [&inside * inside.transpose(), away].map(|projection| {
             let covariance = &projection * &moments.covariance * &projection;
             let moments = Moments { mean: moments.mean.clone(), covariance };

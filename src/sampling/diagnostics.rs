@@ -8,7 +8,7 @@
 //!
 //! sd/√N_eff(x) of the mean, ½ √(Var((x − x̄)²) / N_eff((x − x̄)²)) / sd of the standard deviation.
 //!
-//! All figures equal those of ArviZ, where they are defined: tests/fixtures/arviz_figures.py.
+//! All numbers equal those of ArviZ, where they are defined: tests/fixtures/arviz_reference.py.
 //!
 //! **Cost.** One sort of the N draws serves ranks, folded ranks and quantiles; autocovariances are
 //! sums over lags up to where Geyer's sequence ends, a few for chains that mix and N/2 at worst.
@@ -65,7 +65,7 @@ pub fn split_r_hat(chains: &[Vec<f64>]) -> f64 {
 }
 
 /// How the ranks of each chain's draws among all draws fall into `bins` equal parts, chain after chain:
-/// even where all chains have the same law. They are the ranks that R-hat is made of, but of whole chains.
+/// even where all chains have the same distribution. They are the ranks that R-hat is made of, but of whole chains.
 pub fn rank_histograms(chains: &[Vec<f64>], bins: usize) -> Vec<u32> {
     let sample = Sample::new(chains);
     let order = sample.all();
@@ -415,7 +415,7 @@ mod tests {
         // χ²/f has mean 1 and standard deviation √(2/f) = 0.12.
         let same = autoregression(0.0, 8, 1001);
         let found = unevenness(&rank_histograms(&same, 20), 20);
-        assert!((found - 1.0).abs() < 0.5, "one law: χ²/f = {found}");
+        assert!((found - 1.0).abs() < 0.5, "one distribution: χ²/f = {found}");
         let mut moved = same.clone();
         moved[3].iter_mut().for_each(|value| *value += 0.3);
         let found = unevenness(&rank_histograms(&moved, 20), 20);
@@ -447,7 +447,7 @@ mod tests {
     }
 
     #[derive(serde::Deserialize)]
-    struct Figures {
+    struct Reference {
         draws: Vec<Case>,
     }
 
@@ -467,13 +467,13 @@ mod tests {
     }
 
     #[test]
-    fn figures_equal_arvizs() {
-        let stored = include_str!("../../tests/fixtures/arviz_figures.json");
-        let Figures { draws } = serde_json::from_str(stored).unwrap();
+    fn diagnostics_equal_arvizs() {
+        let stored = include_str!("../../tests/fixtures/arviz_reference.json");
+        let Reference { draws } = serde_json::from_str(stored).unwrap();
         for case in draws {
             let found = summarise(&case.chains);
             let [bulk, folded] = split_r_hats(&case.chains);
-            for (figure, found, expected) in [
+            for (name, found, expected) in [
                 ("bulk R-hat", bulk, case.r_hat_bulk),
                 ("folded R-hat", folded, case.r_hat_folded),
                 ("R-hat", found.r_hat, case.r_hat),
@@ -484,7 +484,7 @@ mod tests {
             ] {
                 let bound = 1e-6 * expected.min(1.0);
                 let gap = (found - expected).abs();
-                assert!(gap < bound, "{}: {figure} {found}, not {expected}", case.name);
+                assert!(gap < bound, "{}: {name} {found}, not {expected}", case.name);
             }
             let lags = autocorrelation(&case.chains, case.autocorrelations.len());
             assert_eq!(found.autocorrelation, lags[0], "{}: lag 1", case.name);

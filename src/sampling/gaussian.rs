@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, DVectorView};
 
 use crate::linalg::Moments;
 
-/// N(μ, Λ⁻¹), with Λ = L Lᵀ and T = L⁻ᵀ, so that μ + T z has this law for z ~ N(0, I).
+/// N(μ, Λ⁻¹), with Λ = L Lᵀ and T = L⁻ᵀ, so that μ + T z has this distribution for z ~ N(0, I).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gaussian {
     mean: DVector<f64>,

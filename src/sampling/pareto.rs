@@ -1,14 +1,14 @@
 //! What importance weights are worth: effective size, Pareto k-hat, and Pareto smoothing.
 //!
-//! A generalised Pareto law, of shape k and scale s, is fitted to the M = min(N/5, 3√N) largest
+//! A generalised Pareto distribution, of shape k and scale s, is fitted to the M = min(N/5, 3√N) largest
 //! weights, as they exceed the next smaller one u. k below 0.7 means that means over the weights
 //! can be trusted; above, the proposal misses a part of the target. Smoothing replaces those
-//! weights, in their order, by quantiles of the law, which stand for their expected values:
+//! weights, in their order, by quantiles of the distribution, which stand for their expected values:
 //!
 //! w_j = min(largest, u + (s/k) ((1 − p_j)^−k − 1)), p_j = (j − ½)/M, j = 1 … M.
 //!
 //! It trades the weights' noise for a little bias, and works while k is below 0.7. Both equal
-//! ArviZ's `psislw`: tests/fixtures/arviz_figures.py.
+//! ArviZ's `psislw`: tests/fixtures/arviz_reference.py.
 //!
 //! **Cost.** A sort of N weights and about (30 + √M) M logarithms.
 //!
@@ -17,13 +17,13 @@
 //! Pareto distribution", Technometrics 51 (2009); Kong, "A note on importance sampling using
 //! standardized weights", University of Chicago (1992).
 
-/// Fewer tail weights than this say nothing of their law.
+/// Fewer tail weights than this say nothing of their distribution.
 const LEAST_TAIL: usize = 5;
 
 /// k-hat of unnormalised log weights; `None` when there are too few, or their tail is constant. A log
 /// weight that is not finite counts as that of weight 0.
 pub fn pareto_k(log_weights: &[f64]) -> Option<f64> {
-    Tail::of(&relative(log_weights)).map(|tail| tail.law.shape)
+    Tail::of(&relative(log_weights)).map(|tail| tail.pareto.shape)
 }
 
 /// Pareto-smoothed weights, which sum to 1 (to 0 when none is positive), with k-hat. Where that is `None` the weights are as they
@@ -36,14 +36,14 @@ pub fn pareto_smooth(log_weights: &[f64]) -> (Vec<f64>, Option<f64>) {
         let count = tail.places.len() as f64;
         for (rank, &place) in tail.places.iter().enumerate() {
             let probability = (rank as f64 + 0.5) / count;
-            weights[place] = (tail.cut + tail.law.quantile(probability)).min(1.0);
+            weights[place] = (tail.cut + tail.pareto.quantile(probability)).min(1.0);
         }
     }
     let total: f64 = weights.iter().sum();
     if total > 0.0 {
         weights.iter_mut().for_each(|weight| *weight /= total);
     }
-    (weights, tail.map(|tail| tail.law.shape))
+    (weights, tail.map(|tail| tail.pareto.shape))
 }
 
 /// Effective sample size (Σw)²/Σw² of unnormalised log weights; 0 when no weight is positive. A log
@@ -72,8 +72,8 @@ struct Tail {
     places: Vec<usize>,
     /// The next smaller weight.
     cut: f64,
-    /// The law of their excess over it.
-    law: GeneralisedPareto,
+    /// The distribution of their excess over it.
+    pareto: GeneralisedPareto,
 }
 
 impl Tail {
@@ -95,11 +95,11 @@ impl Tail {
         }
         let cut = libm::exp(cut);
         let excesses: Vec<f64> = places.iter().map(|&place| libm::exp(logs[place]) - cut).collect();
-        Some(Self { places, cut, law: GeneralisedPareto::fit(&excesses)? })
+        Some(Self { places, cut, pareto: GeneralisedPareto::fit(&excesses)? })
     }
 }
 
-/// The generalised Pareto law on x > 0: P(X > x) = (1 + k x/s)^(−1/k).
+/// The generalised Pareto distribution on x > 0: P(X > x) = (1 + k x/s)^(−1/k).
 struct GeneralisedPareto {
     /// k.
     shape: f64,
@@ -180,7 +180,7 @@ mod tests {
     }
 
     #[derive(serde::Deserialize)]
-    struct Figures {
+    struct Reference {
         weights: Vec<Case>,
     }
 
@@ -195,8 +195,8 @@ mod tests {
 
     #[test]
     fn shapes_and_smoothed_weights_equal_arvizs() {
-        let stored = include_str!("../../tests/fixtures/arviz_figures.json");
-        let Figures { weights } = serde_json::from_str(stored).unwrap();
+        let stored = include_str!("../../tests/fixtures/arviz_reference.json");
+        let Reference { weights } = serde_json::from_str(stored).unwrap();
         for case in weights {
             let (smoothed, k) = pareto_smooth(&case.log_weights);
             assert!((k.unwrap() - case.k).abs() < 1e-6, "{}: {k:?}, not {}", case.name, case.k);

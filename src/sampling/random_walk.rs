@@ -7,7 +7,7 @@
 //! **Departure from the paper.** It calls the mixture symmetric and leaves out the Hastings factor. In
 //! polar coordinates the target's density is p(ru)·r^{q−1}, and the kernel is symmetric in r, so
 //! the scaling move must be accepted with α = p(a′)/p(a)·(|r′|/r)^{q−1}. Without the factor the chain
-//! targets another law: E‖a‖²/q = 0.53 instead of 1 on N(0, I₅₀). [`Scaling::Corrected`] has the
+//! targets another distribution: E‖a‖²/q = 0.53 instead of 1 on N(0, I₅₀). [`Scaling::Corrected`] has the
 //! factor; [`Scaling::AsPublished`] leaves it out, for comparison only.
 //!
 //! **Limits.** A step changes all coordinates by the same scale: on face-sized models it yields less

@@ -1,7 +1,7 @@
 //! Exact draws from p(a) ∝ g(a)·N(a; 0, I) with 0 ≤ g ≤ 1, by rejection under an envelope.
 //!
-//! An [`Envelope`] is a function t ≥ g whose law ∝ t(a)·N(a; 0, I) can be drawn from. A proposal of that
-//! law is accepted with probability w = g/t; accepted proposals are independent draws from p. As
+//! An [`Envelope`] is a function t ≥ g whose distribution ∝ t(a)·N(a; 0, I) can be drawn from. A proposal of that
+//! distribution is accepted with probability w = g/t; accepted proposals are independent draws from p. As
 //! E_t w = E g/E t, the mean of w times E t (in closed form) estimates E g = ∫ g N(0, I), and the smaller
 //! E t is, the more is accepted: which envelope is better is known before anything is drawn.
 //!
@@ -30,7 +30,7 @@ pub trait RejectionTarget: Sync {
     fn acceptance(&self, points: &[f64]) -> Vec<(f64, f64)>;
 }
 
-/// A function t ≥ g on R^q whose law ∝ t(a)·N(a; 0, I) can be drawn from.
+/// A function t ≥ g on R^q whose distribution ∝ t(a)·N(a; 0, I) can be drawn from.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Envelope {
     /// t = 1: proposals are draws of N(0, I) on R^q.
@@ -44,7 +44,7 @@ impl Envelope {
     pub fn dimension(&self) -> usize {
         match self {
             Self::Prior(dimension) => *dimension,
-            Self::Tilted(law) => law.dimension(),
+            Self::Tilted(tilted) => tilted.dimension(),
         }
     }
 
@@ -52,7 +52,7 @@ impl Envelope {
     pub fn mean(&self) -> f64 {
         match self {
             Self::Prior(_) => 1.0,
-            Self::Tilted(law) => law.mean(),
+            Self::Tilted(tilted) => tilted.mean(),
         }
     }
 
@@ -63,9 +63,9 @@ impl Envelope {
                 fill_normal(random, points);
                 vec![1.0; points.len() / dimension]
             }
-            Self::Tilted(law) => points
-                .chunks_exact_mut(law.dimension())
-                .map(|point| law.draw(random, point))
+            Self::Tilted(tilted) => points
+                .chunks_exact_mut(tilted.dimension())
+                .map(|point| tilted.draw(random, point))
                 .collect(),
         }
     }
@@ -276,8 +276,8 @@ mod tests {
     /// t(a) = ½ t a², for which 1 − exp(−t) ≤ t.
     fn square_envelope(tilt: f64) -> Envelope {
         let value = DVector::from_element(1, 0.5 * tilt);
-        let law = Tilted::new(0.0, &DVector::zeros(1), DMatrix::identity(1, 1), &value);
-        Envelope::Tilted(law.expect("E t = t/2"))
+        let tilted = Tilted::new(0.0, &DVector::zeros(1), DMatrix::identity(1, 1), &value);
+        Envelope::Tilted(tilted.expect("E t = t/2"))
     }
 
     fn finished(envelope: Envelope, tilt: f64, blocks: usize) -> Rejection {

@@ -8,7 +8,7 @@
 //! other coordinates are N(0, 1).
 //!
 //! **One coordinate.** (c + s z)² and (c − s z)² add up to 2(c² + s² z²). The size |z| therefore has the
-//! law of the symmetric tilt c² + s² z², a mixture of |N(0, 1)| and, with probability s²/(c² + s²), of
+//! distribution of the symmetric tilt c² + s² z², a mixture of |N(0, 1)| and, with probability s²/(c² + s²), of
 //! χ with three degrees of freedom (z² φ(z)); the sign is then + with probability
 //! (c + s|z|)²/(2(c² + s² z²)). Nothing is rejected.
 //!
@@ -26,7 +26,7 @@ use super::{fill_normal, uniform};
 /// Share of E t below which an eigenvalue is rounding.
 const SMALLEST_EIGENVALUE: f64 = 1e-14;
 
-/// The law ∝ t(a)·N(a; 0, I).
+/// The distribution ∝ t(a)·N(a; 0, I).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tilted {
     /// V (q × q).
@@ -97,7 +97,7 @@ impl Tilted {
     }
 }
 
-/// A draw of the law ∝ (c + s z)² φ(z), from a standard normal one.
+/// A draw of the distribution ∝ (c + s z)² φ(z), from a standard normal one.
 fn tilted_normal(random: &mut impl Rng, (c, s): (f64, f64), normal: f64) -> f64 {
     let (c_square, s_square) = (c * c, s * s);
     let mut size = normal.abs();
@@ -142,22 +142,26 @@ mod tests {
         ];
         for (case, (r, r0)) in cases.into_iter().enumerate() {
             let (constant, linear, gram) = of_residual(&r, &r0);
-            let law = tilted(constant, &linear, &gram);
+            let tilted = tilted(constant, &linear, &gram);
             let total = constant + gram.trace();
-            assert!((law.mean() / total - 1.0).abs() < 1e-12, "case {case}: E t {}", law.mean());
+            assert!(
+                (tilted.mean() / total - 1.0).abs() < 1e-12,
+                "case {case}: E t {}",
+                tilted.mean()
+            );
             let mut random = stream(1, Stream::Display, 9, case);
             let mut first = DVector::zeros(4);
             let mut second = DMatrix::zeros(4, 4);
             let mut point = vec![0.0; 4];
             for _ in 0..COUNT {
-                let value = law.draw(&mut random, &mut point);
+                let value = tilted.draw(&mut random, &mut point);
                 let a = DVector::from_column_slice(&point);
                 let expected = (&r0 + &r * &a).norm_squared();
                 assert!((value - expected).abs() < 1e-6 * total, "case {case}: t(a)");
                 second += &a * a.transpose() / COUNT as f64;
                 first += a / COUNT as f64;
             }
-            // E a = 2g/E t, E aaᵀ = I + 2G/E t. No coordinate's law is wider than χ₃²-like:
+            // E a = 2g/E t, E aaᵀ = I + 2G/E t. No coordinate's distribution is wider than χ₃²-like:
             // Var a_i ≤ 3 and Var a_i a_j ≤ E a_i² a_j² ≤ 15.
             let bound = 5.0 * (3.0 / COUNT as f64).sqrt();
             let away = (&first - &linear * (2.0 / total)).amax();
@@ -176,12 +180,12 @@ mod tests {
         for (constant, slope) in [(0.0, 1.0), (1.0, 1.0), (-2.0, 0.7), (0.3, 1.4)] {
             let gram = DMatrix::from_element(1, 1, slope * slope);
             let linear = DVector::from_element(1, constant * slope);
-            let law = tilted(constant * constant, &linear, &gram);
+            let tilted = tilted(constant * constant, &linear, &gram);
             let mut random = stream(4, Stream::Display, 9, 0);
             let mut drawn: Vec<f64> = (0..COUNT)
                 .map(|_| {
                     let mut point = [0.0];
-                    law.draw(&mut random, &mut point);
+                    tilted.draw(&mut random, &mut point);
                     point[0]
                 })
                 .collect();

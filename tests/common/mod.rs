@@ -200,12 +200,12 @@ pub fn mean_and_error(chains: &[Vec<f64>]) -> (f64, f64) {
     (mean, (squares / (count - 1.0) / summarise(chains).ess_bulk).sqrt())
 }
 
-/// How far the first and second moments of draws lie from those of `law`, in standard errors: the
+/// How far the first and second moments of draws lie from those of `gaussian`, in standard errors: the
 /// largest over all z_i and z_i z_j of the whitened draws.
-pub fn standard_errors_from(draws: &Draws, law: &Gaussian) -> f64 {
+pub fn standard_errors_from(draws: &Draws, gaussian: &Gaussian) -> f64 {
     let mut worst = 0.0_f64;
     let mut check = |value: &dyn Fn(&DVector<f64>) -> f64, expected: f64| {
-        let (mean, error) = mean_and_error(&along(draws, |point| value(&law.whiten(point))));
+        let (mean, error) = mean_and_error(&along(draws, |point| value(&gaussian.whiten(point))));
         worst = worst.max((mean - expected).abs() / error);
     };
     for i in 0..draws.dimension {

@@ -52,7 +52,7 @@ const HEAD: &str = "\
 # The paper's evidence, reproduced
 
 Made by `npm run reproduce`; do not edit. `shapevenn reproduce table1 | table2 | sigma [--json]` runs one part and has every
-repeat's figure. The same command gives the same figures on every machine, seconds aside.
+repeat's number. The same command gives the same numbers on every machine, seconds aside.
 
 Weiherer, Klein & Egger (WACV 2024) print the affine Grassmann distance d_G(Î, I), in radians, between the intersection
 that their sampler found and the known one. Each case is run four ways:
@@ -121,7 +121,7 @@ fn section_of_table2(found: &Table2) -> String {
                 vec![
                     row.case.clone(),
                     facts.vectors.to_string(),
-                    figure(facts.expected_of_independent_draws),
+                    decimals(facts.expected_of_independent_draws),
                     format!("{:.1}", facts.eigenvalue_ratio),
                 ]
             })
@@ -132,7 +132,7 @@ fn section_of_table2(found: &Table2) -> String {
     [
         format!(
             "## Table 2: basis splits\n\nTwo models share k vectors of a basis and have 2k each of \
-             their own; {} splits. The paper's budget: {}. Its figures are for the Basel \
+             their own; {} splits. The paper's budget: {}. Its numbers are for the Basel \
              Face Model, which is not free; ours for a synthetic face with a spectrum like it, and for the modes \
              of a packaged head.\n",
             repeats(&found.main),
@@ -156,8 +156,8 @@ fn head_at_printed_sigma(found: &Table2) -> String {
         "σ is smaller for the head because its modes are: at the paper's 0.3 mm the tolerance itself varies \
          as much as the smallest shared mode in some splits (λ_k/λ_k+1 down to {smallest:.2}), and then the \
          first k modes are not the shared ones, whatever the sampler: closed form {}, default {} on average.\n",
-        figure(table.mean.closed_form),
-        figure(table.mean.default)
+        decimals(table.mean.closed_form),
+        decimals(table.mean.default)
     )
 }
 
@@ -169,15 +169,15 @@ fn section_of_sigma(found: &Ablation) -> String {
         .map(|row| {
             let walk = row.paper_corrected.as_ref();
             let walked =
-                |value: fn(&Outcome) -> f64| walk.map_or("–".to_owned(), |w| figure(value(w)));
+                |value: fn(&Outcome) -> f64| walk.map_or("–".to_owned(), |w| decimals(value(w)));
             vec![
                 row.sigma.to_string(),
-                figure(row.default.distances.mean),
-                figure(row.closed_form.distances.mean),
+                decimals(row.default.distances.mean),
+                decimals(row.closed_form.distances.mean),
                 walked(|walk| walk.distances.mean),
                 walked(|walk| walk.acceptance),
-                figure(row.more.mean_distance),
-                figure(row.more.predicted_distance),
+                decimals(row.more.mean_distance),
+                decimals(row.more.predicted_distance),
                 format!("{:.2}", row.more.effective_modes),
             ]
         })
@@ -193,8 +193,8 @@ fn section_of_sigma(found: &Ablation) -> String {
                 row.sigma.to_string(),
                 three(row.default),
                 three(row.closed_form),
-                figure(row.facts.mean_distance),
-                figure(row.facts.predicted_distance),
+                decimals(row.facts.mean_distance),
+                decimals(row.facts.predicted_distance),
                 format!("{:.1}", row.facts.effective_modes),
                 row.evaluations.to_string(),
                 format!("{:.2}", row.seconds),
@@ -228,7 +228,7 @@ fn distances_and_costs<T>(table: &Table<T>, case: &str) -> String {
     let outcome = |found: &Option<Outcome>| {
         found.as_ref().map_or("–".to_owned(), |one| spread(one.distances.mean, one.distances.sd))
     };
-    let optional = |value: Option<f64>| value.map_or("–".to_owned(), figure);
+    let optional = |value: Option<f64>| value.map_or("–".to_owned(), decimals);
     let mut rows: Vec<Vec<String>> = table
         .rows
         .iter()
@@ -248,8 +248,8 @@ fn distances_and_costs<T>(table: &Table<T>, case: &str) -> String {
         optional(table.mean.paper),
         optional(table.mean.paper_sampler),
         optional(table.mean.paper_corrected),
-        figure(table.mean.default),
-        figure(table.mean.closed_form),
+        decimals(table.mean.default),
+        decimals(table.mean.closed_form),
     ]);
     let distances =
         markdown(&[case, "paper", "as published", "corrected", "default", "closed form"], &rows);
@@ -265,7 +265,7 @@ fn distances_and_costs<T>(table: &Table<T>, case: &str) -> String {
     .collect();
     let none = || "–".to_owned();
     let closed =
-        vec!["closed form".to_owned(), none(), figure(closed), none(), none(), none(), none()];
+        vec!["closed form".to_owned(), none(), decimals(closed), none(), none(), none(), none()];
     costs.push(closed);
     let headings = [
         "a case",
@@ -290,7 +290,7 @@ fn cost<'a>(name: &str, found: impl Iterator<Item = &'a Outcome>) -> Option<Vec<
     Some(vec![
         name.to_owned(),
         format!("{:.0}", mean(|one| one.evaluations as f64)),
-        figure(mean(|one| one.seconds)),
+        decimals(mean(|one| one.seconds)),
         format!("{:.3}", mean(|one| one.acceptance)),
         r_hat.map_or("–".to_owned(), |r_hat| format!("{r_hat:.3}")),
         format!("{effective:.0}"),
@@ -428,8 +428,8 @@ fn contradictions_of_table2(found: &Table2) -> Vec<String> {
             "**Table 2 measures sampling error alone.** Shared and own coordinates are independent in the \
              posterior, so its d_G is 0: the closed form has {} on average. {DRAWS} independent draws are \
              expected to give {expected:.4}, the paper prints {}.",
-            figure(found.main.mean.closed_form),
-            found.main.mean.paper.map_or("–".to_owned(), figure)
+            decimals(found.main.mean.closed_form),
+            found.main.mean.paper.map_or("–".to_owned(), decimals)
         ),
     ]
 }
@@ -442,7 +442,7 @@ fn repeats<T>(table: &Table<T>) -> usize {
 /// "x to y", or "x in every row".
 fn between(values: impl Iterator<Item = f64>) -> String {
     let (low, high) = range(values);
-    let (low, high) = (figure(low), figure(high));
+    let (low, high) = (decimals(low), decimals(high));
     if low == high { format!("{low} in every row") } else { format!("{low} to {high}") }
 }
 
@@ -452,11 +452,11 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
 
 /// Mean and standard deviation; the mean alone where nothing but rounding differs.
 fn spread(mean: f64, sd: f64) -> String {
-    if sd < 1e-9 { figure(mean) } else { format!("{} ± {}", figure(mean), figure(sd)) }
+    if sd < 1e-9 { decimals(mean) } else { format!("{} ± {}", decimals(mean), decimals(sd)) }
 }
 
 /// Four decimals, or one digit and its power of ten where those would say 0.
-fn figure(value: f64) -> String {
+fn decimals(value: f64) -> String {
     if value == 0.0 {
         "0".to_owned()
     } else if value.abs() < 5e-5 {

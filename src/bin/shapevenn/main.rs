@@ -557,7 +557,7 @@ fn print_in_words(report: &Report) {
     }
 }
 
-/// Distances of the two laws, and how compact the models are.
+/// Distances of the two Gaussians, and how compact the models are.
 fn print_distances(report: &Report) {
     let unit = report.models.a.unit.symbol();
     if let Some(divergence) = &report.overlap.kullback_leibler {

@@ -7,15 +7,15 @@ use crate::document::markdown;
 const HEAD: &str = "\
 # Overlap against the Bhattacharyya distance
 
-Made by `npm run study`; do not edit. `shapevenn reproduce overlap --json` has every figure, and the same ones on every
+Made by `npm run study`; do not edit. `shapevenn reproduce overlap --json` has every number, and the same ones on every
 machine.
 
 Weiherer, Klein & Egger (WACV 2024) leave as future work how the overlap of two models goes with the Bhattacharyya
-distance (BD) of their laws. Here both are taken of all bundled pairs: the paper's six pairs of stars, two ellipses in two
+distance (BD) of their Gaussians. Here both are taken of all bundled pairs: the paper's six pairs of stars, two ellipses in two
 planes, and four heads with each other. Overlap has no one number, so there are three: the share of one model's variance
 that lies in the space of the other; the share of shapes that the other can make at the recommended σ, 1 − P of the set
 differences; and the affine Grassmann distance d_G, which falls as overlap rises. BD needs noise τ in every coordinate,
-because the laws are singular: τ = σ, as reports have it, and τ = 1 % of the size of A. “About one mean” is BD at τ = σ as if
+because the Gaussians are singular: τ = σ, as reports have it, and τ = 1 % of the size of A. “About one mean” is BD at τ = σ as if
 both models had the same mean: what the covariances alone make of it.
 ";
 
@@ -82,7 +82,7 @@ pub(crate) fn of_overlap(found: &OverlapStudy) -> String {
     .join("\n")
 }
 
-/// What the figures say, and what they do not.
+/// What the numbers say, and what they do not.
 fn reading(found: &OverlapStudy) -> String {
     let of_kind = |kind: &'static str| found.rows.iter().filter(move |row| row.kind == kind);
     let heads = || of_kind("heads");

@@ -1,4 +1,4 @@
-//! The Gaussian law of a population that is sampled from blendshapes.
+//! Fits a Gaussian to a population that is sampled from blendshapes.
 //!
 //! Displacements have weights from 0 to 1 and are neither orthogonal nor Gaussian, so a population is sampled
 //! and its principal components are the model. One shape is neutral + Σ w·d: two to six distinct

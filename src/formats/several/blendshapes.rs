@@ -8,9 +8,9 @@
 //!
 //! **Identity** is exact: column i of the scaled basis is file i − neutral.
 //!
-//! **Expression** is the law of a population sampled from the displacements, see `sampled_blendshapes`.
+//! **Expression** is the Gaussian of a population sampled from the displacements, see `sampled_blendshapes`.
 //!
-//! Displaced meshes without identities give one model by that law.
+//! Displaced meshes without identities give one model by that Gaussian.
 //!
 //! **References.** Li et al., "Learning formation of physically-based face attributes", CVPR 2020.
 
