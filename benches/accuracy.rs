@@ -1,4 +1,4 @@
-//! How far is the intersection model off, and how many effective draws does an evaluation give?
+//! Benchmarks the error of the intersection model, and the effective draws per evaluation.
 //!
 //! `cargo bench --bench accuracy`: two pairs of the sizes in the paper, one like male and female faces, one
 //! like identity and expression. The covariance of the pooled intersection is compared with that of

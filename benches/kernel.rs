@@ -1,4 +1,4 @@
-//! How near is the distance kernel to what this processor can do at most?
+//! Benchmarks the distance kernel against the largest rate of arithmetic that the processor reaches.
 //!
 //! `cargo bench --bench kernel` measures, in one run: the rate of separate single-precision
 //! multiplications and additions in registers (the roof: the engine never fuses them), the rate of the

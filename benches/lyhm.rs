@@ -1,4 +1,4 @@
-//! How fast is a comparison of two face models of the size in the paper (5,764 points, 50 + 50 modes)?
+//! Benchmarks a comparison of two face models of the size in the paper (5,764 points, 50 + 50 modes).
 //!
 //! `cargo bench --bench lyhm` prints evaluations of the distance per second, beside the naive way
 //! (generate the shape, project it, reconstruct it, take norms) in the same run, and the seconds to the

@@ -1,4 +1,4 @@
-//! Do comparisons of large models finish, how soon, and in how much memory?
+//! Benchmarks time and memory of comparisons of large models.
 //!
 //! `cargo bench --bench sizes` compares synthetic pairs of the size of LYHM (5,764 points, 50 and 50
 //! modes), FLAME (5,023 points, 300 and 100 modes) and BFM (53,149 points, 199 and 199 modes) from their

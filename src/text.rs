@@ -1,4 +1,4 @@
-//! Numbers as sentences have them.
+//! Formats numbers for sentences: thousands separators, three significant digits.
 
 /// "53,490".
 pub(crate) fn thousands(count: usize) -> String {

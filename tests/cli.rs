@@ -370,8 +370,8 @@ fn bad_inputs_exit_with_2_a_sentence_and_a_hint() {
         ),
         (
             &["convert", "demo:planes-a", &no_ending],
-            "has no ending",
-            "End it in .h5, .h5.json, .npz, .json, .glb, .ply or .obj.",
+            "the extension of a known format was expected",
+            "Use .h5, .h5.json, .npz, .json, .glb, .ply or .obj.",
         ),
         (&["compare", "demo:planes-a"], "<B>", "--help"),
         (&["reproduce", "table3"], "invalid value 'table3'", "table1, table2, sigma"),

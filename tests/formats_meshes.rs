@@ -229,9 +229,9 @@ fn files_that_make_nothing_together_are_refused() {
     let error = open(&inputs, None, false).unwrap_err();
     assert_eq!(error.code(), "mixed", "{error}");
     assert!(
-        error
-            .to_string()
-            .ends_with("These files make no model together: HDF5 file, PLY mesh, ZIP archive."),
+        error.to_string().ends_with(
+            "No model can be made of these files together: HDF5 file, PLY mesh, ZIP archive."
+        ),
         "{error}"
     );
 }

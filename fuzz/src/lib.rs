@@ -1,4 +1,4 @@
-//! What the fuzz targets share: bytes that a certain reader will take, and opening them.
+//! Helpers of the fuzz targets: make files that a certain reader accepts out of random bytes, and open them.
 //!
 //! A reader is reached only when a file is recognised as its own. So every target forces what its
 //! format is recognised by onto the bytes, and leaves the rest to the fuzzer. Valid files keep their

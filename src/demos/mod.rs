@@ -1,4 +1,4 @@
-//! Models that come with Shapevenn, by name.
+//! Demo models, by name.
 //!
 //! `stars-1-a` … `stars-6-b` and `planes-a`, `planes-b` are made by code. The heads are packaged files
 //! (`demos/heads`): the command line carries them, the page fetches them.

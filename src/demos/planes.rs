@@ -1,4 +1,4 @@
-//! Two ellipses in two planes in space: the smallest pair whose intersection can be seen.
+//! Demo models of two ellipses in two planes in space, the smallest pair whose intersection can be seen.
 //!
 //! One point in three dimensions, two modes each: the allowable domain of A is an ellipse in the plane
 //! z = 0, that of B one in a plane tilted about the x axis, by 50° as it comes. The planes meet in a line

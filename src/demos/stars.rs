@@ -1,4 +1,4 @@
-//! The paper's six pairs of stars (Weiherer et al. 2024, section 4.1 and table 1).
+//! Demo models of the paper's six pairs of stars (Weiherer et al. 2024, section 4.1 and table 1).
 //!
 //! A star has ten points: five tips at radius 10 and five inner points at radius 3. Tips deviate from
 //! their place along the circle, one tip at a time, in steps of 1°. Model A is the PCA of tip 0 swept

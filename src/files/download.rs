@@ -9,7 +9,7 @@ use crate::formats::{self, Array, Data, DrawnSet};
 use crate::model::LinearModel;
 use crate::report::{Report, Seconds};
 
-/// What can be taken away from a run.
+/// What can be saved from a run.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Download {
@@ -33,7 +33,7 @@ pub enum Download {
     ReportJson,
     /// The numbers of the report as a table.
     ReportCsv,
-    /// What makes the comparison again.
+    /// The run file, with which the comparison can be repeated.
     RunJson(Sources),
     /// Diagnostics of each coefficient as a table.
     CoefficientsCsv,
@@ -149,7 +149,7 @@ pub struct Written {
 /// Writes what was asked for.
 ///
 /// # Errors
-/// [`Error::NothingYet`] while the run has not got it, [`Error::Format`] when it cannot be written.
+/// [`Error::NothingYet`] while the run has not computed it, [`Error::Format`] when it cannot be written.
 pub fn write(
     comparison: &mut Comparison,
     seconds: Seconds,

@@ -7,7 +7,7 @@ use crate::error::ComparisonError;
 use crate::formats::FormatError;
 use crate::measure::EvaluationError;
 
-/// What goes wrong with files and runs, with a code and a hint.
+/// Why a file cannot be opened or written, or a run not continued.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
@@ -27,7 +27,7 @@ pub enum Error {
         /// What was given.
         text: String,
     },
-    /// The run has nothing of the kind yet.
+    /// The run has not computed it yet.
     NothingYet,
     /// A stored report cannot be read.
     StoredReport {

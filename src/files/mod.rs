@@ -19,7 +19,7 @@ use crate::formats::{self, Data};
 use crate::model::LinearModel;
 use crate::report::{Report, Seconds};
 
-/// A finished run, put back from its report (JSON) and its draws (`.npz`).
+/// Restores a finished run from its report (JSON) and its draws (`.npz`).
 ///
 /// # Errors
 /// [`Error::StoredReport`], [`Error::Format`], and what [`Comparison::restored`] refuses.

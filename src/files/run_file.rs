@@ -1,4 +1,4 @@
-//! Run files: what makes a comparison again, to the last digit.
+//! Run files: models and settings with which a comparison is repeated, to the last digit.
 //!
 //! ```json
 //! { "shapevenn": 1, "engine": "0.1.0",
@@ -9,8 +9,8 @@
 //! `source` is `demo:NAME`, an address, or null for a file of one's own. A report says the same, sources
 //! aside, and is taken as well. Settings that are left out have the defaults of the sampler.
 //!
-//! **Limits.** A run file has no models in it, only their fingerprints ([`crate::model`]): it cannot bring
-//! them back, but it knows whether they are the same. Reports of older engines do not name them.
+//! **Limits.** A run file has no models in it, only their fingerprints ([`crate::model`]): the models must be given
+//! again, and are checked to be the same. Reports of older engines do not name them.
 
 use crate::model::Sides;
 use serde::{Deserialize, Serialize};
@@ -24,7 +24,7 @@ use crate::settings::Settings;
 /// Version of the layout.
 const LAYOUT: u32 = 1;
 
-/// A comparison that can be made again.
+/// A comparison that can be repeated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunFile {
     /// Version of the layout: 1.

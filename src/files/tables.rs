@@ -1,4 +1,5 @@
-//! Tables with a line for each mode. `report.csv` has the same numbers one by one, under their paths.
+//! Writes tables with a line for each mode: coefficients, standard deviations, angles. `report.csv` has the same
+//! numbers one by one, under their paths.
 
 use crate::comparison::Comparison;
 use crate::files::formats;

@@ -1,4 +1,4 @@
-//! What can be wrong with a file, in sentences for the person who dropped it.
+//! Errors of reading and writing files: a stable code for programs, a sentence and a hint for people.
 //!
 //! A [`FormatError`] is the file's name and a [`Fault`]. Its text is one sentence that says what was
 //! expected and what was found; [`FormatError::hint`] says what to do next, and
@@ -93,9 +93,9 @@ pub enum Fault {
         /// Points of the model.
         points: usize,
     },
-    /// The list of faces has no side of 2, 3 or 4.
+    /// The list of faces has no dimension of size 2, 3 or 4.
     CellCorners {
-        /// Sides of the list.
+        /// Shape of the list.
         shape: Vec<usize>,
     },
     /// Values that are NaN or infinite.
@@ -129,11 +129,11 @@ pub enum Fault {
         /// The file's word for it.
         kind: String,
     },
-    /// An array that is too large for the file it claims to be in, or for the memory.
+    /// An array that is announced as larger than its file or the memory can hold.
     Size {
         /// Name of the array.
         what: String,
-        /// Bytes it claims.
+        /// Bytes announced.
         claimed: u64,
         /// Most bytes that are read.
         limit: u64,
@@ -145,7 +145,7 @@ pub enum Fault {
         /// What the reader said.
         reason: String,
     },
-    /// The browser or the disk does not hand out the bytes.
+    /// The browser or the disk refuses to read the bytes.
     Unreadable {
         /// What they say.
         reason: String,
@@ -176,7 +176,7 @@ pub enum Fault {
     },
     /// A single array without a name.
     OneArray {
-        /// Its sides.
+        /// Its shape.
         shape: Vec<u64>,
     },
     /// A model whose other files are missing.
@@ -186,11 +186,11 @@ pub enum Fault {
         /// The file or files that hold it.
         expected: String,
     },
-    /// NaN or the like where JSON has only numbers.
+    /// NaN or infinity, which JSON has no number for.
     JsonNumber {
         /// Where.
         path: String,
-        /// What stands there.
+        /// What was found.
         found: String,
     },
     /// Text that ends too early.
@@ -225,7 +225,7 @@ pub enum Fault {
         /// How it differs, a whole sentence without the full stop.
         difference: String,
     },
-    /// A file among shapes that is none.
+    /// A file among shapes that is not a shape.
     NoShape {
         /// What it is.
         format: &'static str,
@@ -249,7 +249,7 @@ pub enum Fault {
         /// What they are.
         kinds: Vec<&'static str>,
     },
-    /// The numbers make no model.
+    /// No model can be built from the numbers.
     Model(ModelError),
     /// The model cannot be written in this format.
     Write {
@@ -512,7 +512,9 @@ impl fmt::Display for Fault {
             Self::NoPart { part, parts } => {
                 write!(f, "There is no part “{part}”, only {}.", parts.join(", "))
             }
-            Self::Alone { format } => write!(f, "One {format} alone makes no model."),
+            Self::Alone { format } => {
+                write!(f, "A single {format} was found; a model or several shapes were expected.")
+            }
             Self::Bilinear { what } => write!(
                 f,
                 "This is a bilinear model ({what}): identity and expression multiply one another, \
@@ -566,7 +568,7 @@ impl fmt::Display for Fault {
                 write!(f, "This is a spreadsheet: it only lists the files of a project.")
             }
             Self::Mixed { kinds } => {
-                write!(f, "These files make no model together: {}.", kinds.join(", "))
+                write!(f, "No model can be made of these files together: {}.", kinds.join(", "))
             }
             Self::Model(error) => write!(f, "{error}"),
             Self::Write { reason } => write!(f, "The model cannot be written: {reason}."),

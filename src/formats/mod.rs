@@ -1,12 +1,12 @@
-//! Reads and writes model files: statismo, MATLAB, NumPy, pickles, JSON, meshes and what else people have.
+//! Reads and writes files of statistical shape models: statismo, MATLAB, NumPy, pickles, JSON, meshes and others.
 //!
 //! [`open`] looks at the content, never at the name, and hands the files to the reader that knows them. A
 //! reader turns its files into arrays and says what they are; `readers::assemble` makes a model of them,
 //! the same way for all.
 //!
-//! People drop one file, a model with its companions, or the many meshes of a population: [`groups`]
-//! says which of the files belong together, and [`open`] makes one model of one group. A file of several
-//! models is read part by part, since one part may have hundreds of megabytes.
+//! Users open one file, a model with its companions, or the many meshes of a population: [`groups`] says which of the
+//! files belong together, and [`open`] makes one model of one group. A file of several models is read part by part,
+//! since one part may have hundreds of megabytes.
 //!
 //! | folder | holds |
 //! |---|---|

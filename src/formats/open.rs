@@ -1,4 +1,4 @@
-//! Opens files as one model: the only place where reading comes back to itself, archive → files → model.
+//! Opens files as one model, unpacking archives on the way: the only recursion of the readers.
 
 use super::containers::hdf5_json::Hdf5Json;
 use super::containers::json::Document;
@@ -39,7 +39,7 @@ fn open_within(inputs: &[Input], options: &Options, depth: u8) -> Result<Opened,
     }
 }
 
-/// Reads a file that stands alone.
+/// Reads a single file.
 fn open_one(input: &Input, options: &Options, depth: u8) -> Result<Opened, FormatError> {
     match sniff(input)? {
         Content::Hdf5 => match statismo::read(input, options) {

@@ -1,4 +1,4 @@
-//! What opening files gives: one model, its parts, and where it comes from.
+//! The result of opening files: one model, the names of all parts, and where the model comes from.
 
 use crate::model::{BasisCheck, LinearModel};
 

@@ -1,10 +1,10 @@
-//! Why a lesson cannot answer.
+//! Why a lesson cannot answer an ask.
 
 use core::fmt;
 
 use crate::pair::PairError;
 
-/// Why a lesson cannot answer.
+/// Why a lesson cannot answer an ask.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum LessonError {
@@ -47,7 +47,7 @@ pub enum LessonError {
         /// What is needed.
         needed: &'static str,
     },
-    /// There are too few draws to say anything of.
+    /// There are too few draws to compute anything from.
     NoDraws {
         /// Number of the group of chains.
         group: u32,
@@ -57,7 +57,7 @@ pub enum LessonError {
         /// "A" or "B".
         side: &'static str,
     },
-    /// Rejection starts nowhere.
+    /// A start was given for rejection sampling, which has none.
     NoStart,
 }
 
@@ -113,7 +113,9 @@ impl fmt::Display for LessonError {
             Self::Fit { side, sigma } => {
                 write!(f, "The Gaussian fit of side {side} overflows at σ = {sigma}.")
             }
-            Self::Flat => write!(f, "The pooled draws do not vary: they make no model."),
+            Self::Flat => {
+                write!(f, "The pooled draws do not vary, so that no model can be made of them.")
+            }
             Self::NoChainGroup { group } => write!(f, "There is no chain group {group}."),
             Self::OtherTarget { group, needed } => {
                 write!(f, "Chain group {group} does not draw from {needed}.")

@@ -1,12 +1,12 @@
-//! Principal components of draws: the model of A∩B, and what they would make of a difference.
+//! Principal components of draws: the model of A∩B, and how far a Gaussian misrepresents a difference.
 //!
 //! d_G falls with the number of draws as √(Σ_{i≤k<j} λᵢλⱼ/(λᵢ − λⱼ)²/N_ij), the λ those of the closed form.
 //! What turns mode i towards j is the mean of zᵢzⱼ, the draws' coordinates in its modes: N_ij is the
 //! effective sample size of that product, which the faster of the two decides. Two groups of chains with N₁ and N₂
 //! effective draws count as 4/(1/N₁ + 1/N₂), since both sides are pooled equally.
 //!
-//! A difference is not convex: the shapes between its draws need not be in it. The share of a Gaussian's
-//! shapes with L_D > ½, where its draws are those of the difference, says how far such a Gaussian misleads.
+//! A difference is not convex: the shapes between its draws need not be in it. The share of a Gaussian's shapes with
+//! L_D > ½, where its draws are those of the difference, measures how wrong such a Gaussian is.
 
 use crate::model::Side;
 use nalgebra::DVector;

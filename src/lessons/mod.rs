@@ -1,4 +1,4 @@
-//! Lessons: the method on the paper's stars and on two planes, one question at a time.
+//! Computes what the page's lessons show: densities, single steps of samplers and draws, on two small models.
 //!
 //! A [`Lesson`] holds two small models and *groups of chains* that are run step by step.
 //! It answers [`LessonAsk`]s: what a density, its gradient and a distance are at a point or over a plane;
@@ -6,8 +6,8 @@
 //! targets, fits, samplers, diagnostics and measures are those of a comparison, here in double precision
 //! throughout and with the single steps to be seen.
 //!
-//! The same asks give the same answers, natively and in the browser, bit for bit; what a group draws does not
-//! depend on how its steps are cut.
+//! The same asks give the same answers, natively and in the browser, bit for bit; the draws of a group do not depend
+//! on how its steps are divided among asks.
 //!
 //! **Limits.** Models made by code alone, since every evaluation is on its own. A group keeps at most 200,000
 //! draws, or as many as five million numbers hold, and then does no more.

@@ -1,4 +1,4 @@
-//! The two models of a lesson, and all that is known of them before a draw.
+//! The two models of a lesson, with fits, joint basis and closed-form intersection.
 //!
 //! The fits are those that a run would settle on, the pooled closed form is made of them as a run makes it:
 //! both sides equally, by moments, in the joint basis, with as many modes as the smaller model.

@@ -1,4 +1,4 @@
-//! Single shapes and fields: what densities, distances and gradients are at given coefficients.
+//! Evaluates densities, distances and gradients at single shapes and over grids of two coefficients.
 
 use crate::model::Side;
 use nalgebra::DVector;
@@ -13,7 +13,7 @@ use crate::pair::{distance_likelihood, formed, nearest_coefficients};
 use crate::sampling::Target;
 
 impl Opened {
-    /// What there is to say of the shape with these coefficients.
+    /// Distances, densities and plausibility of the shape with these coefficients.
     pub(super) fn point(
         &self,
         side: Side,
@@ -82,7 +82,7 @@ fn log_normal(points: &[f64], dimension: usize) -> Vec<f64> {
     points.chunks_exact(dimension).map(density).collect()
 }
 
-/// Where a field lies in the coefficients.
+/// The grid of a field: two coefficients that vary, the values of the others.
 #[derive(Debug)]
 pub(super) struct Grid<'a> {
     pub(super) modes: [usize; 2],

@@ -10,8 +10,8 @@
 //! | difference | pair=planes modes=2 sigma=0.3 side=a seed=1 draws=1000 |
 //! | race | pair=stars-5 modes=all sigma=0.003 side=a chains=4 seed=1 steps=500 break=none |
 //!
-//! Every scene also heeds `plausibility`, `turned`, `tilt`, `shift`, `lift`, `burnin`, as far as they mean
-//! something to it. Other keys are those of the page's picture and are passed over, by name.
+//! Every scene also reads `plausibility`, `turned`, `tilt`, `shift`, `lift`, `burnin`, as far as they mean something
+//! to it. Other keys are those of the page's picture and are passed over, by name.
 
 use crate::model::Side;
 use serde::de::DeserializeOwned;
@@ -50,7 +50,7 @@ pub enum Break {
     None,
     /// The Hastings factor of the walk's scaling move, on N(0, I₅₀).
     Scaling,
-    /// All chains but one are gone.
+    /// Only one chain runs.
     OneChain,
     /// σ is a thirtieth of what it should be.
     Sigma,
@@ -223,7 +223,7 @@ fn count(what: &'static str, found: &str) -> Result<usize, LessonError> {
 mod tests {
     use super::*;
 
-    /// Keys and values as they stand in a link.
+    /// Keys and values as they are written in a link.
     fn of_link(text: &str) -> Result<(Scene, Vec<String>), LessonError> {
         let pairs = text.split('&').filter_map(|pair| pair.split_once('='));
         let owned = |(key, value): (&str, &str)| (key.to_owned(), value.to_owned());

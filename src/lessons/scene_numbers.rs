@@ -18,7 +18,7 @@ const BURN_IN_OF_WALKS: usize = 500;
 const BURN_IN_OF_OTHERS: usize = 50;
 /// Burn-in of the race.
 const BURN_IN_OF_RACE: usize = 200;
-/// Dimension on which the scaling move goes wrong for all to see.
+/// Dimension in which the error of the scaling move is plainly visible.
 const DIMENSION: usize = 50;
 /// By how much σ is too small, and by how many degrees B is turned, where they are broken.
 const SIGMA_OVER: f64 = 30.0;

@@ -1,10 +1,9 @@
-//! Shapes as sums of columns, start + Σ factorᵢ·columnᵢ, as fast as memory gives the columns.
+//! Computes shapes as linear combinations of columns, start + Σ factorᵢ·columnᵢ, at the speed of memory.
 //!
-//! Rows go in strips, four columns at a time, so that a number of the sum is read and written once for four
-//! of the columns'. Of several sums a strip of all is taken before the next: columns that they share are
-//! read from memory once. Columns whose factor is 0 are not read: of a model of 50 modes of which a slider
-//! moves one, one is. The order of a sum depends on its factors alone; the bits are the same with any
-//! number of threads.
+//! Rows are taken in strips, four columns at a time, so that a number of the sum is read and written once for four of
+//! the columns'. Of several sums a strip of all is taken before the next: columns that they share are read from memory
+//! once. Columns whose factor is 0 are not read: of a model of 50 modes of which a slider moves one, one is. The order
+//! of a sum depends on its factors alone; the bits are the same with any number of threads.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -1,4 +1,4 @@
-//! Eigenvectors of symmetric matrices, in a fixed order and with fixed signs.
+//! Eigendecomposition of symmetric matrices, with a fixed order and fixed signs.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -1,10 +1,10 @@
-//! Mean and covariance: of draws, of mixtures, and their principal components.
+//! Mean and covariance of draws and of mixtures, and their principal components.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::{eigen, gram};
 
-/// Eigenvalues below this share of the largest are rounding.
+/// Eigenvalues below this share of the largest are rounding errors.
 const SMALLEST_EIGENVALUE: f64 = 1e-10;
 
 /// Mean and covariance in some coordinates.

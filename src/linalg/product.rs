@@ -1,7 +1,7 @@
-//! Products with tall matrices, spread over threads.
+//! Matrix products with tall matrices, on several threads.
 //!
-//! Rows go in blocks that stay in the second cache; a block is turned to rows and taken through one of
-//! the two products of [`crate::linalg::simd`].
+//! Rows are taken in blocks that fit into the second-level cache; a block is transposed to row-major order and given
+//! to one of the two products of [`crate::linalg::simd`].
 //!
 //! Every sum has a fixed order that depends on the sizes of the matrices only: the bits of a result are
 //! the same on any machine, with any number of threads. Some blocks are computed at a time and put

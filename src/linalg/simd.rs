@@ -1,6 +1,6 @@
-//! SIMD vectors, as wide as the processor has them, and the two matrix products that take the time.
+//! SIMD vectors of the processor's width, and the two matrix products that take nearly all computing time.
 //!
-//! Everything heavy in the engine is one of two products of matrices, both row-major:
+//! Both products are of row-major matrices:
 //!
 //! * [`Real::rows`]: a few rows of A times B, C = A·B (residuals of many proposals, R_v·T of the fits);
 //! * [`add_cross`]: C += AᵀB over a tile of rows (gradients of many proposals, curvatures, Gram matrices).
@@ -9,9 +9,8 @@
 //! single precision (wasm simd128 and NEON, AVX2, AVX-512), found at run time. Entries of C stay in
 //! registers, [`ROWS`] × [`VECTORS`] vectors of them, while the sum runs.
 //!
-//! **The same bits everywhere.** Every column has its own sum, taken in the order of its terms; + and ×
-//! are rounded on their own, never fused. The width of the vectors and the company that a column has
-//! therefore change nothing.
+//! **The same bits everywhere.** Every column has its own sum, taken in the order of its terms; + and × are rounded on
+//! their own, never fused. So neither the width of the vectors nor the other columns beside it change a result.
 //!
 //! **Plain loops, no closures** where vectors are at work: a closure that the compiler does not inline takes
 //! the sums by reference, out of the registers, at half the speed (measured with `core::array::from_fn`).

@@ -5,11 +5,10 @@
 //! accuracy, which principal angles need (their sines are singular values). All operations are +, ×, ÷
 //! and √, so that the result has the same bits on every machine.
 //!
-//! The triangle comes from the Gram matrix of the columns, scaled to length 1, by Cholesky; V = S R⁻¹ L
-//! then takes one product. Columns that lean on one another lose orthogonality with the square of
-//! their condition number: from 10 on the step is done twice, and where it exceeds 10⁴, or S has few
-//! rows, Householder reflections take its place, in the memory of two copies of S more.
-//! Cost: 3·D·q² (twice that for the second step) and some sweeps of 5·q³ for the rotations.
+//! The triangle comes from the Gram matrix of the columns, scaled to length 1, by Cholesky; V = S R⁻¹ L then takes one
+//! product. Nearly dependent columns lose orthogonality with the square of their condition number: from 10 on the step
+//! is done twice, and where it exceeds 10⁴, or S has few rows, Householder reflections are used instead, with two more
+//! copies of S in memory. Cost: 3·D·q² (twice that for the second step) and some sweeps of 5·q³ for the rotations.
 //!
 //! **References.** Demmel & Veselić, "Jacobi's method is more accurate than QR", SIAM J. Matrix
 //! Anal. Appl. 13 (1992); Yamamoto, Nakatsukasa, Yanagisawa & Fukaya, "Roundoff error analysis of the
@@ -84,7 +83,7 @@ struct CholeskyStep {
 }
 
 impl CholeskyStep {
-    /// `None` when the columns lean on one another too much.
+    /// `None` when the columns are too nearly dependent.
     fn new(gram: &DMatrix<f64>) -> Option<Self> {
         let size = gram.ncols();
         let norms: Vec<f64> = gram.diagonal().iter().map(|square| square.sqrt()).collect();
@@ -120,7 +119,7 @@ pub(crate) fn singular_values(matrix: &DMatrix<f64>) -> DVector<f64> {
     if matrix.nrows() < matrix.ncols() {
         return singular_values(&matrix.transpose());
     }
-    // The triangle of a triangle's transpose is nearly diagonal: rotations soon have nothing to do.
+    // The triangle of the transposed triangle is nearly diagonal, so that few rotations are needed.
     let mut triangle = matrix.clone().qr().r();
     for _ in 0..2 {
         triangle = triangle.transpose().qr().r();
@@ -241,7 +240,7 @@ mod tests {
 
     #[test]
     fn every_way_to_the_triangle_gives_the_same_decomposition() {
-        // Columns that lean on the first one the more, the smaller the share of their own.
+        // Columns that are the closer to the first one, the smaller the share of their own.
         for (share, steps) in [(0.5, "one step"), (1e-2, "two steps"), (1e-7, "reflections")] {
             let matrix = DMatrix::from_fn(96, 6, |i, j| {
                 let own = libm::cos((i * (2 * j + 1)) as f64 * 0.1);

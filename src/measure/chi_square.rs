@@ -1,4 +1,4 @@
-//! Share of a Gaussian model's own shapes that are less plausible than a given one.
+//! Upper tail of the χ² distribution: the share of a model's own shapes that are less plausible than a given one.
 //!
 //! ‖a‖² of a ~ N(0, I_q) has the χ² distribution with q degrees of freedom: P(χ²_q ≥ s) = Q(q/2, s/2), the regularised
 //! incomplete gamma function, by its series below s = q + 2 and by its continued fraction (modified Lentz)

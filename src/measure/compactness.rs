@@ -1,4 +1,4 @@
-//! Compactness: how few modes hold how much of a model's variance.
+//! Compactness of a model: the share of its variance in the first modes.
 //!
 //! C(m) = Σᵢ≤ₘ λᵢ/Σᵢ λᵢ. A model is the more compact the sooner C comes near 1. (Davies' C(m) is the sum itself;
 //! as a share it can be overlaid for models of different sizes.)

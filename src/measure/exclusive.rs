@@ -1,4 +1,4 @@
-//! Exclusive modes: in which directions one model leaves the space of the other, in closed form.
+//! Exclusive modes: the directions in which one model leaves the space of the other, in closed form.
 //!
 //! With R the residual operator of a side (d·n × q, see [`crate::pair::ResidualOperator`]) and v a unit direction
 //! of its coefficients, a step of one prior standard deviation along v leaves a residual of root mean

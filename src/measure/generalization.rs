@@ -1,4 +1,4 @@
-//! Generalization: how near a model comes to shapes that it was not made of.
+//! Generalization of a model: the distance of shapes that it was not built from to their projection.
 //!
 //! A shape x is projected onto the first k modes, x′ = m + E_k E_kᵀ (x − m), and d(x′, x) is the mean of the
 //! vertices' distances (eq. 10 of Weiherer et al. 2024). Shapes that were used to make the model are
@@ -31,8 +31,8 @@ pub(super) fn align(model: &LinearModel, shapes: &mut DMatrix<f64>, alignment: A
     }
 }
 
-/// d(x′, x) of every shape (columns of `shapes`, d·n × N, in the model's frame) for the first k modes, k
-/// from `counts` (ascending): N rows. A k that the model has not got means all modes.
+/// d(x′, x) of every shape (columns of `shapes`, d·n × N, in the model's frame) for the first k modes, k from `counts`
+/// (ascending): N rows. A k above the number of modes means all modes.
 pub fn projection_distances(
     model: &LinearModel,
     shapes: &DMatrix<f64>,

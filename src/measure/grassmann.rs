@@ -1,4 +1,4 @@
-//! Principal angles and affine Grassmann distance.
+//! Principal angles between subspaces, and the affine Grassmann distance.
 //!
 //! An affine space b + span A is embedded as the column space of
 //! Y = [[A, b₀/√(1 + ‖b₀‖²)], [0, 1/√(1 + ‖b₀‖²)]] with b₀ = b − AAᵀb (Lim, Wong & Ye 2021), and

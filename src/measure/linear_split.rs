@@ -1,4 +1,4 @@
-//! Linear splitting: what is left of a model when another is taken out of it, as Gaussians go.
+//! Linear splitting of eigenspace models: the mean and covariance that remain when one is taken out of another.
 //!
 //! If a distribution were the mixture w·I + (1 − w)·D, its moments would be those of the merged eigenspace models of Hall,
 //! Marshall & Martin, m = w m_I + (1 − w) m_D and C = w C_I + (1 − w) C_D + w(1 − w)(m_I − m_D)(m_I − m_D)ᵀ.

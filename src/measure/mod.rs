@@ -1,4 +1,4 @@
-//! Numbers about models and their relation.
+//! Measures of one model (compactness, generalization, specificity) and of two (angles, distances, divergences).
 
 mod bhattacharyya;
 mod chi_square;

@@ -1,4 +1,4 @@
-//! Davies' measures of a model, by shapes that test it or by those that it was made of.
+//! Generalization and specificity of a model (Davies), from test shapes or by cross-validation on its training shapes.
 //!
 //! Generalization and specificity are distances in the unit of the model, as functions of the number of
 //! modes, with the standard error of the mean. Both are small for a good model; more modes make the

@@ -1,4 +1,4 @@
-//! Principal vectors: the pairs of directions that have the principal angles between them.
+//! Principal vectors of two subspaces: the pairs of directions with the principal angles between them.
 //!
 //! With orthonormal bases E₁, E₂ and E₂ᵀE₁ = Z cos(θ) Yᵀ, the k-th pair is E₁y_k in one space and E₂z_k in the
 //! other: of all pairs orthogonal to those before it has the smallest angle. A pair of angle 0 is a

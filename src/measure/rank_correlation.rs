@@ -3,8 +3,8 @@
 //! ρ is the correlation of the ranks, ties having the mean of theirs: 1 where one quantity rises whenever the
 //! other does, whatever their scales.
 //!
-//! **Limits.** It says nothing of how much, and things that are not independent of one another make a large ρ
-//! cheap.
+//! **Limits.** It does not measure the size of an effect, and pairs that are not independent of one another can give a
+//! large ρ by chance.
 //!
 //! **References.** Spearman, "The proof and measurement of association between two things", Am. J. Psychol. 15
 //! (1904).

@@ -1,4 +1,4 @@
-//! Specificity: how near the shapes of a model are to shapes that there are.
+//! Specificity of a model: the distance of its random shapes to the nearest known shape.
 //!
 //! Random shapes m + U_k z, z ~ N(0, I), are drawn of the first k modes, the same z for every k, and the
 //! distance d (the mean of the vertices' distances) to the nearest known shape is what counts.

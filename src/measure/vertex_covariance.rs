@@ -1,4 +1,4 @@
-//! Covariance of every point: how far it varies, and which way.
+//! Covariance matrix of every point: its variance in total, along the normal and tangentially, and its ellipsoid.
 //!
 //! For shapes with covariance K = Y Yᵀ (Y is d·n × k) point v has the d × d block Y_v Y_vᵀ. Its trace is the
 //! square of the point's standard deviation; with n the normal of the mean shape there, nᵀY_vY_vᵀn is the

@@ -1,4 +1,4 @@
-//! Maps over the vertices.
+//! Per-vertex standard deviation, and mean distance between corresponding points.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -1,4 +1,4 @@
-//! What a model is, in 32 digits: a run file names the models that it was made with.
+//! Fingerprint of a model: 32 hexadecimal digits of a SHA-256, by which a run file identifies its models.
 //!
 //! SHA-256 of what follows, one after the other; its first 16 bytes in hexadecimal:
 //!
@@ -15,7 +15,7 @@
 //! hashlib.sha256(np.array([d, n, q], "<u8").tobytes() + b"".join(parts)).hexdigest()[:32]
 //! ```
 //!
-//! Columns are hashed side by side, and none is formed as a whole.
+//! Columns are hashed in parallel, without a copy of the scaled basis.
 //!
 //! **Limits.** Numbers must be equal to the last bit, since only then are the draws: an engine that
 //! reads a file with other roundings gives it another fingerprint. Names, units and cells do not count.

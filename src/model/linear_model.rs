@@ -1,4 +1,4 @@
-//! The model type, how it is built from a scaled basis, and how it is edited.
+//! The linear shape model: mean, modes and standard deviations, built from a scaled basis by a thin SVD.
 
 use core::fmt;
 use std::sync::Arc;
@@ -49,7 +49,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// The symbol that stands behind a number.
+    /// Its symbol.
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Micrometre => "µm",
@@ -98,17 +98,17 @@ pub enum Cells {
     Triangles(Vec<[u32; 3]>),
 }
 
-/// What [`LinearModel::from_scaled_basis`] found out about the basis that it was given.
+/// What [`LinearModel::from_scaled_basis`] found about the given basis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 pub struct BasisCheck {
     /// Largest |cos| between two different columns of the given basis; 0 when orthogonal.
     pub orthogonality_error: f64,
-    /// Modes that were dropped because their standard deviation is nothing beside the largest.
+    /// Modes that were dropped because their standard deviation is negligible against the largest.
     pub dropped_modes: usize,
 }
 
-/// Why numbers do not make a model.
+/// Why no model can be built from the given numbers.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum ModelError {
@@ -224,7 +224,7 @@ pub struct LinearModel {
     unit: Unit,
     dimension: usize,
     mean: DVector<f64>,
-    /// Shared: a copy of a model costs a mean, not a basis.
+    /// Shared, so that copying a model copies the mean but not the basis.
     basis: Arc<DMatrix<f64>>,
     standard_deviations: DVector<f64>,
     cells: Cells,

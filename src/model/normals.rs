@@ -1,4 +1,4 @@
-//! Normals of a surface or an outline at its vertices.
+//! Vertex normals of a surface or of an outline.
 //!
 //! Of triangles n_v ∝ Σ e × f over those that meet at v, which weighs each by its area; they point to the
 //! side from which the triangles turn counter-clockwise. Of an outline in the plane n_v ∝ Σ e turned by −90°

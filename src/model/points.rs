@@ -1,4 +1,4 @@
-//! Fewer points of a model: a region, the points that two meshes share, or an even sample.
+//! Restricts a model to some of its points: a region, the points that two meshes share, or an even sample.
 //!
 //! The rows of the kept points are cut out of the scaled basis, and the thin SVD is made anew: modes that
 //! were orthogonal on the whole mesh are not on a part of it.
@@ -62,7 +62,7 @@ impl LinearModel {
         model.with_cells(cells)
     }
 
-    /// For every point its place in `points`; `u32::MAX` where it is not among them.
+    /// For every point its index in `points`; `u32::MAX` where it is not among them.
     fn places(&self, points: &[u32]) -> Vec<u32> {
         let mut places = vec![u32::MAX; self.point_count()];
         for (place, &point) in (0_u32..).zip(points) {

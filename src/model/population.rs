@@ -1,4 +1,4 @@
-//! Models built from shapes in correspondence: generalised Procrustes and principal components.
+//! Builds a model from shapes in correspondence: generalised Procrustes analysis and principal components.
 //!
 //! PCA with divisor N − 1; `numpy.linalg.svd` of the centred data over √(N − 1) gives the same.
 
@@ -29,7 +29,7 @@ pub fn principal_components(
     LinearModel::from_scaled_basis(dimension, mean, centred).map(|(model, _)| model)
 }
 
-/// The same but for rounding, in the memory of the shapes and faster when they are many.
+/// The same up to rounding, in the memory of the shapes, and faster when there are many of them.
 ///
 /// Centred shapes add up to zero: one of them depends on the others, which is the slowest case for a
 /// singular value decomposition. The N − 1 contrasts √(k/(k + 1))·(mean of the first k − shape k + 1)

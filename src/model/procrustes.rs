@@ -18,7 +18,7 @@ use crate::linalg::thin_svd;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum Alignment {
-    /// Nothing: the models are compared as they stand.
+    /// Nothing: the models are compared as they are.
     #[default]
     None,
     /// Rotation and translation.

@@ -1,4 +1,4 @@
-//! The two models of a comparison, A and B, and what there is of each.
+//! The two models of a comparison: `Side` names A or B, `Sides` holds one value for each.
 
 use core::ops::{Index, IndexMut};
 
@@ -36,7 +36,7 @@ impl Side {
         }
     }
 
-    /// 0 for A, 1 for B: the place in a list, and the number of its streams of random numbers.
+    /// 0 for A, 1 for B: the index in a list, and the number of its streams of random numbers.
     pub fn index(self) -> usize {
         self as usize
     }

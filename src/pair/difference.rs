@@ -1,4 +1,4 @@
-//! The set differences, ready for the rejection sampler.
+//! The set differences A\B and B\A as densities for the rejection sampler.
 //!
 //! Every definition makes a share g(a) of the prior, p(a) ∝ g(a)·N(a; 0, I), from a score of the shape
 //! x = m₁ + U₁ a:
@@ -73,7 +73,7 @@ pub enum Level {
     Quantile(f64),
 }
 
-/// A definition in numbers, for one side.
+/// A definition of the difference with its threshold, for one side.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Criterion {
     score: Score,

@@ -33,7 +33,7 @@ pub enum PairError {
     },
     /// The points to compare cannot be chosen as asked.
     Selection(SelectionError),
-    /// What is left of a model at the chosen points is none.
+    /// At the chosen points a model does not vary.
     Rest {
         /// "A" or "B".
         model: &'static str,
@@ -93,7 +93,7 @@ impl fmt::Display for PairError {
             ),
             Self::Selection(error) => error.fmt(f),
             Self::Rest { model, error } => {
-                write!(f, "At the chosen points {model} is no model: {error}")
+                write!(f, "At the chosen points no model of {model} can be made: {error}")
             }
         }
     }

@@ -67,7 +67,7 @@ impl NormQuadrature {
         Self { nodes }
     }
 
-    /// Moments of N(m, C); zero when E‖r‖² is nothing beside `scale`².
+    /// Moments of N(m, C); zero when E‖r‖² is negligible against `scale`².
     pub(crate) fn moments<const D: usize>(
         &self,
         mean: [f64; D],

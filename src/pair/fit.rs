@@ -170,7 +170,7 @@ pub fn fit_variational_step_every(
     Some((next, moved.max(scaled)))
 }
 
-/// A fit for the eye: from rms, two variational iterations over some of the vertices.
+/// A quick fit for previews: from rms, two variational iterations over some of the vertices.
 pub fn fit_quickly(side: &ResidualOperator, sigma: f64) -> Option<Gaussian> {
     const ITERATIONS: usize = 2;
     const VERTICES: usize = 1024;

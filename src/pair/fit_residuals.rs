@@ -1,4 +1,4 @@
-//! What the fits sum over the residuals of all vertices, or of one in every k.
+//! Sums over vertex residuals that the Gaussian fits need, over all vertices or one in every k.
 //!
 //! For a ~ N(μ, TTᵀ) the residual of vertex v is r_v ~ N(r₀ + R_vμ, (R_vT)(R_vT)ᵀ). [`Residuals`] are
 //! these Gaussians, [`weighted_gram`] is Σ_v R_vᵀW_vR_v and [`weighted_sum`] Σ_v R_vᵀw_v.
@@ -64,7 +64,7 @@ impl Vertices {
 #[derive(Debug)]
 pub(crate) struct Residuals<const D: usize> {
     pub(crate) gaussians: Vec<([f64; D], [[f64; D]; D])>,
-    /// √(Σ_v ‖m_v‖² + tr RᵀR): what a residual is nothing beside.
+    /// √(Σ_v ‖m_v‖² + tr RᵀR), against which a residual may be negligible.
     pub(crate) scale: f64,
 }
 

@@ -1,4 +1,4 @@
-//! The intersection posterior, ready for a sampler.
+//! The intersection posterior: its log density and gradient at many coefficient vectors at once.
 
 use std::sync::Arc;
 

@@ -3,16 +3,15 @@
 //! All shapes of both models lie in m₁ + span[E₁, E₂, m₂ − m₁], at most q₁ + q₂ + 1 dimensions. PCA
 //! of the pooled draws is done there, exactly and in milliseconds; never in the d·n space.
 //!
-//! The basis itself is not held, but how it mixes those columns. With M = [E₂, δ], δ the direction from m₁
-//! to m₂, and K = E₁ᵀM, what of M lies beyond E₁ has the Gram matrix H = MᵀM − KᵀK = W diag(s²) Wᵀ, s the
-//! sines of the principal angles, and (M − E₁K) W/s is an orthonormal basis of it. H has s² to 10⁻¹⁶,
-//! which is enough for sines above 0.03. The directions below, nearly inside A, are formed, taken
-//! apart by a thin SVD that finds their sines to 10⁻¹⁶, and made orthogonal twice.
-//! Cost: 2·d·n·q₁·q₂; memory: nothing in d·n but the directions nearly inside.
+//! The basis itself is not stored, only the coefficients by which it combines those columns. With M = [E₂, δ], δ the
+//! direction from m₁ to m₂, and K = E₁ᵀM, what of M lies beyond E₁ has the Gram matrix H = MᵀM − KᵀK = W diag(s²) Wᵀ,
+//! s the sines of the principal angles, and (M − E₁K) W/s is an orthonormal basis of it. H has s² to 10⁻¹⁶, which is
+//! enough for sines above 0.03. The directions below, nearly inside A, are formed, taken apart by a thin SVD that
+//! finds their sines to 10⁻¹⁶, and made orthogonal twice. Cost: 2·d·n·q₁·q₂; memory: nothing in d·n but the directions
+//! nearly inside.
 //!
-//! Both sides count equally, by moments: C = ½ΣCᵢ + ½Σ(mᵢ − m)(mᵢ − m)ᵀ. Weighing them by their
-//! evidence is no use: L_P is not normalised on a common measure, so the evidence of a side
-//! depends on the volume of its own coordinates.
+//! Both sides count equally, by moments: C = ½ΣCᵢ + ½Σ(mᵢ − m)(mᵢ − m)ᵀ. Weights by their evidence would mean nothing:
+//! L_P is not normalised on a common measure, so the evidence of a side depends on the volume of its own coordinates.
 
 use nalgebra::{DMatrix, DVector};
 

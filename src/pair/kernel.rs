@@ -1,4 +1,5 @@
-//! The distance d(x′, x) of many proposals at once, and its gradient: the hot loop of everything.
+//! Computes the distance d(x′, x) and its gradient for many coefficient vectors at once; most computing time is spent
+//! here.
 //!
 //! d(a) = (1/n) Σ_v ‖r_v + R_v (a − c)‖ for points v with residual rows R_v (d × q) and residual
 //! r_v at a centre c, ∇d(a) = (1/n) Σ_v R_vᵀ r_v(a)/‖r_v(a)‖. One distance is one product with a

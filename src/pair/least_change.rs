@@ -1,10 +1,9 @@
 //! Conditions a model on the position of one vertex: the most probable shape through that point.
 //!
-//! Of all steps Δ of the coefficients that move a point by U_v Δ = y, the one of least norm is
-//! Δ = U_vᵀ(U_vU_vᵀ)⁻¹y. With noise τ on the wish it is the posterior mean of N(0, I) given y,
-//! Δ = U_vᵀ(U_vU_vᵀ + τ²I)⁻¹y, which is also there where U_vU_vᵀ is singular: a point that a model moves along
-//! a line only follows as far as the line goes. A direction in which the point has standard deviation s is
-//! reached but for τ²/(s² + τ²) of it.
+//! Of all steps Δ of the coefficients that move a point by U_v Δ = y, the one of least norm is Δ = U_vᵀ(U_vU_vᵀ)⁻¹y.
+//! With noise τ on the position it is the posterior mean of N(0, I) given y, Δ = U_vᵀ(U_vU_vᵀ + τ²I)⁻¹y, which is also
+//! there where U_vU_vᵀ is singular: a point that a model moves along a line only follows as far as the line goes. A
+//! direction in which the point has standard deviation s is reached but for τ²/(s² + τ²) of it.
 //!
 //! **References.** Albrecht, Lüthi, Gerig & Vetter, "Posterior shape models", Med. Image Anal. 17 (2013).
 
@@ -14,7 +13,7 @@ use nalgebra::{DMatrix, DVector};
 /// one part in a hundred.
 const NOISE: f64 = 1e-3;
 
-/// Δ (q) for the rows U_v of a point (d × q) and its wish y (d); 0 where the point does not move.
+/// Δ (q) for the rows U_v of a point (d × q) and its displacement y (d); 0 where the point does not move.
 pub fn least_change(rows: &DMatrix<f64>, wish: &DVector<f64>) -> DVector<f64> {
     let mut covariance = rows * rows.transpose();
     let noise = NOISE * NOISE * covariance.trace();

@@ -1,4 +1,4 @@
-//! How near do plausible shapes of two models come?
+//! Computes the least distance between plausible shapes of two models.
 //!
 //! min d(m₁ + U₁a, m₂ + U₂b) over ‖a‖ ≤ k₁ and ‖b‖ ≤ k₂, a small convex problem (a second-order cone
 //! programme): the approximate intersection I_ε (Weiherer et al. 2024, eq. 6) is empty exactly when ε is

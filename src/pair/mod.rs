@@ -1,4 +1,4 @@
-//! Two models in one frame: the residual operator, the targets, the Gaussian fits.
+//! Two models in one coordinate frame: preparation, residual operator, intersection and difference densities, fits.
 
 mod difference;
 mod error;

@@ -1,12 +1,12 @@
-//! Where a shape lies: its coordinates in the joint basis, and its nearest shapes in both models.
+//! Projects shapes: coordinates in the joint basis, and the nearest shape in either model.
 //!
 //! x′ = proj(x) = m + U a′ with a′ = D^−½Eᵀ(x − m) (Weiherer et al. 2024, eq. 8). For a shape of either model,
 //! or of their intersection, Eᵀ(x − m) needs no shape: with x = m₁ + B c, m = m₁ + B μ and U = B S it is
 //! D^−½Sᵀ(c − μ), a product of q × p numbers. What takes time is the one sum of columns that forms a shape,
 //! d·n·q multiplications, and it is taken only for shapes that are looked at.
 //!
-//! **Accuracy.** Directions of B that lean less than 10⁻⁹ out of A are not in the joint basis; they
-//! change x′ by 10⁻⁹ of the shape's deviation.
+//! **Accuracy.** Directions of B at angles to A below 10⁻⁹ are not in the joint basis; they change x′ by 10⁻⁹ of the
+//! shape's deviation.
 
 use crate::model::Side;
 use nalgebra::{DMatrix, DVector};
@@ -119,7 +119,7 @@ mod tests {
                 let expected = nearest_coefficients(&models[to.index()], &shape);
                 let found = joint.nearest_coefficients(to, &coordinates);
                 assert!((&found - &expected).amax() < 1e-11, "a′ of {side:?} in {to:?}");
-                // x − x′ stands at a right angle on the model.
+                // x − x′ is orthogonal to the model.
                 let apart = &shape - DVector::from_vec(formed(&models[to.index()], &found));
                 assert!(models[to.index()].basis().tr_mul(&apart).amax() < 1e-11, "nearest");
                 assert_eq!(side == to, apart.amax() < 1e-11, "and the other is not itself");

@@ -1,4 +1,4 @@
-//! What is done to two models before they are compared, each step on request.
+//! Prepares two models for comparison, on request: points, units, mean, alignment, number of modes.
 //!
 //! Models of the field differ in more than their shapes: in unit, frame, number of modes, in the points
 //! of their meshes, and some hold displacements without a mean. A [`Preparation`] says what to do about
@@ -82,7 +82,7 @@ pub enum SelectionError {
     Text {
         /// Line in the file, from 1; 0 where there is only one.
         line: usize,
-        /// What stands there.
+        /// What was found.
         found: String,
     },
     /// No points at all.
@@ -135,7 +135,9 @@ impl SelectionError {
 impl fmt::Display for SelectionError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Text { line: 0, found } => write!(f, "“{found}” is no list of points."),
+            Self::Text { line: 0, found } => {
+                write!(f, "“{found}” was found; a list of point numbers was expected.")
+            }
             Self::Text { line, found } => {
                 write!(f, "Line {line} reads “{found}”; one or two point numbers were expected.")
             }
@@ -249,7 +251,7 @@ fn ranges_of_points(points: &[u32]) -> String {
     ranges.iter().map(written).collect::<Vec<_>>().join(",")
 }
 
-/// Two models made ready, and what became of them.
+/// Two prepared models.
 #[derive(Debug, Clone)]
 pub(crate) struct PreparedModels {
     pub(crate) models: [LinearModel; 2],

@@ -106,7 +106,7 @@ pub(crate) fn add(x: &mut [f64], y: &[f64]) {
     x.iter_mut().zip(y).for_each(|(x, y)| *x += y);
 }
 
-/// Works on strips of rows and takes the results in their order; few of them exist at a time.
+/// Computes strips of rows in parallel and takes the results in order; few of them exist at a time.
 fn in_strips<T: Send>(
     rows: usize,
     work: impl Fn(Range<usize>) -> T + Sync + Send,

@@ -1,4 +1,4 @@
-//! The recommended tolerance σ, from a budget of distance.
+//! Recommends the tolerance σ from the range of distances between two models.
 //!
 //! σ is a tolerance *per dimension* of the coefficients: the realised mean distance is about
 //! √(d(μ)² + q_eff σ²) and grows with the number of modes, so that a σ found on a small model does not
@@ -40,8 +40,8 @@ pub struct Tolerance {
     pub noise: Option<f64>,
 }
 
-/// The recommended σ for both sides of a pair together. `noise` is how far true members lie from their own
-/// model, where somebody knows; otherwise it is taken from the modes that were cut off, if any.
+/// The recommended σ for both sides of a pair together. `noise` is how far true members lie from their own model,
+/// where that is known; otherwise it is taken from the modes that were cut off, if any.
 pub fn recommended_tolerance(
     pair: &Pair,
     sides: Sides<&ResidualOperator>,

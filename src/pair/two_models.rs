@@ -1,4 +1,4 @@
-//! Two models in one frame, ready to be compared point for point.
+//! Two models in one frame, with the same points in the same order.
 //!
 //! **Limits.** Both models must have the same points in the same order once they are prepared
 //! ([`Preparation`]). Different meshes need a correspondence first, which is part of that.
@@ -84,7 +84,7 @@ impl Pair {
         ResidualOperator::new(models[side], models[side.other()])
     }
 
-    /// The length beside which a residual is rounding: the size of A's mean, or its spread where that is
+    /// The length against which a residual may be a rounding error: the size of A's mean, or its spread where that is
     /// larger. A model of a single point has no size.
     pub fn scale(&self) -> f64 {
         let spread = (self.a.total_variance() / self.a.point_count() as f64).sqrt();

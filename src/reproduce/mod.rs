@@ -1,12 +1,12 @@
-//! The paper's experiments, run again: its two tables and its ablation of σ; and a study that it leaves as
-//! future work.
+//! Reproduces the paper's experiments: its two tables and its ablation of σ; and a study that it leaves as future
+//! work.
 //!
-//! Every case is run four ways: our default; the closed form, which is the Gaussian fits of both sides
-//! pooled by moments, without a draw; and the paper's sampler at its own budget, as published and with
-//! the Hastings factor it lacks. What the paper prints stands in [`printed`].
+//! Every case is run four ways: our default; the closed form, which is the Gaussian fits of both sides pooled by
+//! moments, without a draw; and the paper's sampler at its own budget, as published and with the Hastings factor it
+//! lacks. The paper's numbers are in [`printed`].
 //!
-//! All of it goes through [`Comparison`], so that it measures what users get. The library knows no
-//! clock: an [`Observer`] has one.
+//! All of it goes through [`Comparison`], so that it measures what users get. The library reads no clock: an
+//! [`Observer`] has one.
 //!
 //! **Accounting.** Evaluations and seconds go from two loaded models to the intersection model; the
 //! differences are left out, of both. They include the Gaussian fits and their pilots (at most 3 × 256
@@ -43,7 +43,7 @@ use crate::report::{MeanSd, ModelReport, MomentSource, Report, Seconds};
 use crate::sampling::Gaussian;
 use crate::settings::{Sampler, Settings};
 
-/// The world outside, as an experiment needs it.
+/// Clock and progress display of an experiment.
 pub trait Observer {
     /// Seconds since some moment in the past.
     fn seconds(&self) -> f64;

@@ -1,10 +1,8 @@
-//! The ablation of σ: too large, and the intersection is the tolerance; too small, and the paper's walk
-//! hardly moves.
+//! Reproduces the ablation of σ: how the intersection and the paper's sampler depend on the tolerance.
 //!
-//! On the stars, where the truth is known, over all six settings; and on two packaged heads, where only
-//! distances to A, to B and to their union can be told. Beside the mean distance of the draws stands what
-//! the fits predict of it, E d ≈ √(d(μ)² + q_eff σ²) with q_eff = tr Σ(Λ − I − AᵀA): the number of
-//! coefficients that σ holds back.
+//! On the stars, where the truth is known, over all six settings; and on two packaged heads, where only distances to
+//! A, to B and to their union are known. Beside the mean distance of the draws is what the fits predict of it, E d ≈
+//! √(d(μ)² + q_eff σ²) with q_eff = tr Σ(Λ − I − AᵀA): the number of coefficients that σ holds back.
 
 use crate::model::Side;
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! Table 1: six pairs of stars whose intersection is known.
+//! Reproduces table 1: six pairs of stars whose intersection is known.
 //!
 //! The geometry is that of [`crate::demos`], which reproduces the paper's baselines. The paper's d_R sums
 //! over the points of a star of radius 1; at radius 10 with ten points that is the mean distance.

@@ -1,4 +1,4 @@
-//! Table 2: two models that share k vectors of a known basis must give those k back.
+//! Reproduces table 2: two models that share k vectors of a known basis, whose intersection must be those k.
 //!
 //! The paper splits a basis of the Basel Face Model into models of 3k, 3k and k dimensions. Its
 //! d_G(Q₁, Q₂) ≈ √(2k)·π/2 forces 2k vectors of their own for each model, so that 5k are needed: 25 in

@@ -1,4 +1,4 @@
-//! How far draws of several chains can be trusted: R-hat, effective sample sizes, Monte-Carlo errors.
+//! Convergence diagnostics of several chains: R-hat, effective sample sizes, Monte-Carlo standard errors.
 //!
 //! Each chain is cut in halves; values are replaced by the normal quantiles of their ranks. R-hat is
 //! the larger of that of the values and of their distance from the median (which sees chains
@@ -108,7 +108,7 @@ pub fn autocorrelation(chains: &[Vec<f64>], most_lag: usize) -> Vec<f64> {
         .collect()
 }
 
-/// A value and its place in [`Sample::values`].
+/// A value and its index in [`Sample::values`].
 type Entry = (f64, usize);
 
 /// All draws, halves of chains one after another; at the end, the middle draws of chains of odd
@@ -191,7 +191,7 @@ impl Sample {
         self.all.as_ref().unwrap_or(&self.order)
     }
 
-    /// The chain of a draw, by its place.
+    /// The chain of a draw, by its index.
     fn chain_of(&self, place: usize) -> usize {
         if place < self.kept() { place / (2 * self.half) } else { place - self.kept() }
     }
@@ -279,7 +279,7 @@ impl Sample {
     }
 }
 
-/// Runs of equal values, each with the place of its first.
+/// Runs of equal values, each with the index of its first.
 fn ties(order: &[Entry]) -> impl Iterator<Item = (usize, &[Entry])> {
     let mut next = 0;
     order.chunk_by(|x, y| x.0 == y.0).map(move |tied| {
@@ -289,7 +289,7 @@ fn ties(order: &[Entry]) -> impl Iterator<Item = (usize, &[Entry])> {
     })
 }
 
-/// The rank, from 1, that `count` equal values share from place `first` on.
+/// The rank, from 1, that `count` equal values share from index `first` on.
 fn shared_rank(first: usize, count: usize) -> f64 {
     first as f64 + (count as f64 + 1.0) / 2.0
 }

@@ -1,4 +1,4 @@
-//! Draws of a Gaussian fit itself, uncorrected, with the weights that say how far to trust them.
+//! Independent draws of the Gaussian fit itself, uncorrected, with their importance weights.
 //!
 //! **Limits.** They are draws of the fit, not of the target; the Pareto k of their weights p/q tells the two
 //! apart.

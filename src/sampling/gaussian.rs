@@ -1,4 +1,4 @@
-//! A Gaussian on R^q, given by its mean and precision.
+//! A multivariate Gaussian, given by its mean and precision: density, draws, whitening.
 
 use nalgebra::{DMatrix, DVector, DVectorView};
 

@@ -1,16 +1,15 @@
-//! Split Hamiltonian Monte Carlo: the Gaussian part is flown exactly, only the rest in leaps.
+//! Split Hamiltonian Monte Carlo: the Gaussian part is integrated exactly, only the rest by leapfrog steps.
 //!
-//! In whitened coordinates (see [`WhitenedChains`]) the energy is ½‖z‖² + ½‖p‖² + h(z), with a fresh
-//! momentum p ~ N(0, I) at every step. A leap of size ε is
+//! In whitened coordinates (see [`WhitenedChains`]) the energy is ½‖z‖² + ½‖p‖² + h(z), with a fresh momentum p ~ N(0,
+//! I) at every step. A leapfrog step of size ε is
 //!
 //! p ← p − (ε/2) ∇h(z),  (z, p) ← (z cos ε + p sin ε, p cos ε − z sin ε),  p ← p − (ε/2) ∇h(z),
 //!
-//! and L leaps are accepted with min(1, exp(−ΔH)). The rotation solves the Gaussian part exactly:
-//! the error comes from h alone, and a perfect fit accepts everything at any ε. A step flies about
-//! 1.5, near the quarter turn π/2 after which z is forgotten: L = 1 and ε = 1.5 where the fit is
-//! good; where fewer than 75 % are accepted the burn-in makes ε smaller and L = 1.5/ε larger, up
-//! to a given number of leaps. Every chain stretches its ε by up to ±10 % at every step, lest a
-//! direction that turns with a multiple of Lε come back to its start each time.
+//! and L of them are accepted with min(1, exp(−ΔH)). The rotation solves the Gaussian part exactly: the error comes
+//! from h alone, and a perfect fit accepts everything at any ε. A trajectory lasts about 1.5, near the quarter turn
+//! π/2 after which z is independent of its start: L = 1 and ε = 1.5 where the fit is good; where fewer than 75 % are
+//! accepted the burn-in makes ε smaller and L = 1.5/ε larger, up to a given number of leaps. Every chain stretches its
+//! ε by up to ±10 % at every step, lest a direction that turns with a multiple of Lε come back to its start each time.
 //!
 //! **Cost.** 2L evaluations a step (a gradient counts as two). With a good fit draws are nearly
 //! independent at L = 1, so that independence chains cost half as much; unlike those, these chains
@@ -27,7 +26,7 @@ use rand_chacha::ChaCha8Rng;
 use super::whitened::{Move, States, WhitenedChains, square};
 use super::{Gaussian, Schedule, fill_normal, uniform};
 
-/// How far a step flies.
+/// Length of a trajectory, Lε.
 const ANGLE: f64 = 1.5;
 /// By how much ε is stretched at most.
 const JITTER: f64 = 0.1;

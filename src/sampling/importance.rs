@@ -1,9 +1,9 @@
-//! Moments of a nearly Gaussian target, almost without Monte-Carlo noise.
+//! Mean and covariance of a nearly Gaussian target by importance sampling with gradients (Stein's identity).
 //!
-//! Draws of the Gaussian fit q = N(μ, TTᵀ), a = μ + T z, come in antithetic pairs ±z and carry
-//! importance weights w = p/q (Pareto-smoothed). The plain weighted moments would have the noise of the draws
-//! themselves; those of z under q are known, so only what sets p apart from q is estimated. With
-//! h(z) = −log p(μ + Tz) − ½‖z‖² and its gradient e = ∇h, integration by parts (Stein's identity) gives
+//! Draws of the Gaussian fit q = N(μ, TTᵀ), a = μ + T z, come in antithetic pairs ±z and carry importance weights w =
+//! p/q (Pareto-smoothed). The plain weighted moments would have the noise of the draws themselves; those of z under q
+//! are known, so only the difference between p and q is estimated. With h(z) = −log p(μ + Tz) − ½‖z‖² and its gradient
+//! e = ∇h, integration by parts (Stein's identity) gives
 //!
 //! E_p[z] = −E_p[e],   Cov_p[z] = I − E_p[e (z − E_p z)ᵀ],
 //!
@@ -26,7 +26,7 @@ use nalgebra::{DMatrix, DVector};
 use super::{Gaussian, Stream, Target, fill_normal, importance_ess, pareto_smooth, stream};
 use crate::linalg::{Moments, parallel};
 
-/// Groups of pairs whose moments tell the error.
+/// Groups of pairs, whose moments give the standard error.
 const GROUPS: usize = 16;
 /// Corrections below this share of a standard deviation are what single precision leaves.
 const ROUNDING: f64 = 1e-4;
@@ -49,7 +49,7 @@ pub struct Importance {
     statistics: Vec<f64>,
 }
 
-/// What weighted draws say of their target.
+/// Estimates from weighted draws.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImportanceEstimate {
     /// From all draws.

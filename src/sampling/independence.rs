@@ -1,4 +1,4 @@
-//! Independence Metropolis–Hastings from a Gaussian fit.
+//! Independence Metropolis–Hastings with proposals from a Gaussian fit.
 //!
 //! Proposals a′ ~ q(a) do not depend on the state: all of them can be evaluated at once, and only
 //! the cheap decision α = min(1, p(a′)q(a) / p(a)q(a′)) runs in order. The proposal is

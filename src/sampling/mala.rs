@@ -9,9 +9,9 @@
 //! N(0, I) as q grows, and the burn-in leads it to an acceptance of 57.4 %. It stays below √2,
 //! where nothing of z is left in the proposal's mean on N(0, I).
 //!
-//! **Cost.** Two evaluations a step (a gradient counts as two), and more steps for an effective draw
-//! the larger q: their number grows as q^(1/3) where the fit is perfect. Hamiltonian chains, which
-//! fly the Gaussian part exactly, do not pay that; these are here for comparison and for lessons.
+//! **Cost.** Two evaluations a step (a gradient counts as two), and more steps for an effective draw the larger q:
+//! their number grows as q^(1/3) where the fit is perfect. Hamiltonian chains, which integrate the Gaussian part
+//! exactly, do not have this cost; these are here for comparison and for lessons.
 //!
 //! **Limits.** Where the posterior is much narrower than the fit in some direction, h is as small as
 //! it asks, and all other directions wait.

@@ -1,7 +1,7 @@
-//! Draws from a density: chains, exact rejection, diagnostics. Knows nothing of shapes.
+//! Samples any density that is known up to a constant: importance sampling, Markov chains, rejection, diagnostics.
 //!
-//! A [`Target`] evaluates many points at once, because that is where the time goes. Every chain
-//! has its own stream of random numbers, so that its draws do not depend on how the work is cut.
+//! A [`Target`] evaluates many points at once, because nearly all time is spent there. Every chain has its own stream
+//! of random numbers, so that its draws do not depend on how the work is divided.
 
 mod diagnostics;
 mod fit_draws;

@@ -1,4 +1,4 @@
-//! The inverse of the normal distribution function.
+//! The inverse of the standard normal distribution function.
 
 /// Coefficients of a quotient of two polynomials, lowest power first.
 struct Quotient {

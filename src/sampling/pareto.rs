@@ -1,9 +1,9 @@
-//! What importance weights are worth: effective size, Pareto k-hat, and Pareto smoothing.
+//! Reliability of importance weights: effective sample size, Pareto k-hat, and Pareto smoothing (PSIS).
 //!
-//! A generalised Pareto distribution, of shape k and scale s, is fitted to the M = min(N/5, 3√N) largest
-//! weights, as they exceed the next smaller one u. k below 0.7 means that means over the weights
-//! can be trusted; above, the proposal misses a part of the target. Smoothing replaces those
-//! weights, in their order, by quantiles of the distribution, which stand for their expected values:
+//! A generalised Pareto distribution, of shape k and scale s, is fitted to the M = min(N/5, 3√N) largest weights, as
+//! they exceed the next smaller one u. k below 0.7 means that means over the weights can be trusted; above, the
+//! proposal misses a part of the target. Smoothing replaces those weights, in their order, by quantiles of the
+//! distribution, which approximate their expected values:
 //!
 //! w_j = min(largest, u + (s/k) ((1 − p_j)^−k − 1)), p_j = (j − ½)/M, j = 1 … M.
 //!
@@ -17,7 +17,7 @@
 //! Pareto distribution", Technometrics 51 (2009); Kong, "A note on importance sampling using
 //! standardized weights", University of Chicago (1992).
 
-/// Fewer tail weights than this say nothing of their distribution.
+/// With fewer tail weights than this nothing is fitted.
 const LEAST_TAIL: usize = 5;
 
 /// k-hat of unnormalised log weights; `None` when there are too few, or their tail is constant. A log
@@ -68,7 +68,7 @@ fn relative(log_weights: &[f64]) -> Vec<f64> {
 
 /// The largest weights, relative to the very largest.
 struct Tail {
-    /// Their places, by ascending weight.
+    /// Their indices, by ascending weight.
     places: Vec<usize>,
     /// The next smaller weight.
     cut: f64,

@@ -1,4 +1,5 @@
-//! Preconditioned Crank–Nicolson about a fit: steps that need no gradient and leave the fit as it is.
+//! Preconditioned Crank–Nicolson chains about a Gaussian fit: proposals that leave the fit invariant and need no
+//! gradient.
 //!
 //! In whitened coordinates (see [`WhitenedChains`]), with ξ ~ N(0, I), the proposal is
 //! z′ = √(1 − β²) z + β ξ, accepted with min(1, exp(h(z) − h(z′))). It is reversible with respect to

@@ -1,8 +1,8 @@
-//! Random numbers that are the same on every machine.
+//! Random numbers that are the same on every machine: ChaCha8 streams, uniform and normal variates.
 //!
-//! ChaCha8 with one stream for each purpose and chain. Normal variates by Marsaglia's polar method
-//! with `libm::log`, which has the same bits everywhere; `rand_distr` switches its mathematics
-//! when any crate in the build turns on a feature of `num-traits`, which this code must survive.
+//! ChaCha8 with one stream for each purpose and chain. Normal variates by Marsaglia's polar method with `libm::log`,
+//! which has the same bits everywhere; `rand_distr` switches its mathematics when any crate in the build turns on a
+//! feature of `num-traits`, which must not change a draw.
 //!
 //! **References.** Marsaglia & Bray, "A convenient method for generating normal variables", SIAM
 //! Review 6 (1964).
@@ -10,7 +10,7 @@
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-/// What a stream of random numbers is for. Streams with different purpose or index never meet.
+/// What a stream of random numbers is for. Streams with different purpose or index never overlap.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u64)]
 pub enum Stream {

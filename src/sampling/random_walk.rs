@@ -1,4 +1,4 @@
-//! The paper's random walk: a mixture of Gaussian steps and a scaling move.
+//! The paper's random-walk Metropolis–Hastings sampler: a mixture of Gaussian steps and a scaling move.
 //!
 //! Proposal (Weiherer et al. 2024, section 4.1, after Schönborn et al. 2017):
 //! 0.1·N(a, 0.2²I) + 0.5·N(a, 0.1²I) + 0.2·N(a, 0.025²I) + 0.2·"N(‖a‖, 0.2²)", all coordinates

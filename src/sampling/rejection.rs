@@ -87,7 +87,7 @@ pub struct Rejection {
     draws: Draws,
 }
 
-/// What is random about one block.
+/// The random numbers of one block.
 struct Block {
     points: Vec<f64>,
     bounds: Vec<f64>,

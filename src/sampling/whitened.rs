@@ -83,7 +83,7 @@ pub(super) trait Move: core::fmt::Debug + Send {
     /// Whether states need the gradient.
     fn needs_gradient(&self) -> bool;
 
-    /// How often a proposal looks at the target.
+    /// Evaluations of the target for each proposal.
     fn looks(&self, _size: f64) -> usize {
         1
     }
@@ -208,7 +208,7 @@ impl WhitenedChains {
     }
 }
 
-/// Evaluations that one look at the target counts for.
+/// Evaluations that one call of the target counts for.
 fn cost(gradient: bool) -> usize {
     if gradient { 2 } else { 1 }
 }

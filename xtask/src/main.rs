@@ -1,5 +1,5 @@
-//! Turns the compiled engine into a package for the browser: generates its JavaScript side, and checks that the
-//! module is what it must be.
+//! Packages the compiled engine for the browser: generates its JavaScript, and checks memory and instructions of the
+//! module.
 //!
 //! `cargo run -p xtask -- shapevenn.wasm FOLDER`; `npm run build` does it after compiling, see
 //! `scripts/steps/engine.mjs`, which has the compiler's flags.
@@ -18,7 +18,7 @@ type Result<T = ()> = std::result::Result<T, Box<dyn Error>>;
 
 /// A page of WebAssembly memory.
 const PAGE_BYTES: u64 = 1 << 16;
-/// All that 32 bits address. Shared memory must name its ceiling; the page asks for less where a phone refuses it.
+/// All that 32 bits address. Shared memory must declare its maximum; the page asks for less where a phone refuses it.
 const MOST_PAGES: u64 = (1 << 32) / PAGE_BYTES;
 
 fn main() -> ExitCode {

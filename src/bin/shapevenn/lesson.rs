@@ -12,7 +12,7 @@ const LONGEST_LIST: usize = 8;
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
-    /// Address of a scene, or what stands behind its #: page=learn&scene=step&seed=7&steps=120
+    /// Address of a scene, or the part after its #: page=learn&scene=step&seed=7&steps=120
     link: String,
     /// Print one JSON document
     #[arg(long)]

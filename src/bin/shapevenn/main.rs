@@ -92,7 +92,7 @@ enum Command {
     Evaluate(evaluate::Arguments),
     /// The numbers of a scene of the page's lessons, from its link
     Lesson(lesson::Arguments),
-    /// Run the paper's experiments again, beside its printed figures
+    /// Run the paper's experiments again, beside its printed numbers
     Reproduce(reproduce::Arguments),
 }
 
@@ -216,10 +216,10 @@ fn setting<T: serde::de::DeserializeOwned>(name: &str) -> Result<T, String> {
         .map_err(|error| error.to_string())
 }
 
-/// What ends the command early.
+/// Why the command ends early.
 #[derive(Debug)]
 enum Failure {
-    /// The user can mend it: exit status 2.
+    /// The user can correct it: exit status 2.
     Input { message: String, hint: String },
     /// The machine cannot do it: exit status 1.
     System(String),
@@ -600,8 +600,11 @@ fn convert(input: &str, output: &Path) -> Result<(), Failure> {
         Some("obj") => formats::write_obj(&points(), model.dimension(), model.cells()),
         _ => {
             return Err(Failure::Input {
-                message: format!("{} has no ending that says its format.", output.display()),
-                hint: "End it in .h5, .h5.json, .npz, .json, .glb, .ply or .obj.".to_owned(),
+                message: format!(
+                    "{}: the extension of a known format was expected.",
+                    output.display()
+                ),
+                hint: "Use .h5, .h5.json, .npz, .json, .glb, .ply or .obj.".to_owned(),
             });
         }
     };

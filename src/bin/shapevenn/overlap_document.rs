@@ -1,4 +1,4 @@
-//! The study of overlap against the Bhattacharyya distance in words.
+//! Writes the study of overlap against the Bhattacharyya distance as Markdown.
 
 use shapevenn::reproduce::{Correlation, OverlapRow, OverlapStudy};
 

@@ -1,4 +1,4 @@
-//! The steps before a comparison, as arguments.
+//! Command-line arguments of the steps before a comparison: alignment, modes, units, points.
 
 use std::path::PathBuf;
 
@@ -54,7 +54,7 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub(crate) enum AlignName {
-    /// Compare the models as they stand
+    /// Compare the models as they are
     None,
     /// Rotation and translation
     Rigid,

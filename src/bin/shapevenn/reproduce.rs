@@ -1,4 +1,4 @@
-//! `shapevenn reproduce`: the paper's experiments, run again, and a study that it leaves as future work.
+//! `shapevenn reproduce`: repeats the paper's experiments, and a study that it leaves as future work.
 
 use std::path::Path;
 use std::thread::available_parallelism;

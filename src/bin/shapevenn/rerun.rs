@@ -1,4 +1,4 @@
-//! `compare --run`: a comparison made again from its run file.
+//! `compare --run`: repeats a comparison from its run file.
 
 use std::path::Path;
 
@@ -15,8 +15,8 @@ pub(crate) fn read(path: &Path) -> Result<RunFile, Failure> {
     Ok(RunFile::parse(&path.display().to_string(), &text)?)
 }
 
-/// What to open for the two models of a run: those given, else its demos. One that is given alone stands
-/// for the only one that is no demo.
+/// What to open for the two models of a run: those given, else its demos. One that is given alone is taken for the
+/// only one that is not a demo.
 pub(crate) fn models(
     run: &RunFile,
     path: &Path,
@@ -57,7 +57,7 @@ fn with_part(source: &str, model: &RunModel) -> String {
     }
 }
 
-/// What is worth writing into a run file of where models are from.
+/// The source of a model for a run file: demos and addresses.
 pub(crate) fn sources_of([a, b]: &[String; 2]) -> Sources {
     let demo = |source: &String| source.starts_with("demo:").then(|| source.clone());
     Sources { a: demo(a), b: demo(b) }

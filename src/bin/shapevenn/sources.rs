@@ -1,4 +1,4 @@
-//! Opens what is named on the command line as a model: a file, a folder, a part of either, a demo.
+//! Opens the models that are named on the command line: a file, a folder, a part of either, a demo.
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};

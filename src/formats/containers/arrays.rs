@@ -1,4 +1,4 @@
-//! N-dimensional arrays as files hold them: a shape and a flat list in row-major order.
+//! N-dimensional arrays read from a file: a shape and a flat list of values in row-major order.
 //!
 //! Numbers keep the width they have in the file as far as it matters: `f32` stays `f32`, so that
 //! a basis or a set of draws is not doubled; small integers become `i32`, larger ones `i64`.
@@ -6,9 +6,9 @@
 /// An array and its shape, row-major (the last index runs fastest).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Array {
-    /// Length of each side; empty for a single value.
+    /// Size of each dimension; empty for a single value.
     pub shape: Vec<usize>,
-    /// As many values as the product of the sides.
+    /// As many values as the product of the sizes.
     pub data: Data,
 }
 
@@ -119,7 +119,7 @@ pub(crate) fn trimmed(text: &str) -> String {
     text.split('\0').next().unwrap_or_default().trim().to_owned()
 }
 
-/// Product of the sides; `None` when it overflows.
+/// Product of the sizes; `None` when it overflows.
 pub(crate) fn count_of(shape: &[u64]) -> Option<u64> {
     shape.iter().try_fold(1_u64, |product, &side| product.checked_mul(side))
 }

@@ -1,4 +1,4 @@
-//! Binary files without a description of themselves: little-endian numbers one after the other.
+//! Reads little-endian numbers one after the other, from binary files that do not describe their own layout.
 
 use crate::formats::containers::arrays::Data;
 use crate::formats::error::Fault;

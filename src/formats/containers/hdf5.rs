@@ -1,10 +1,10 @@
-//! HDF5 trees, read through `hdf5-pure` with its traps closed.
+//! Reads HDF5 files through `hdf5-pure`, and checks every announced size against the file first.
 //!
-//! Paths are opened directly; groups are listed only where nothing else helps, because one soft
-//! link or a missing end of the file makes listing fail while direct paths still work. Before an
-//! array is read its claim is compared with the file: stored in one piece it must lie inside the
-//! file, in chunks it may unpack to a bounded multiple. After reading, the number of values must
-//! be the product of the sides (half precision would otherwise come back empty).
+//! Paths are opened directly; groups are listed only where nothing else helps, because one soft link or a missing end
+//! of the file makes listing fail while direct paths still work. Before an array is read its announced size is
+//! compared with the file: stored in one piece it must lie inside the file, in chunks it may unpack to a bounded
+//! multiple. After reading, the number of values must be the product of the sizes (half precision would otherwise come
+//! back empty).
 //!
 //! **Limits.** The chunk layout of version 5 (HDF5 2.0, h5py with `libver='latest'`), SZIP and soft
 //! links are not read; the first two give [`Fault::Layout`] and [`Fault::Filter`].
@@ -65,7 +65,7 @@ impl Hdf5 {
         }
     }
 
-    /// The number of values that a dataset claims, once it is sure that the file can hold them.
+    /// The number of values that a dataset announces, after checking that the file can hold them.
     fn checked_count(&self, dataset: &Dataset, what: &str, sides: &[u64]) -> Result<usize, Fault> {
         let fault = |error: &Error| fault_of(error, what, self.length);
         let width = dataset.element_size().map_err(|error| fault(&error))?;
@@ -159,7 +159,7 @@ impl Hdf5 {
         })
     }
 
-    /// Paths and sides of the arrays of the file, at most `most`.
+    /// Paths and shapes of the arrays of the file, at most `most`.
     pub(crate) fn arrays(&self, most: usize) -> Vec<(String, Result<Vec<u64>, Fault>)> {
         /// Groups looked into: a group may contain itself, many times over.
         const MOST_GROUPS: usize = 200;
@@ -269,7 +269,7 @@ fn not_readable(what: &str) -> Fault {
     crate::formats::error::not_numbers(what, "records of another type")
 }
 
-/// Whether a path simply leads nowhere.
+/// Whether there is nothing at a path.
 fn is_absent(error: &Error) -> bool {
     matches!(
         error,
@@ -277,7 +277,7 @@ fn is_absent(error: &Error) -> bool {
     )
 }
 
-/// What an error of the HDF5 reader means for the person with the file of `length` bytes.
+/// Translates an error of the HDF5 reader, for a file of `length` bytes.
 fn fault_of(error: &Error, what: &str, length: usize) -> Fault {
     let what = what.to_owned();
     let layout = |layout: &str| Fault::Layout { what: what.clone(), layout: layout.to_owned() };

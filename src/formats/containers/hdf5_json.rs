@@ -1,4 +1,4 @@
-//! HDF5-JSON: HDF5 files written out as text, which current Scalismo saves.
+//! Reads HDF5-JSON: HDF5 files written as JSON text, the format that current Scalismo saves.
 //!
 //! | member | holds |
 //! |---|---|
@@ -52,7 +52,7 @@ impl<'a> Hdf5Json<'a> {
         Ok(tree)
     }
 
-    /// Goes through a group, unless it was visited: links may lead in circles.
+    /// Visits a group once: links may form cycles.
     fn follow(
         &mut self,
         id: &str,
@@ -94,7 +94,7 @@ impl<'a> Hdf5Json<'a> {
         Ok(list.iter().flat_map(Value::items).filter_map(pair).collect())
     }
 
-    /// Adds what no link leads to under the path that it gives itself.
+    /// Adds objects that no link points to, under their own alias.
     fn add_aliases(&mut self) -> Result<(), Fault> {
         for collection in ["groups", "datasets"] {
             let ids: Vec<String> =
@@ -122,7 +122,7 @@ impl<'a> Hdf5Json<'a> {
         Ok(())
     }
 
-    /// Sides that a dataset announces; `None` when it does not.
+    /// Shape that a dataset announces; `None` when it does not.
     fn sides(&self, id: &str, path: &str) -> Option<Vec<usize>> {
         let shape = self.document.read(&["datasets", id, "shape"], path).ok()??;
         if shape.get("class").and_then(Value::text) == Some("H5S_SCALAR") {

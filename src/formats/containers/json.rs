@@ -1,12 +1,12 @@
-//! JSON documents, read where they are: first an index, then only the values that are asked for.
+//! Reads JSON documents of any size: builds an index first, then reads only the values that are asked for.
 //!
 //! A model as JSON may have hundreds of megabytes, nearly all of them in lists of numbers. Opening a
 //! document notes where the members of its objects start, three levels deep, and skips everything
 //! else. A list of numbers, or of lists of equal length, is read into one flat [`Array`] as the text
 //! streams by; text and values are never in memory together.
 //!
-//! NaN and Infinity, which converters write although JSON has no such numbers, are named with
-//! their place; so is `null` in a list of numbers, by which browsers write them.
+//! NaN and Infinity, which converters write although JSON has no such numbers, are reported with their path; so is
+//! `null` in a list of numbers, as which browsers write them.
 //!
 //! **Limits.** 32 lists or objects inside one another, a million members and other values besides
 //! numbers, 1 GiB of numbers in one list. What is skipped is matched for brackets only.
@@ -160,14 +160,14 @@ pub(crate) fn value_at(input: &Input, offset: u64, name: &str) -> Result<Value, 
     reader.value(0)
 }
 
-/// Reads on from some place in a file.
+/// Reads a file from some offset on.
 struct Reader<'a> {
     input: &'a Input,
     /// Where the buffer starts.
     start: u64,
     buffer: Vec<u8>,
     at: usize,
-    /// Names of the objects and lists around this place.
+    /// Names of the objects and lists around the current position.
     path: Vec<String>,
     values: usize,
 }
@@ -221,7 +221,7 @@ impl<'a> Reader<'a> {
         Ok(byte)
     }
 
-    /// Passes over bytes that are there.
+    /// Skips bytes that are in the buffer.
     fn skip_bytes(&mut self, count: usize) {
         self.at = (self.at + count).min(self.buffer.len());
     }
@@ -298,7 +298,7 @@ impl<'a> Reader<'a> {
         Ok(node)
     }
 
-    /// Passes over a value.
+    /// Skips a value.
     fn skip(&mut self) -> Result<(), Fault> {
         let mut depth = 0_usize;
         match self.begin()? {
@@ -461,7 +461,10 @@ impl<'a> Reader<'a> {
             return Err(self.no_value(&format!("-{word}")));
         }
         parsed(&text).ok_or_else(|| {
-            self.damaged(&format!("“{}” is no number", String::from_utf8_lossy(&text)))
+            self.damaged(&format!(
+                "a number was expected, “{}” was found",
+                String::from_utf8_lossy(&text)
+            ))
         })
     }
 
@@ -480,7 +483,7 @@ impl<'a> Reader<'a> {
         Ok(word)
     }
 
-    /// What is wrong with a bare word.
+    /// The fault of a bare word, such as NaN.
     fn no_value(&self, word: &str) -> Fault {
         match word.trim_start_matches('-').to_ascii_lowercase().as_str() {
             "nan" | "infinity" | "inf" => self.no_number(word),

@@ -1,4 +1,4 @@
-//! MATLAB files of the versions 4 to 7: variables under names, each read when it is asked for.
+//! Reads MATLAB files of versions 4 to 7: variables by name, each when it is asked for.
 //!
 //! An index says where the numbers of every variable are; `mat5` and `mat4` make it. The numbers of a
 //! variable are column-major, and become row-major when they are read. Version 7.3 is HDF5: `mat73`.
@@ -43,7 +43,7 @@ pub(crate) enum Variable {
     },
     /// Something else, in words.
     Other(&'static str),
-    /// Values whose bytes are not as many as their sides say.
+    /// Values whose number of bytes contradicts their shape.
     Misfit,
 }
 
@@ -128,7 +128,7 @@ impl NamedArrays for MatFile<'_> {
             }
             Variable::Misfit => Err(Fault::Damaged {
                 what: name.to_owned(),
-                reason: "its sides do not fit its bytes".to_owned(),
+                reason: "its shape does not fit its number of bytes".to_owned(),
             }),
         })
     }

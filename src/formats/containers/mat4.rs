@@ -1,4 +1,4 @@
-//! Where the variables of a MATLAB file of version 4 are.
+//! Indexes the variables of a MATLAB file of version 4.
 //!
 //! A file is one variable after the other, without a header of its own:
 //!

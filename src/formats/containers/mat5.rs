@@ -1,4 +1,4 @@
-//! Where the variables of a MATLAB file of version 5, 6 or 7 are.
+//! Indexes the variables of a MATLAB file of version 5, 6 or 7.
 //!
 //! | bytes | hold |
 //! |---|---|
@@ -6,9 +6,9 @@
 //! | 124–127 | version, then `IM` (least significant byte first) or `MI` |
 //! | 128 … | elements: type u32, size u32, content, padded to 8 bytes |
 //!
-//! Four bytes or fewer may stand in the tag itself: then its first word holds the size above and the
-//! type below. A variable is an element of type 14 (matrix) or one of type 15 (compressed by zlib, not
-//! padded) around it. A matrix consists of elements: flags with the class, sides, name, and
+//! Four bytes or fewer may be in the tag itself: then its first word holds the size above and the type below. A
+//! variable is an element of type 14 (matrix) or one of type 15 (compressed by zlib, not padded) around it. A matrix
+//! consists of elements: flags with the class, sides, name, and
 //!
 //! * values, in any type that holds them: MATLAB stores whole doubles as bytes;
 //! * of a structure: length of the field names, the names, and one matrix for each field;
@@ -115,7 +115,7 @@ enum Trouble {
     Many,
 }
 
-/// What stands before the content of an element.
+/// The tag before the content of an element.
 #[derive(Debug, Clone, Copy)]
 struct Tag {
     kind: u32,
@@ -128,7 +128,7 @@ struct Tag {
 struct Walk {
     stream: Stream,
     from: Place,
-    /// Bytes behind us.
+    /// Bytes passed so far.
     place: u64,
     /// Bytes that may be walked through.
     bound: u64,

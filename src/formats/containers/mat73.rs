@@ -1,10 +1,9 @@
-//! Arrays under names in HDF5 files: MATLAB files of version 7.3, and others without a statismo model.
+//! Reads named arrays in HDF5 files: MATLAB files of version 7.3, and others without a statismo model.
 //!
-//! A file of MATLAB begins with 512 bytes of text. In it structures are groups, and the sides of arrays
-//! are reversed, since MATLAB is column-major and HDF5 row-major. Names with slashes become dotted ones.
+//! A file of MATLAB begins with 512 bytes of text. In it structures are groups, and the dimensions of arrays are
+//! reversed, since MATLAB is column-major and HDF5 row-major. Names with slashes become dotted ones.
 //!
-//! **Limits.** Cells and arrays of structures are references to other places of the file and are not
-//! followed.
+//! **Limits.** Cells and arrays of structures are references to other objects of the file and are not followed.
 
 use crate::formats::containers::NamedArrays;
 use crate::formats::containers::arrays::Array;

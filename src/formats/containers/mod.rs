@@ -1,4 +1,4 @@
-//! Containers of arrays: what is in a file under which name, whatever it means.
+//! Reads files that contain named arrays, whatever these mean: NumPy, MATLAB, HDF5, JSON, pickles, tables.
 
 pub(crate) mod arrays;
 pub(crate) mod bytes;
@@ -27,8 +27,7 @@ pub(crate) trait NamedArrays {
     /// All names, in a fixed order.
     fn names(&self) -> Vec<String>;
 
-    /// The sides of an array of numbers or text, or why it is neither; `None` when there is nothing
-    /// of that name.
+    /// The shape of an array of numbers or text, or why it is neither; `None` when there is nothing of that name.
     fn shape(&self, name: &str) -> Option<Result<Vec<u64>, Fault>>;
 
     /// Reads an array.

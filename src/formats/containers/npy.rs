@@ -1,4 +1,4 @@
-//! Single NumPy arrays (`.npy`): the header, the values, and writing both.
+//! Reads and writes single NumPy arrays (`.npy`).
 //!
 //! An array is `\x93NUMPY`, a version, the length of the header, and a Python dictionary with
 //! `descr`, `fortran_order` and `shape`; then the values. Integers of 1–8 bytes, floating-point
@@ -44,7 +44,7 @@ impl NpyError {
     }
 }
 
-/// What stands before the values.
+/// The header before the values.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Header {
     pub(crate) shape: Vec<u64>,
@@ -108,12 +108,12 @@ fn parse(text: &str) -> Option<Header> {
 }
 
 impl Header {
-    /// The header of values that stand elsewhere: in a pickle, in a MATLAB file.
+    /// The header of values in another container: a pickle, a MATLAB file.
     pub(crate) fn new(shape: Vec<u64>, kind: impl Into<String>, fortran: bool) -> Self {
         Self { shape, kind: kind.into(), fortran }
     }
 
-    /// Whether the values are Python objects, and a pickle stands behind the header.
+    /// Whether the values are Python objects, and a pickle follows the header.
     pub(crate) fn is_pickle(&self) -> bool {
         self.kind.trim_start_matches(['<', '>', '|', '=']).starts_with('O')
     }
@@ -332,7 +332,7 @@ fn in_c_order(data: Data, shape: &[usize]) -> Data {
     }
 }
 
-/// An array whose sides are reversed, as a column-major array looks in a row-major file.
+/// An array whose dimensions are reversed, as a column-major array looks in a row-major file.
 pub(crate) fn transposed(array: Array) -> Array {
     let shape: Vec<usize> = array.shape.iter().rev().copied().collect();
     Array { data: in_c_order(array.data, &shape), shape }

@@ -1,9 +1,8 @@
-//! NumPy archives (`.npz`): a ZIP of `.npy` members, read and written.
+//! Reads and writes NumPy archives (`.npz`): ZIP files of `.npy` members.
 //!
-//! The ZIP's central directory is believed, not the headers before each member: NumPy leaves the
-//! sizes there at 2³² − 1. A member is unpacked only when it is asked for, and never beyond the size
-//! its own header states, which is bounded in turn: an archive that unpacks to more than the file
-//! can reasonably hold is refused.
+//! Sizes are taken from the ZIP's central directory, not from the headers before each member, where NumPy writes
+//! 0xFFFFFFFF. A member is unpacked only when it is asked for, and never beyond the size its own header states, which
+//! is bounded in turn: an archive that unpacks to more than the file can reasonably hold is refused.
 
 use std::collections::BTreeMap;
 use std::io::{BufReader, Cursor, Read, Seek, Write};

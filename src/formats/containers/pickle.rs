@@ -1,9 +1,8 @@
-//! Python pickles (`.pkl`, `.pc`), protocols 0 to 5, of Python 2 and 3.
+//! Reads Python pickles (`.pkl`, `.pc`) of protocols 0 to 5, of Python 2 and 3, without running them.
 //!
-//! A pickle is a program for a stack machine that may call any function. This machine calls none: it
-//! notes which class or function would be called with what, and `pickle_arrays` knows the few that make
-//! arrays. Everything else stays a note. Bytes and text stay where they are in the file until an array is
-//! wanted.
+//! A pickle is a program for a stack machine that may call any function. This machine calls none: it notes which class
+//! or function would be called with what, and `pickle_arrays` knows the few that make arrays. Everything else is kept
+//! as a note. Bytes and text stay in the file until an array is wanted.
 //!
 //! | instruction | on the stack |
 //! |---|---|
@@ -16,8 +15,7 @@
 //! A model is a dictionary, or an object whose state is one; names are text or bytes (gias3). Inner
 //! dictionaries give dotted names.
 //!
-//! **Limits.** At most 2²¹ values. Buffers outside the pickle (protocol 5) and persistent objects are not
-//! to be had.
+//! **Limits.** At most 2²¹ values. Buffers outside the pickle (protocol 5) and persistent objects are not read.
 //!
 //! **References.** Python's `pickletools`, which describes every instruction.
 
@@ -73,7 +71,7 @@ pub(crate) enum Value {
         /// What the object would hold if it is a dictionary.
         items: Vec<(Id, Id)>,
     },
-    /// Something that only a running Python has.
+    /// An object that exists only in a running Python.
     Opaque,
 }
 
@@ -110,7 +108,7 @@ enum Stop {
 }
 
 impl<'a> Machine<'a> {
-    /// Runs the pickle at the beginning of `bytes`; gives its values and the one that it is.
+    /// Interprets the pickle at the beginning of `bytes`; returns its values and which of them is the result.
     pub(crate) fn run(bytes: &'a [u8]) -> Result<(Heap<'a>, Id), Fault> {
         let mut machine = Self {
             heap: Heap { bytes, values: Vec::new() },
@@ -142,7 +140,7 @@ impl<'a> Machine<'a> {
         }
     }
 
-    /// Does one instruction; gives the value of the whole at the last.
+    /// Interprets one instruction; returns the result at the last one.
     fn step(&mut self) -> Result<Option<Id>, Stop> {
         let [instruction] = self.array::<1>()?;
         match instruction {
@@ -196,7 +194,7 @@ impl<'a> Machine<'a> {
             0x8d => self.counted::<8>(Coding::Utf8)?,
             b'S' => {
                 let line = self.line()?;
-                // Quotes stand around it.
+                // It is in quotes.
                 if line.end - line.start < 2 {
                     return Err(Stop::Reason("it has text without quotes"));
                 }

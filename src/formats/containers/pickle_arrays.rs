@@ -1,4 +1,4 @@
-//! Which objects of a pickle are arrays, and how they are written.
+//! Finds the arrays in a pickle: NumPy arrays, numbers and lists, in the forms in which Python writes them.
 //!
 //! | object | written as |
 //! |---|---|
@@ -11,7 +11,7 @@
 //! | `chumpy.reordering.Select` | one with the state {a: array, idxs: places in it, preferred_shape} |
 //! | list of numbers, or of such lists | itself |
 //!
-//! All else is told by the name of its class: sparse matrices (`J_regressor`), tensors.
+//! All else is reported by the name of its class: sparse matrices (`J_regressor`), tensors.
 //!
 //! **Limits.** Arrays of Python objects and records are not read; lists up to three deep.
 
@@ -37,10 +37,10 @@ const MOST_ENTRIES: usize = 64;
 /// Longest name, in bytes.
 const LONGEST_NAME: usize = 256;
 
-/// Objects that stand for one another, as `Ch` for its array.
+/// Most objects that are followed from one to the next, as from `Ch` to its array.
 const DEEPEST_OBJECTS: usize = 8;
 
-/// Most sides of an array; NumPy has as many.
+/// Most dimensions of an array; NumPy has as many.
 const MOST_SIDES: usize = 64;
 
 /// The arrays of a pickle under their names.
@@ -52,7 +52,7 @@ pub(crate) struct Objects<'a> {
     limit: u64,
 }
 
-/// What an object is to us.
+/// How an object of a pickle is read.
 enum Found {
     /// An array of numbers or text, not yet read.
     Array {
@@ -61,7 +61,7 @@ enum Found {
     },
     /// An array of Python objects.
     Objects(Id),
-    /// Places of another array.
+    /// Elements picked from another array.
     Picked {
         from: Id,
         places: Id,
@@ -85,7 +85,7 @@ impl<'a> Objects<'a> {
         let limit = largest_array(heap.bytes.len());
         let mut objects = Self { heap, root, names: BTreeMap::new(), container, limit };
         match objects.find(root) {
-            // NumPy wraps a dictionary in an array without sides.
+            // NumPy wraps a dictionary in an array without dimensions.
             Found::Objects(list) => {
                 if let Value::List(items) = objects.heap.get(list)
                     && let &[item] = items.as_slice()
@@ -243,7 +243,7 @@ impl<'a> Objects<'a> {
         Some(Found::Array { header, data: self.span(data)? })
     }
 
-    /// The places of an array that `Select` stands for.
+    /// The elements of an array that `Select` picks.
     fn selection(&self, state: Option<Id>) -> Option<Found> {
         let (from, places) = (self.entry(state, "a")?, self.entry(state, "idxs")?);
         let shape = match self.entry(state, "preferred_shape").and_then(|id| self.sides(id)) {
@@ -314,7 +314,7 @@ impl<'a> Objects<'a> {
         if items.len() > MOST_SIDES { None } else { items.iter().map(side).collect() }
     }
 
-    /// Sides of a number, a list of numbers, or lists of lists, as their first entries tell.
+    /// Shape of a number, a list of numbers, or lists of lists, from their first entries.
     fn sides_of_lists(&self, mut id: Id) -> Option<Vec<u64>> {
         let mut sides = Vec::new();
         loop {
@@ -329,7 +329,7 @@ impl<'a> Objects<'a> {
         }
     }
 
-    /// What stands under a name in a dictionary.
+    /// The value of a name in a dictionary.
     fn entry(&self, dict: Option<Id>, name: &str) -> Option<Id> {
         let Value::Dict(items) = self.heap.get(dict?) else { return None };
         let is_it = |(key, _): &&(Id, Id)| self.name(*key).as_deref() == Some(name);
@@ -388,12 +388,12 @@ impl<'a> Objects<'a> {
             }
             Some(bytes) => {
                 let present = bytes.len();
-                Err(damaged(format!("its sides need {needed} bytes and {present} are there")))
+                Err(damaged(format!("its shape needs {needed} bytes and {present} are there")))
             }
             None if needed > most => {
-                Err(damaged(format!("its sides need {needed} bytes and {most} are there")))
+                Err(damaged(format!("its shape needs {needed} bytes and {most} are there")))
             }
-            None => Err(damaged("its bytes are no Latin-1".to_owned())),
+            None => Err(damaged("its bytes are not Latin-1".to_owned())),
         }
     }
 
@@ -455,10 +455,10 @@ impl<'a> Objects<'a> {
                 let places = places.unwrap_or_default();
                 let count = shape.iter().try_fold(1_usize, |all, &side| all.checked_mul(side));
                 if count != Some(places.len()) {
-                    return Err(damaged("it has more or fewer places than its sides say"));
+                    return Err(damaged("its number of elements contradicts its shape"));
                 }
                 let data = picked(&from.data, &places)
-                    .ok_or_else(|| damaged("it has places beyond the array it is picked from"))?;
+                    .ok_or_else(|| damaged("it has indices beyond the array it is picked from"))?;
                 Ok(Array { shape, data })
             }
             found => Err(unreadable(what, found)),

@@ -1,4 +1,4 @@
-//! Tables of numbers as text: one row a line, numbers apart by blanks, tabs, commas or semicolons.
+//! Reads tables of numbers as text: one row per line, numbers separated by blanks, tabs, commas or semicolons.
 //!
 //! Lines that start with `#`, and a first line of words, are skipped.
 
@@ -12,7 +12,7 @@ pub(crate) fn read(input: &Input, what: &str) -> Result<Array, Fault> {
     parse(&bytes.map_err(|error| error.fault)?, what)
 }
 
-/// The table that text writes.
+/// Parses a table.
 pub(crate) fn parse(text: &[u8], what: &str) -> Result<Array, Fault> {
     let damaged = |reason: String| Fault::Damaged { what: what.to_owned(), reason };
     let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
@@ -34,7 +34,10 @@ pub(crate) fn parse(text: &[u8], what: &str) -> Result<Array, Fault> {
                 continue;
             }
             let word = String::from_utf8_lossy(&word[..word.len().min(40)]).into_owned();
-            return Err(damaged(format!("“{word}” in line {} is no number", index + 1)));
+            return Err(damaged(format!(
+                "a number was expected in line {}, “{word}” was found",
+                index + 1
+            )));
         }
         let found = values.len() - before;
         if rows > 0 && found != columns {

@@ -1,4 +1,4 @@
-//! Named arrays in groups, as HDF5 files have them and HDF5-JSON files write them out.
+//! Interface to named arrays in groups, which HDF5 and HDF5-JSON files share.
 //!
 //! A path has slashes between its names; slashes around it mean nothing.
 

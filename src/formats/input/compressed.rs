@@ -1,4 +1,4 @@
-//! Unpacks archives: what is in them is read as if it had been dropped itself.
+//! Unpacks gzip files and ZIP archives; their contents are read like files that were opened directly.
 //!
 //! | archive | is |
 //! |---|---|
@@ -7,7 +7,7 @@
 //! | ZIP with `xl/` | a spreadsheet, refused |
 //! | any other ZIP | a drop: models, or folders of shapes, each a part |
 //!
-//! A path inside an archive is only a name: nothing is written anywhere.
+//! A path inside an archive is used only as a name: nothing is written to disk.
 //!
 //! **Limits.** Unpacked bytes are counted while they are made and end at 64 times the archive's (at
 //! least 16 MiB, at most 1 GiB), files at 10,000, archives in archives at two.

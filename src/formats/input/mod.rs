@@ -1,7 +1,7 @@
-//! Files as they were dropped: a name and bytes, in memory or read from where they are on demand.
+//! Input files: a name, and bytes in memory or read on demand from disk or browser.
 //!
-//! A model of 300 MB needs only some of its bytes in memory at once. [`Storage`] is the seam: the
-//! command line reads a file on disk, the page a file that the browser holds, tests a list of bytes.
+//! A model of 300 MB needs only some of its bytes in memory at once. [`Storage`] is the interface to them: the command
+//! line reads a file on disk, the page a file that the browser holds, tests a list of bytes.
 
 pub(crate) mod compressed;
 pub(crate) mod paths;
@@ -14,7 +14,7 @@ use std::sync::Arc;
 use super::FormatError;
 use super::error::Fault;
 
-/// Bytes that can be read from any place.
+/// Bytes that can be read from any offset.
 pub trait Storage: fmt::Debug + Send + Sync {
     /// Number of bytes.
     fn len(&self) -> u64;
@@ -31,7 +31,7 @@ pub trait Storage: fmt::Debug + Send + Sync {
     }
 }
 
-/// One file of a drop.
+/// One input file.
 #[derive(Debug, Clone)]
 pub struct Input {
     /// The name, with the folders in which it was dropped: "female/017.ply".
@@ -40,7 +40,7 @@ pub struct Input {
 }
 
 impl Input {
-    /// A file somewhere else.
+    /// A file in any storage.
     pub fn new(name: impl Into<String>, storage: Arc<dyn Storage>) -> Self {
         Self { name: name.into(), storage }
     }
@@ -159,16 +159,16 @@ impl Storage for Memory {
     }
 
     fn read_at(&self, offset: u64, buffer: &mut [u8]) -> Result<(), String> {
-        let start = usize::try_from(offset).map_err(|_| "it ends before".to_owned())?;
+        let start = usize::try_from(offset).map_err(|_| "it ends earlier".to_owned())?;
         let bytes = start.checked_add(buffer.len()).and_then(|end| self.0.get(start..end));
-        buffer.copy_from_slice(bytes.ok_or("it ends before")?);
+        buffer.copy_from_slice(bytes.ok_or("it ends earlier")?);
         Ok(())
     }
 }
 
-/// Most bytes that an array in a file of `length` bytes may claim. Deflate reaches a thousandfold
-/// on zeros, real models stay far below 64; small files may unpack to 16 MiB regardless. One array
-/// never exceeds 1 GiB: in double precision that is the most a browser can address.
+/// Most bytes that an array in a file of `length` bytes may have. Deflate reaches a thousandfold on zeros, real models
+/// stay far below 64; small files may unpack to 16 MiB regardless. One array never exceeds 1 GiB: in double precision
+/// that is the most a browser can address.
 pub(crate) fn largest_array(length: usize) -> u64 {
     const EXPANSION: u64 = 64;
     const ALWAYS: u64 = 16 << 20;

@@ -1,10 +1,10 @@
-//! Names of files as paths: folder, ending, what systems leave behind, and the order in which people count.
+//! File names as paths: folder, extension, system files to ignore, natural sort order.
 
 use core::cmp::Ordering;
 
 use super::Input;
 
-/// Files that people meant, in natural order.
+/// Files without those that systems leave behind, in natural order.
 pub(crate) fn in_order(inputs: &[Input]) -> Vec<Input> {
     let mut inputs: Vec<Input> =
         inputs.iter().filter(|input| !is_junk(&input.name)).cloned().collect();
@@ -31,18 +31,18 @@ pub(crate) fn stem(file_name: &str) -> &str {
     name.rsplit_once('.').map_or(name, |(stem, _)| stem)
 }
 
-/// What follows the last full stop, small.
+/// The extension, in lower case.
 pub(crate) fn ending(name: &str) -> String {
     let name = name.strip_suffix(".gz").unwrap_or(name);
     name.rsplit_once('.').map_or(String::new(), |(_, ending)| ending.to_lowercase())
 }
 
-/// Sorts places of files by their names, in natural order.
+/// Sorts indices of files by their names, in natural order.
 pub(crate) fn sort_naturally(files: &mut [usize], inputs: &[Input]) {
     files.sort_by(|&a, &b| natural_order(&inputs[a].name, &inputs[b].name));
 }
 
-/// The order in which people count files: by text, but by value where both have digits.
+/// Natural order of file names: by text, but by value where both have digits.
 fn natural_order(a: &str, b: &str) -> Ordering {
     let (mut left, mut right) = (a.as_bytes(), b.as_bytes());
     loop {

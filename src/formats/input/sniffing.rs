@@ -1,4 +1,4 @@
-//! What a file is, from its content; its name says nothing.
+//! Recognises the format of a file by its content, never by its name.
 //!
 //! The rules are tried from the surest to the weakest: magic numbers, then texts that start in one
 //! way only, then sizes that must agree with one another.
@@ -7,10 +7,10 @@ use crate::formats::FormatError;
 use crate::formats::error::Fault;
 use crate::formats::input::Input;
 
-/// Bytes that are looked at; headers of HDF5 may also stand further on.
+/// Bytes that are searched; headers of HDF5 may also be further on.
 const LOOKED_AT: usize = 4096;
 
-/// With what HDF5 begins; it stands at 0, 512, 1024, 2048 …
+/// The signature of HDF5, at byte 0, 512, 1024, 2048 …
 const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
 
 /// What a file turned out to be.
@@ -24,7 +24,7 @@ pub(crate) enum Content {
     Mat4,
     /// One NumPy array.
     Npy,
-    /// A ZIP archive of whatever: arrays, models, meshes.
+    /// A ZIP archive: arrays, models, meshes.
     Zip,
     /// Something compressed.
     Gzip,
@@ -59,7 +59,7 @@ pub(crate) enum Content {
 }
 
 impl Content {
-    /// What it is called in messages.
+    /// Its name in messages.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Hdf5 => "HDF5 file",
@@ -131,8 +131,8 @@ fn content_of(input: &Input, start: &[u8]) -> Option<Content> {
     chain_of_sizes(start, length)
 }
 
-/// HDF5's signature may stand at any power of two. Files are not asked that are something else for
-/// sure: each place is a read, and a population has hundreds of files.
+/// HDF5's signature may be at any power of two. Files that are surely something else are not searched: each offset is
+/// a read, and a population has hundreds of files.
 fn is_hdf5_further_on(input: &Input) -> bool {
     core::iter::successors(Some(LOOKED_AT as u64), |offset| offset.checked_mul(2))
         .take_while(|offset| offset + 8 <= input.len())
@@ -168,7 +168,7 @@ fn names_a_class(start: &[u8]) -> bool {
 
 /// The text at the start of a file.
 struct Text<'a> {
-    /// What is looked at, without blanks before.
+    /// The bytes that are searched, without leading blanks.
     text: &'a str,
     /// Whether the file goes on, so that the last line may be cut.
     goes_on: bool,
@@ -357,7 +357,7 @@ fn integer(bytes: &[u8], offset: usize) -> Option<u32> {
     Some(u32::from_le_bytes(bytes.try_into().ok()?))
 }
 
-/// What a file is that no format knows.
+/// The fault of a file of no known format.
 fn unknown(bytes: &[u8]) -> Fault {
     const MOST_BYTES: usize = 8;
     let start = String::from_utf8_lossy(&bytes[..bytes.len().min(1024)]).to_lowercase();

@@ -1,4 +1,4 @@
-//! Meshes and landmarks in files of their own: the shapes of a population, or the faces of a model.
+//! Reads meshes and landmarks: the shapes of a population, or the faces of a model.
 //!
 //! | format | read | points come from |
 //! |---|---|---|
@@ -9,8 +9,8 @@
 //! | TPS | landmarks and curves of several specimens | `LM=`, `LM3=`, `CURVES=` |
 //! | points | two or three numbers a line | lines |
 //!
-//! Polygons become fans of triangles. Where a file has both, triangles win over line segments.
-//! A reader never trusts a count: it takes what is there and compares.
+//! Polygons become fans of triangles. Where a file has both, triangles win over line segments. A reader never trusts
+//! an announced count: it reads what is there and compares.
 //!
 //! **Limits.** Colours, normals, texture coordinates and all other attributes are skipped.
 
@@ -69,7 +69,9 @@ pub(super) fn check_coordinates(points: &[f64]) -> Result<(), Fault> {
         return Err(Fault::NotFinite { what: "the list of points".to_owned(), count });
     }
     match points.iter().find(|value| value.abs() > LARGEST) {
-        Some(value) => Err(damaged("The list of points", format!("{value:.1e} is no coordinate"))),
+        Some(value) => {
+            Err(damaged("The list of points", format!("{value:.1e} is too large for a coordinate")))
+        }
         None => Ok(()),
     }
 }
@@ -93,7 +95,7 @@ pub(super) fn is_shape(content: Content) -> bool {
     is_mesh(content) || matches!(content, Content::Tps | Content::Numbers)
 }
 
-/// Reads one mesh that stands alone; STL is welded by its own corners.
+/// Reads a single mesh; STL is welded by its own corners.
 pub(super) fn read(content: Content, bytes: &[u8]) -> Result<Mesh, Fault> {
     match content {
         Content::Ply => ply::read(bytes),

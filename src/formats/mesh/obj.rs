@@ -1,11 +1,10 @@
-//! Wavefront OBJ: `v x y z`, `f` and `l` with point numbers from 1, or from the last point with −1.
+//! Reads Wavefront OBJ: `v x y z`, `f` and `l` with point numbers from 1, or from the last point with −1.
 //!
-//! The order of `v` is that of the file, which tells which point corresponds to which. What stands
-//! behind a coordinate triple (a weight or a colour) or behind a slash (texture, normal) is skipped.
-//! A backslash continues a line.
+//! The order of `v` is that of the file, which defines the correspondence of points. What follows a coordinate triple
+//! (a weight or a colour) or behind a slash (texture, normal) is skipped. A backslash continues a line.
 //!
-//! **Limits.** Free-form curves and surfaces are skipped. Some programs split points at the seams of
-//! a texture: such files have another number of points, and are no population with the rest.
+//! **Limits.** Free-form curves and surfaces are skipped. Some programs split points at the seams of a texture: such
+//! files have another number of points, and cannot join a population with the rest.
 
 use super::{Collected, Mesh, at_line, lines, number, words};
 use crate::formats::error::Fault;
@@ -42,7 +41,7 @@ pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
                 polygon.clear();
                 for corner in words {
                     let corner = point_number(corner, points.len() / 3)
-                        .ok_or_else(|| at_line(index, "a corner is no point number"))?;
+                        .ok_or_else(|| at_line(index, "a corner is not a point number"))?;
                     polygon.push(corner);
                 }
                 if kind == b"f" { cells.polygon(&polygon) } else { cells.line(&polygon) }
@@ -90,7 +89,7 @@ mod tests {
         for wrong in ["f 0 1 2", "f 1 2 x", "f -5 1 1"] {
             let text = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{wrong}\n");
             let fault = read(text.as_bytes()).unwrap_err();
-            assert_eq!(fault, at_line(3, "a corner is no point number"), "{wrong}");
+            assert_eq!(fault, at_line(3, "a corner is not a point number"), "{wrong}");
         }
         let fault = read(b"v 0 0 0\nf 1 1 7\n").unwrap_err();
         assert_eq!(fault, Fault::CellIndices { count: 1, points: 1 }, "beyond the last");

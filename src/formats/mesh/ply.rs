@@ -1,4 +1,4 @@
-//! PLY, the polygon file format: a header in text, then elements in text or binary.
+//! Reads PLY, the polygon file format: a header in text, then elements in text or binary.
 //!
 //! | element | property | is |
 //! |---|---|---|
@@ -80,7 +80,7 @@ pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
 
 fn indices(numbers: &[f64]) -> Result<Vec<u32>, Fault> {
     let whole: Option<Vec<u32>> = numbers.iter().map(|&number| index_of(number)).collect();
-    whole.ok_or_else(|| damaged("The list of faces", "a corner is no point number"))
+    whole.ok_or_else(|| damaged("The list of faces", "a corner is not a point number"))
 }
 
 /// How values are stored.
@@ -214,13 +214,14 @@ struct Header {
 
 /// The header, and the bytes after it.
 fn header(bytes: &[u8]) -> Result<(Header, &[u8]), Fault> {
-    let wrong = |line: &str| damaged("The header", format!("“{line}” is not understood"));
+    let wrong =
+        |line: &str| damaged("The header", format!("“{line}” is not a line of a PLY header"));
     let mut encoding = None;
     let mut elements: Vec<Element> = Vec::new();
     let mut rest = bytes;
     loop {
         let Some(end) = rest.iter().position(|byte| matches!(byte, b'\n' | b'\r')) else {
-            return Err(Fault::CutOff { detail: "its header has no end".to_owned() });
+            return Err(Fault::CutOff { detail: "its header does not end".to_owned() });
         };
         let after = if rest[end..].starts_with(b"\r\n") { end + 2 } else { end + 1 };
         let line = String::from_utf8_lossy(&rest[..end]).trim().to_owned();

@@ -1,4 +1,4 @@
-//! Points as text: two or three numbers a line, between blanks, commas or semicolons.
+//! Reads points as text: two or three numbers per line, separated by blanks, commas or semicolons.
 //!
 //! ShapeWorks writes such files (`.particles`, `.pts`), spreadsheets do as `.csv`. A first line
 //! `x,y,z` or `x,y`, lines that begin with `#`, and the frame of the `.pts` files of face alignment

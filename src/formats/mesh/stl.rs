@@ -1,4 +1,4 @@
-//! STL: triangles by the coordinates of their corners, in text or binary, without point numbers.
+//! Reads STL: triangles given by the coordinates of their corners, in text or binary, without point numbers.
 //!
 //! | binary | |
 //! |---|---|
@@ -6,11 +6,11 @@
 //! | u32 | number of triangles |
 //! | 50 bytes each | normal, three corners (f32, little-endian), two bytes to skip |
 //!
-//! Corners whose coordinates are equal to the last bit are one point. Welding each file of a set on
-//! its own would number points differently where two of them happen to meet, so the welding of the
-//! first file is used for all, and every other file must agree with it.
+//! Corners whose coordinates are equal to the last bit are welded into one point. Welding each file of a set on its
+//! own would number points differently where two of them happen to meet, so the welding of the first file is used for
+//! all, and every other file must agree with it.
 //!
-//! **Limits.** Files whose triangles stand in another order are not in correspondence.
+//! **Limits.** Files whose triangles are in another order are not in correspondence.
 
 use std::collections::BTreeMap;
 
@@ -53,14 +53,16 @@ fn text(bytes: &[u8]) -> Result<Vec<[f64; 3]>, Fault> {
             let mut corner = [0.0; 3];
             for value in &mut corner {
                 *value += words.next().and_then(number).ok_or_else(|| {
-                    damaged(format!("Corner {}", corners.len() + 1), "it has no three numbers")
+                    damaged(format!("Corner {}", corners.len() + 1), "three numbers were expected")
                 })?;
             }
             corners.push(corner);
         }
     }
     if !corners.len().is_multiple_of(3) {
-        return Err(Fault::CutOff { detail: "its last triangle has no three corners".to_owned() });
+        return Err(Fault::CutOff {
+            detail: "its last triangle has fewer than three corners".to_owned(),
+        });
     }
     Ok(corners)
 }

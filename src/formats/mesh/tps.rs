@@ -1,4 +1,4 @@
-//! TPS, the landmark files of tpsDig: specimens one after the other.
+//! Reads TPS, the landmark files of tpsDig: specimens one after the other.
 //!
 //! | line | is |
 //! |---|---|
@@ -7,9 +7,9 @@
 //! | `SCALE=s` | factor from image to length |
 //! | `ID=`, `IMAGE=` … | skipped |
 //!
-//! Keys may be written small, blank lines may stand anywhere. `SCALE` counts only where every
-//! specimen has one. Negative coordinates are taken as they are: some programs mark missing points
-//! by them, in other files they are legal.
+//! Keys may be in lower case, blank lines are allowed anywhere. `SCALE` counts only where every specimen has one.
+//! Negative coordinates are taken as they are: some programs mark missing points by them, in other files they are
+//! legal.
 //!
 //! **References.** Rohlf, tpsDig.
 

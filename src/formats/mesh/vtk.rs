@@ -1,5 +1,4 @@
-//! Legacy VTK files, versions 2.0 to 5.1: four lines of text, then sections in text or big-endian
-//! binary.
+//! Reads legacy VTK files, versions 2.0 to 5.1: four lines of text, then sections in text or big-endian binary.
 //!
 //! | section | holds |
 //! |---|---|
@@ -78,7 +77,7 @@ pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
             ("POINT_DATA" | "CELL_DATA", _) => break,
             _ => {
                 let start: String = line.chars().take(30).collect();
-                return Err(damaged("The mesh", format!("“{start}” is no section of VTK")));
+                return Err(damaged("The mesh", format!("“{start}” is not a section of VTK")));
             }
         }
     }
@@ -86,7 +85,8 @@ pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
 }
 
 fn whole(word: &str) -> Result<u64, Fault> {
-    word.parse().map_err(|_| damaged("The mesh", format!("“{word}” is no count")))
+    word.parse()
+        .map_err(|_| damaged("The mesh", format!("a count was expected, “{word}” was found")))
 }
 
 /// Corners of cells and where each cell begins and ends.
@@ -97,7 +97,7 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    /// Cells from their corners and the place behind the last corner of each.
+    /// Cells from their corners and the position behind the last corner of each.
     pub(super) fn of(corners: &[f64], ends: impl Iterator<Item = f64>) -> Result<Self, Fault> {
         let wrong = || damaged("The list of cells", "its offsets do not ascend to its length");
         let mut offsets = vec![0];
@@ -109,8 +109,8 @@ impl Cells {
             offsets.push(end);
         }
         let corners: Option<Vec<u32>> = corners.iter().map(|&corner| index_of(corner)).collect();
-        let corners =
-            corners.ok_or_else(|| damaged("The list of cells", "a corner is no point number"))?;
+        let corners = corners
+            .ok_or_else(|| damaged("The list of cells", "a corner is not a point number"))?;
         Ok(Self { corners, offsets })
     }
 
@@ -179,7 +179,9 @@ impl Scanner<'_> {
             // vtkIdType is written with 32 bits.
             "int" | "unsigned_int" | "float" | "vtkidtype" => 4,
             "double" | "long" | "unsigned_long" | "vtktypeint64" | "vtktypeuint64" => 8,
-            other => return Err(damaged("The mesh", format!("“{other}” is no type of numbers"))),
+            other => {
+                return Err(damaged("The mesh", format!("“{other}” is not a type of numbers")));
+            }
         };
         let present = (self.rest.len() / width) as u64;
         let count = usize::try_from(count.min(present)).unwrap_or(0);
@@ -246,7 +248,7 @@ impl Scanner<'_> {
             }
             let words: Vec<&str> = line.split_whitespace().collect();
             let [_, components, tuples, kind] = words[..] else {
-                return Err(damaged("A field", format!("“{line}” is no heading of an array")));
+                return Err(damaged("A field", format!("“{line}” is not the heading of an array")));
             };
             self.numbers(whole(components)?.saturating_mul(whole(tuples)?), kind)?;
         }

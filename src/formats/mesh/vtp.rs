@@ -1,4 +1,4 @@
-//! VTK meshes in XML (`.vtp`, `.vtu`).
+//! Reads VTK meshes in XML (`.vtp`, `.vtu`).
 //!
 //! One `Piece` with `Points` and `Polys`, `Lines`, `Strips` or `Cells`, all made of `DataArray`s:
 //!
@@ -52,7 +52,10 @@ pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
     }
     let points = file.numbers("Points", "points")?;
     if !points.len().is_multiple_of(3) {
-        return Err(damaged("The list of points", "a point has no three coordinates"));
+        return Err(damaged(
+            "The list of points",
+            "the number of coordinates is not a multiple of 3",
+        ));
     }
     cells.mesh(3, points)
 }

@@ -1,4 +1,4 @@
-//! Binary numbers of a `DataArray` in VTK's XML formats: base64, zlib blocks, byte order.
+//! Decodes the binary numbers of a `DataArray` in VTK's XML formats: base64, zlib blocks, byte order.
 //!
 //! The numbers follow a header of integers (`header_type`): the number of bytes, or with a `compressor` the number of
 //! blocks, the size of a block and of the last one (0: as the others), and the packed size of each.
@@ -80,7 +80,7 @@ impl Coding {
             "Int32" | "UInt32" | "Float32" => 4,
             "Int64" | "UInt64" | "Float64" => 8,
             other => {
-                let reason = format!("“{other}” is no type of numbers");
+                let reason = format!("“{other}” is not a type of numbers");
                 return Err(damaged(format!("The list of {what}"), reason));
             }
         };
@@ -145,7 +145,7 @@ impl Coding {
     }
 }
 
-/// Bytes as they stand, or in base64.
+/// Raw bytes, or bytes in base64.
 pub(super) enum Source<'a> {
     Raw(&'a [u8]),
     Base64 { text: &'a [u8], decoded: Vec<u8> },
@@ -173,8 +173,8 @@ impl<'a> Source<'a> {
     }
 }
 
-/// Decodes the next four characters. Headers and data are encoded one after the other, so padding may
-/// stand in the middle.
+/// Decodes the next four characters. Headers and data are encoded one after the other, so padding may occur in the
+/// middle.
 fn decode_four(text: &mut &[u8], decoded: &mut Vec<u8>) -> bool {
     let mut bits = 0_u32;
     let mut count = 0;

@@ -1,10 +1,9 @@
-//! From the arrays of a file to a model, the same way for every format.
+//! Builds a model from the arrays of a file: orientation, scaling and order of the modes, alike for every format.
 //!
-//! The target form is x = x̄ + S·α with α ~ N(0, I), vectors interleaved x₀ y₀ z₀ x₁ …, and S the
-//! basis scaled by the file's own convention. A file's claim about its columns is checked against
-//! their norms: all ≈ 1 means orthonormal, all ≈ √λᵢ means already scaled, and where the claim and
-//! the norms contradict each other the norms decide and a note says so. Columns need be neither
-//! orthogonal nor sorted: [`LinearModel::from_scaled_basis`] makes them so.
+//! The target form is x = x̄ + S·α with α ~ N(0, I), vectors interleaved x₀ y₀ z₀ x₁ …, and S the basis scaled by the
+//! file's own convention. What a file says about its columns is checked against their norms: all ≈ 1 means
+//! orthonormal, all ≈ √λᵢ means already scaled, and where the two contradict each other the norms decide and a note
+//! says so. Columns need be neither orthogonal nor sorted: [`LinearModel::from_scaled_basis`] makes them so.
 //!
 //! **Orientation.** The basis may be D × q, q × D, n × d × q or q × n × d, with D = d·n the length of
 //! the mean; a square one is taken as D × q.
@@ -39,7 +38,7 @@ pub(crate) enum Scaling {
     Unit(Vec<f64>),
     /// Columns are already multiplied by √λ; the λ beside them serve as a check.
     Scaled(Vec<f64>),
-    /// Columns are already multiplied by √λ, and no λ stand beside them.
+    /// Columns are already multiplied by √λ, and the file has no λ.
     AlreadyScaled,
     /// Columns are to be multiplied by these numbers, whatever their length.
     Factors(Vec<f64>),

@@ -1,5 +1,4 @@
-//! Faces and line segments as files hold them, brought to one form: 0-based rows, counter-clockwise
-//! seen from outside.
+//! Normalises faces and line segments: one row per cell, point numbers from 0, counter-clockwise seen from outside.
 //!
 //! Files store k × m or m × k corners, count from 0 or from 1 and wind either way. The side of
 //! length 2, 3 or 4 is the corners; where both sides are that short, the format's habit is tried
@@ -19,7 +18,7 @@ use crate::model::Cells;
 pub(crate) enum Habit {
     /// k × m, one row for each corner: statismo.
     CornersFirst,
-    /// m × k, one row for each cell: everyone else.
+    /// m × k, one row for each cell: all other formats.
     CellsFirst,
 }
 
@@ -36,7 +35,7 @@ pub(crate) fn read(
     }
     let indices = array.to_integers().ok_or_else(|| Fault::NotNumbers {
         what: "The list of faces".to_owned(),
-        found: "values that are no point numbers".to_owned(),
+        found: "values that are not point numbers".to_owned(),
     })?;
     let mut notes = Vec::new();
     let indices = zero_based(&indices, points, &mut notes)?;

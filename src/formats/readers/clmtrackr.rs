@@ -1,6 +1,6 @@
-//! Face models of clmtrackr: 2-D, in a program text (`.js`) or as JSON.
+//! Reads the 2-D face models of clmtrackr, as JavaScript (`.js`) or JSON.
 //!
-//! The text is a JavaScript module round an object; the object behind `shapeModel` in it is JSON:
+//! The JavaScript is a module around an object; the object behind `shapeModel` in it is JSON:
 //!
 //! | member | holds |
 //! |---|---|
@@ -37,7 +37,7 @@ pub(crate) fn read(input: &Input, options: &Options) -> Result<Opened, FormatErr
     let found = bytes.windows(NAME.len()).position(|window| window == NAME).and_then(|start| {
         let behind = start + NAME.len();
         let brace = bytes[behind..].iter().position(|&byte| byte == b'{')?;
-        // Between the name and its object are quotes, a colon and blanks.
+        // Between the name and its object there are quotes, a colon and blanks.
         (brace < 16).then_some((behind + brace) as u64)
     });
     drop(bytes);

@@ -1,5 +1,5 @@
-//! Parts of files that hold the same thing for shape, expression and colour: a mean, modes of length
-//! 1 one after the other, their variances λ and one list of triangles.
+//! Builds the shape, expression or colour model of files that store all three alike: a mean, unit modes one after the
+//! other, their variances λ and one list of triangles.
 //!
 //! An expression is displacements from the mean shape; the model to compare is the mean shape +
 //! the mean displacement + its modes. Colours of 0 … 255 become 0 … 1.

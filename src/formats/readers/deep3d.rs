@@ -1,4 +1,4 @@
-//! The expression basis of Deep3DFaceReconstruction: `Exp_Pca.bin`, with `std_exp.txt` beside it.
+//! Reads the expression basis of Deep3DFaceReconstruction: `Exp_Pca.bin`, with `std_exp.txt` beside it.
 //!
 //! | file | holds |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! eos models (`.bin`), as its library serialises them: little-endian, without a magic number.
+//! Reads eos models (`.bin`) as the eos library serialises them: little-endian, without a magic number.
 //!
 //! | in turn | holds |
 //! |---|---|
@@ -9,9 +9,9 @@
 //! | always | texture coordinates: `u64` count, 2 `f64` each |
 //! | version 4 | texture triangles: `u64` count, 3 `i32` each |
 //!
-//! A matrix is `i32` rows, `i32` columns and `f32` numbers column by column. A PCA model is the mean
-//! (D × 1), orthonormal modes (D × q), variances λ (q × 1), and `u64` m triangles of 3 `i32`, counted
-//! from 0. A name is `u64` length and bytes. Nothing may follow the end, which is how the file is known.
+//! A matrix is `i32` rows, `i32` columns and `f32` numbers column by column. A PCA model is the mean (D × 1),
+//! orthonormal modes (D × q), variances λ (q × 1), and `u64` m triangles of 3 `i32`, counted from 0. A name is `u64`
+//! length and bytes. Nothing may follow the end, by which the format is recognised.
 //!
 //! Blendshapes become a sampled population, see `sampled_blendshapes`. Also read is a PCA model that was saved
 //! alone. Blendshapes that were saved alone lack the face that they displace. Lengths are in millimetres.
@@ -271,7 +271,7 @@ fn matrix<'a>(bytes: &mut Bytes<'a>, what: &str) -> Result<Matrix<'a>, Fault> {
         let side = bytes.i32(what)?;
         u64::try_from(side).map_err(|_| Fault::Damaged {
             what: what.to_owned(),
-            reason: format!("one of its sides is {side}"),
+            reason: format!("one of its dimensions is {side}"),
         })
     };
     let (rows, columns) = (side()?, side()?);

@@ -1,9 +1,8 @@
-//! Models as arrays under names, whatever the container: NumPy archives and dictionaries, MATLAB
-//! files, Python pickles, HDF5 trees.
+//! Recognises models by the names of their arrays, in any container: NumPy archives and dictionaries, MATLAB files,
+//! Python pickles, HDF5 trees.
 //!
-//! A container gives [`NamedArrays`]: names, the sides of what stands under them, and arrays that are read
-//! when they are asked for. A field in a group is a dotted name, `shp.mu`. Three steps recognise a
-//! model, first at the top, then in groups:
+//! A container gives [`NamedArrays`]: names, the shapes of their arrays, and the arrays, read when they are asked for.
+//! A field in a group is a dotted name, `shp.mu`. Three steps recognise a model, first at the top, then in groups:
 //!
 //! **Known layouts**, told by names that belong together. λ are variances, σ standard deviations.
 //!
@@ -92,7 +91,7 @@ struct Layout {
 /// How a format numbers and winds its faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Counting {
-    /// Not laid down: the numbers tell.
+    /// Not specified: decided by the numbers.
     Open,
     /// Points count from 1.
     FromOne,
@@ -140,7 +139,7 @@ impl Recipe {
     }
 }
 
-/// A layout that is told by its names.
+/// A layout that is recognised by its names.
 struct Known {
     name: &'static str,
     /// The only container in which these names mean it; empty for any.
@@ -675,7 +674,7 @@ impl Source<'_> {
         format!("{}{name}", self.prefix)
     }
 
-    /// The sides of an array that can be read.
+    /// The shape of an array that can be read.
     fn shape(&self, name: &str) -> Option<Vec<u64>> {
         self.table.shape(&self.full(name))?.ok()
     }

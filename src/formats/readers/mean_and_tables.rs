@@ -1,4 +1,4 @@
-//! A mean mesh with its modes and variances in tables beside it, as atlases of the heart are shared.
+//! Reads a mean mesh with tables of its modes and variances, as atlases of the heart are shared.
 //!
 //! | file | holds |
 //! |---|---|
@@ -6,7 +6,7 @@
 //! | `NAME_pc_100_modes.csv`, perhaps with `.gz` | D × q numbers, unit columns; D = 3n interleaved |
 //! | `NAME_var_100_modes.csv`, perhaps with `.gz` | q variances λ |
 //!
-//! The names decide what is what: all begin like that of the mean, and hold `pc` or `var` as a word.
+//! The files are told apart by their names: all begin like that of the mean, and have `pc` or `var` as a word.
 //!
 //! **References.** Bai et al., "A bi-ventricular cardiac atlas built from 1000+ high resolution MR
 //! images of healthy subjects and an analysis of shape and motion", Medical Image Analysis 2015.
@@ -80,7 +80,7 @@ pub(crate) fn open(
     read().map_err(|fault| fault.of(&main.name))
 }
 
-/// What stands before "mean" in the name of a mean, in lower case.
+/// The text before "mean" in the name of a mean, in lower case.
 pub(crate) fn prefix(main: &Input) -> Option<String> {
     let name = main.file_name().to_lowercase();
     let start = name.rfind("mean")?;

@@ -1,4 +1,4 @@
-//! Readers of models, one file a format: which arrays of a file are the mean, the modes, the variances.
+//! Readers of models, one file per format: they find the mean, the modes and the variances in a file.
 
 pub(crate) mod assemble;
 pub(crate) mod cells;

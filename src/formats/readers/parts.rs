@@ -1,4 +1,4 @@
-//! Which part of a file of several models is read: the one that is wanted, or the first that can be.
+//! Chooses which part of a file of several models is read: the one that is wanted, or the first that can be read.
 
 use crate::formats::error::Fault;
 use crate::formats::opened::Options;

@@ -1,4 +1,4 @@
-//! Our own model as JSON: what other programs read most easily, and people too.
+//! Reads Shapevenn's own JSON format of a model, which other programs and people can read without a library.
 //!
 //! | member | holds |
 //! |---|---|

@@ -1,4 +1,4 @@
-//! Body models `point.pca`: little-endian, without a magic number; the sizes must add up.
+//! Reads body models `point.pca`: little-endian, without a magic number, recognised by sizes that add up.
 //!
 //! `u32` D, `u32` q, then in `f64`: D × q modes one after the other, the mean (D), q variances λ.
 //!

@@ -20,7 +20,7 @@ const SAMPLED: usize = 600;
 const KEY: &[u8; 32] = b"Shapevenn blendshapes, version 1";
 const SHARE_OF_PARTNERS: f64 = 0.75;
 
-/// What a population of displaced shapes is like.
+/// Mean and scaled basis of a population of displaced shapes.
 pub(crate) struct Sampled {
     /// Its mean displacement (D).
     pub(crate) mean: DVector<f64>,

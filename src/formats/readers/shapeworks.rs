@@ -1,4 +1,4 @@
-//! ShapeWorks analyses (JSON, from `shapeworks analyze --output`): modes of particles.
+//! Reads ShapeWorks analyses (JSON, from `shapeworks analyze --output`): principal components of particles.
 //!
 //! | member | holds |
 //! |---|---|
@@ -8,8 +8,8 @@
 //! | `number_of_modes` | q |
 //! | `mean.particle_files[]` | names of the files with the mean particles, one for each domain |
 //!
-//! The mean is not inside. It is looked for among the files dropped along, by name; one file of points
-//! with any name is taken when there is only that. Domains follow one another as listed.
+//! The mean is not in the file. It is looked for by name among the files opened with it; one file of points with any
+//! name is taken when there is only that. Domains follow one another as listed.
 //!
 //! **References.** Cates et al., "ShapeWorks: particle-based shape correspondence and visualization
 //! software", 2017; the ShapeWorks documentation.

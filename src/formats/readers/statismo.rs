@@ -1,4 +1,4 @@
-//! statismo and Scalismo HDF5 models, and the Basel face models in the same layout.
+//! Reads statismo and Scalismo models (HDF5), and the Basel Face Models in the same layout.
 //!
 //! A model is a tree below `/` or below a group, in HDF5 or in its written-out form, HDF5-JSON:
 //!
@@ -59,7 +59,7 @@ struct Place {
     name: String,
 }
 
-/// What a part's numbers stand for.
+/// What a part's numbers are: positions, displacements or colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Role {
     Shape,
@@ -67,7 +67,7 @@ enum Role {
     Color,
 }
 
-/// What the other parts of a file lie on: its shape part, without the modes.
+/// The mean shape on which the other parts of a file lie: its shape part, without the modes.
 #[derive(Debug)]
 struct Base {
     mean: DVector<f64>,
@@ -331,7 +331,7 @@ fn version(
             break;
         }
     }
-    // Without its end nobody knows what version the file states.
+    // A file without its end may state a version that cannot be found.
     if found.is_none()
         && let Some(fault) = tree.cut_off()
     {

@@ -1,4 +1,4 @@
-//! Surrey face models of old (`.scm`): little-endian, without a magic number.
+//! Reads older Surrey face models (`.scm`): little-endian, without a magic number.
 //!
 //! | in turn | holds |
 //! |---|---|

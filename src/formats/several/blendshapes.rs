@@ -1,4 +1,4 @@
-//! Blendshapes: a neutral mesh and meshes displaced from it, as in ICT-FaceKit.
+//! Builds models from blendshapes: a neutral mesh and meshes displaced from it, as in ICT-FaceKit.
 //!
 //! | file (without ending) | is |
 //! |---|---|

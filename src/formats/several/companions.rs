@@ -1,4 +1,4 @@
-//! Models that lie in several files, which belong together by what they hold.
+//! Models that are stored in several files: finds the files that belong together by their content.
 //!
 //! | main file | with it |
 //! |---|---|

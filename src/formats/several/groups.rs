@@ -1,4 +1,4 @@
-//! Which of the files that were dropped belong together, and what they make together.
+//! Groups the files that were opened into models and populations.
 //!
 //! | files | make |
 //! |---|---|
@@ -10,7 +10,7 @@
 //! | a file of no known format beside a population | part of it, if its name ends alike; else nothing |
 //! | anything else | a model on its own |
 //!
-//! Files of a group stand in natural order: 2 before 10.
+//! Files of a group are in natural order: 2 before 10.
 
 use std::collections::BTreeMap;
 

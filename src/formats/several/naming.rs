@@ -1,4 +1,4 @@
-//! What to call a model that is made of several files.
+//! Names a model that is made of several files.
 
 use crate::formats::input::paths::folder;
 use crate::formats::input::{Input, compressed};

@@ -1,4 +1,4 @@
-//! Populations: shapes in correspondence, of which a model is made.
+//! Builds a model from a population of shapes in correspondence: Procrustes alignment, then principal components.
 //!
 //! All shapes must have the same points in the same order, which is seen from their number and from
 //! their faces. They are moved onto their mean by generalised Procrustes analysis (rotation and
@@ -8,8 +8,7 @@
 //! The model lives in the frame of the first shape. Two populations must be aligned to each other
 //! before they are compared.
 //!
-//! **Limits.** At least three shapes. Whether points of the same number mean the same place cannot be
-//! seen from files.
+//! **Limits.** At least three shapes. Whether points of the same number correspond anatomically cannot be checked.
 //!
 //! **References.** Gower, "Generalized Procrustes analysis", Psychometrika 40 (1975); Dryden & Mardia,
 //! "Statistical Shape Analysis", 2nd ed. (2016), chapter 7.
@@ -263,7 +262,7 @@ impl Shapes {
         Ok(())
     }
 
-    /// Points of all shapes (d·n × N), how they are drawn, their dimension, and what there is to say.
+    /// Points of all shapes (d·n × N), their cells, their dimension, and notes.
     pub(crate) fn into_matrix(mut self) -> Option<(usize, DMatrix<f64>, Cells, Vec<String>)> {
         let First { mut dimension, points, cells, .. } = self.first?;
         let length = dimension * points;

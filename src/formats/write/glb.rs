@@ -5,8 +5,8 @@
 //! scaled, and `extras` keep the unit and the standard deviations of the model. Triangles get normals
 //! of the mean; segments are drawn as lines, a model of points as points; z = 0 in the plane.
 //!
-//! **Limits.** Single precision. The first 32 modes: few viewers take more. Normals do not follow the
-//! morph targets. Colours have no place in space and are not written.
+//! **Limits.** Single precision. The first 32 modes: few viewers take more. Normals do not follow the morph targets.
+//! Colour models are not written.
 //!
 //! **References.** Khronos Group, glTF 2.0 specification, ISO/IEC 12113:2022.
 
@@ -36,7 +36,9 @@ pub fn write_model(model: &LinearModel) -> Result<Vec<u8>, FormatError> {
 
 fn file_of(model: &LinearModel) -> Result<Vec<u8>, Fault> {
     if model.kind() == Kind::Color {
-        return Err(Fault::Write { reason: "colours have no place in space".to_owned() });
+        return Err(Fault::Write {
+            reason: "glTF stores positions of points, and this is a model of colours".to_owned(),
+        });
     }
     let dimension = model.dimension();
     let scale = metres(model.unit()).unwrap_or(1.0);

@@ -5,8 +5,8 @@
 //! dataset names its path as `alias`. Scalismo's reader wants `root`, `groups`, `datasets` and
 //! `apiVersion`, and of every value its shape and its type.
 //!
-//! **Limits.** Ids count up, so that the same model gives the same file. There is no clock in the core:
-//! build times say so instead. The reference is the mean.
+//! **Limits.** Ids count up, so that the same model gives the same file. The library reads no clock: build times are
+//! “not recorded”. The reference is the mean.
 //!
 //! **References.** The HDF Group, HDF5/JSON; unibas-gravis, scalismo-hdf5-json.
 
@@ -30,7 +30,7 @@ const GROUPS: [&str; 8] = [
     "/version",
 ];
 
-/// A value and where it stands.
+/// A value and its path.
 enum Content<'a> {
     Number(i32),
     Text(String),

@@ -1,4 +1,4 @@
-//! Writes a model, or draws, as plain JSON: what other programs read most easily.
+//! Writes a model, or draws, as plain JSON that other programs read without a library.
 //!
 //! The members of a model are listed in `plain_json.rs`, which reads them. Numbers have as many digits as
 //! it takes to read back the same double-precision number.
@@ -75,7 +75,7 @@ pub fn write_draws(arrays: &[(&str, Array)]) -> Vec<u8> {
     bytes
 }
 
-/// The values of one side after another, from place `start` on.
+/// The values of one dimension after another, from index `start` on.
 fn nested(bytes: &mut Vec<u8>, shape: &[usize], start: usize, data: &Data) {
     let Some((&side, inner)) = shape.split_first() else {
         let value = match data {

@@ -1,4 +1,4 @@
-//! What can be exported: models, shapes and tables, each in one format per file.
+//! Writes models, shapes and tables: one file of code per format.
 
 mod csv;
 mod glb;

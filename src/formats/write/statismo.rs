@@ -5,7 +5,7 @@
 //! are scalars, noise variance is a list of one, attributes are lists of one text with its NUL.
 //! The file has the layout of HDF5 1.8, so that old readers open it too.
 //!
-//! **Limits.** There is no clock in the core: build times say so instead. The reference is the mean.
+//! **Limits.** The library reads no clock: build times are “not recorded”. The reference is the mean.
 
 use hdf5_pure::{AttrValue, DatasetBuilder, FileBuilder, GroupBuilder, LibVer};
 
