@@ -103,27 +103,31 @@ fn a_bad_link_ends_with_two_and_says_what_was_expected_found_and_to_do() {
         ("page=learn", "names no scene", "A link to a scene looks like page=learn&scene=step"),
         (
             "scene=steps",
-            "The scene is one of model, agree, planes, step, cloud, difference, race, not “steps”.",
+            "The scene must be one of model, agree, planes, step, cloud, difference, race, not “steps”.",
             "Change it",
         ),
         (
             "scene=step&pair=stars-9",
-            "The pair is one of stars-1 to stars-6, or planes, not “stars-9”.",
+            "The pair must be one of stars-1 to stars-6, or planes, not “stars-9”.",
             "Change it",
         ),
         (
             "scene=step&chains=65",
-            "The number of chains is a whole number from 1 to 64, not “65”.",
+            "The number of chains must be a whole number from 1 to 64, not “65”.",
             "Change it",
         ),
-        ("scene=step&seed=x", "The seed is a whole number of up to 64 bits, not “x”.", "Change it"),
+        (
+            "scene=step&seed=x",
+            "The seed must be a whole number of up to 64 bits, not “x”.",
+            "Change it",
+        ),
         (
             "scene=planes&coefficients=1,2,3",
-            "The list of coefficients is at most 2 finite numbers, not “1, 2, 3”.",
+            "The list of coefficients must be at most 2 finite numbers, not “1, 2, 3”.",
             "Change it",
         ),
         ("scene=cloud&sampler=gibbs", "not “gibbs”.", "Change it"),
-        ("scene=cloud&pair=stars-5&sigma=0", "σ is a positive number, not “0”.", "Change it"),
+        ("scene=cloud&pair=stars-5&sigma=0", "σ must be a positive number, not “0”.", "Change it"),
         (
             "scene=difference&tilt=0",
             "B holds every shape of A: the difference is empty.",

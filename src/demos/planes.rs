@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::model::{LinearModel, Unit};
 
-/// How B's plane lies to A's.
+/// Position of B's plane relative to A's.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PlanesAt {
     /// Angle between the planes, in degrees.

@@ -37,7 +37,7 @@ pub enum Download {
     RunJson(Sources),
     /// Diagnostics of each coefficient as a table.
     CoefficientsCsv,
-    /// What is known of each mode as a table.
+    /// Standard deviations, shares of variance and angles of each mode as a table.
     ModesCsv,
     /// A shape of a region as PLY.
     Ply(ShownShape),

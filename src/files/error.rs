@@ -80,7 +80,7 @@ impl Error {
             Self::Evaluation(error) => error.hint().to_owned(),
             Self::Demo { .. } => format!("Choose one of {}.", demos::names().join(", ")),
             Self::Seed { .. } => "Give a whole number below 2⁶⁴.".to_owned(),
-            Self::NothingYet => "Wait until the run has drawn some.".to_owned(),
+            Self::NothingYet => "Wait until the run has finished.".to_owned(),
             Self::StoredReport { .. } => "Run the comparison again.".to_owned(),
             Self::RunFile { hint, .. } => (*hint).to_owned(),
             Self::OtherModel { hint, .. } => hint.clone(),
@@ -101,7 +101,7 @@ impl fmt::Display for Error {
                     "The seed of the shapes is “{text}”; a whole number from 0 to 18446744073709551615 was expected."
                 )
             }
-            Self::NothingYet => write!(f, "There are no shapes of this region yet."),
+            Self::NothingYet => write!(f, "The run has not computed this yet."),
             Self::StoredReport { reason } => {
                 write!(f, "The stored report cannot be read: {reason}.")
             }

@@ -40,15 +40,15 @@ pub struct RunFile {
 /// One of the models of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RunModel {
-    /// What it was called.
+    /// Its name.
     pub name: String,
-    /// Which model of its file it was.
+    /// The part of its file.
     #[serde(default)]
     pub part: Option<String>,
     /// `demo:NAME`, an address, or nothing.
     #[serde(default)]
     pub source: Option<String>,
-    /// Which numbers it had; unknown in reports of old engines.
+    /// Its fingerprint; unknown in reports of old engines.
     #[serde(default)]
     pub fingerprint: Option<String>,
 }
@@ -71,7 +71,7 @@ pub struct Sources {
 }
 
 impl RunFile {
-    /// That of a comparison, with the σ in use once it is known.
+    /// The run file of a comparison, with the σ in use once it is known.
     pub fn of(comparison: &Comparison, sources: &Sources) -> Self {
         let Sides { a, b } = comparison.described();
         let model = |report: &ModelReport, source: &Option<String>| RunModel {
@@ -88,7 +88,7 @@ impl RunFile {
         }
     }
 
-    /// As it is saved.
+    /// The JSON text of the file.
     pub fn to_json(&self) -> String {
         json(self)
     }

@@ -126,7 +126,7 @@ pub enum Fault {
     },
     /// A model of images or vectors.
     NotMesh {
-        /// The file's word for it.
+        /// Its type in the file.
         kind: String,
     },
     /// An array that is announced as larger than its file or the memory can hold.

@@ -2,10 +2,10 @@
 
 use crate::model::{BasisCheck, LinearModel};
 
-/// How to read what can be read in more than one way.
+/// Options for reading files: which part, and whether shapes are scaled.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Options {
-    /// The part wanted of a file of several models; the one to show first when left out.
+    /// The part to read of a file of several models; by default the one to show first.
     pub part: Option<String>,
     /// Whether shapes of a set are also brought to one size before a model is made of them.
     pub scale: bool,
@@ -35,7 +35,7 @@ pub struct Part {
     pub origin: Origin,
     /// For every point its number in a larger mesh, where the file says so: a crop's own index map.
     pub map: Option<Vec<u32>>,
-    /// What the reader should know, each one sentence.
+    /// Notes for the user, each one sentence.
     pub notes: Vec<String>,
 }
 

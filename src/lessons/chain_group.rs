@@ -1,7 +1,7 @@
 //! A group of chains: several chains of one sampler on one target, advanced step by step.
 //!
-//! They run as far as they are asked to, at most until they have kept as many draws as there is room for. Rejection makes its proposals in blocks, but hands its draws out one a step: how often it is asked
-//! does not change them.
+//! They run as far as they are asked to, at most until they have kept as many draws as there is room for. Rejection
+//! makes its proposals in blocks, but hands its draws out one a step: how often it is asked does not change them.
 
 use crate::model::Side;
 use nalgebra::{DMatrix, DVector};

@@ -106,7 +106,7 @@ impl fmt::Display for LessonError {
         match self {
             Self::Unreadable { message } => write!(f, "{message}."),
             Self::Value { what, expected, found } => {
-                write!(f, "{what} is {expected}, not “{found}”.")
+                write!(f, "{what} must be {expected}, not “{found}”.")
             }
             Self::NotOpen => write!(f, "No models are open in this lesson."),
             Self::Pair(error) => error.fmt(f),

@@ -42,7 +42,7 @@ impl Default for Opening {
     }
 }
 
-/// Two models ready to be asked about.
+/// Two opened models, with all that answers are computed from.
 #[derive(Debug)]
 pub(super) struct Opened {
     pub(super) pair: Pair,

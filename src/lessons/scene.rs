@@ -257,12 +257,12 @@ mod tests {
     fn faults_name_what_was_expected_and_what_was_found() {
         for (link, expected) in [
             ("page=learn", "The link names no scene: scene=… was expected among its keys."),
-            ("scene=step&steps=-1", "The number of steps is a whole number, not “-1”."),
-            ("scene=step&side=c", "The side is a or b, not “c”."),
-            ("scene=agree&sigma=small", "σ is a number, not “small”."),
+            ("scene=step&steps=-1", "The number of steps must be a whole number, not “-1”."),
+            ("scene=step&side=c", "The side must be a or b, not “c”."),
+            ("scene=agree&sigma=small", "σ must be a number, not “small”."),
             (
                 "scene=race&break=all",
-                "What is broken is one of none, scaling, one-chain, sigma, misaligned, not “all”.",
+                "What is broken must be one of none, scaling, one-chain, sigma, misaligned, not “all”.",
             ),
         ] {
             let error = of_link(link).unwrap_err();

@@ -32,7 +32,7 @@ const RACERS: [LessonSampler; 5] = [
     LessonSampler::Independence,
 ];
 
-/// What a scene says of a shape.
+/// The numbers of one shape in a scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
 #[allow(missing_docs, reason = "as in LessonPoint")]
@@ -47,7 +47,7 @@ pub struct PointNumbers {
     pub log_difference: Option<f64>,
 }
 
-/// How far a tip strays in A, in B and in A∩B: the root of the sum of its coordinates' variances.
+/// Standard deviation of a tip in A, in B and in A∩B: the root of the sum of its coordinates' variances.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Tip {
     /// Which point.
@@ -103,7 +103,7 @@ pub struct SceneNumbers {
     pub race: Vec<RaceNumbers>,
 }
 
-/// Asks, and takes the answer that such an ask has.
+/// Asks, and unwraps the answer of the kind that this ask has.
 macro_rules! asked {
     ($lesson:expr, $ask:expr, $kind:path) => {
         match $lesson.answer($ask)? {

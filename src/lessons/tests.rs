@@ -455,10 +455,16 @@ fn faults_are_sentences_with_what_was_expected_and_found() {
     let begin = |chains: usize| json!({ "ask": "begin", "lane": 0, "target": "normal", "sampler": "paper", "chains": chains });
     assert_eq!(
         said(json!({ "ask": "open", "pair": "moons" })),
-        "The pair is one of stars-1 to stars-6, or planes, not “moons”."
+        "The pair must be one of stars-1 to stars-6, or planes, not “moons”."
     );
-    assert_eq!(said(json!({ "ask": "open", "sigma": -1 })), "σ is a positive number, not “-1”.");
-    assert_eq!(said(begin(65)), "The number of chains is a whole number from 1 to 64, not “65”.");
+    assert_eq!(
+        said(json!({ "ask": "open", "sigma": -1 })),
+        "σ must be a positive number, not “-1”."
+    );
+    assert_eq!(
+        said(begin(65)),
+        "The number of chains must be a whole number from 1 to 64, not “65”."
+    );
     assert_eq!(
         said(json!({ "ask": "advance", "lane": 4, "steps": 1 })),
         "There is no chain group 4."
@@ -471,7 +477,7 @@ fn faults_are_sentences_with_what_was_expected_and_found() {
     let ask = json!({ "ask": "advance", "lane": 0, "steps": 313, "watch": true });
     assert_eq!(
         asked(&mut lesson, ask).unwrap_err().to_string(),
-        "The number of steps to watch, over all chains, is a whole number from 0 to 20000, not “20032”."
+        "The number of steps to watch, over all chains, must be a whole number from 0 to 20000, not “20032”."
     );
     let ask = json!({ "ask": "intersection", "lanes": [0, 0], "counts": [] });
     let error = asked(&mut lesson, ask).unwrap_err().to_string();

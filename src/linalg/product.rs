@@ -3,9 +3,9 @@
 //! Rows are taken in blocks that fit into the second-level cache; a block is transposed to row-major order and given
 //! to one of the two products of [`crate::linalg::simd`].
 //!
-//! Every sum has a fixed order that depends on the sizes of the matrices only: the bits of a result are
-//! the same on any machine, with any number of threads. Some blocks are computed at a time and put
-//! in their place, so that no more than some MB are held beside the result.
+//! Every sum has a fixed order that depends on the sizes of the matrices only: the bits of a result are the same on
+//! any machine, with any number of threads. Some blocks are computed at a time and copied into the result, so that no
+//! more than some MB are held beside it.
 //!
 //! **References.** Goto & van de Geijn, "Anatomy of high-performance matrix multiplication", ACM Trans.
 //! Math. Softw. 34 (2008).
@@ -20,7 +20,7 @@ use crate::linalg::simd::{self, Aligned, ROWS, Real, Tile, VECTORS, add_cross, p
 
 /// Rows of a block of a product: with 200 columns 400 KB, which the second cache holds.
 const BLOCK: usize = 42 * ROWS;
-/// Blocks of a product that are held until they are put in their place.
+/// Blocks of a product that are kept until they are copied into the result.
 const WAVE: usize = 32;
 /// Columns of the small factor that lie together: the widest tile, two vectors of eight.
 const PANEL: usize = 8 * VECTORS;
@@ -124,7 +124,7 @@ fn part(whole: &Range<usize>, index: usize, length: usize) -> Range<usize> {
     start..(start + length).min(whole.end)
 }
 
-/// Puts rows, held column by column, in their place.
+/// Copies rows, stored column by column, into the result.
 fn put(matrix: &mut DMatrix<f64>, range: Range<usize>, block: &[f64]) {
     let rows = matrix.nrows();
     for (column, values) in block.chunks_exact(range.len()).enumerate() {

@@ -20,7 +20,7 @@ use crate::model::{
     procrustes,
 };
 
-/// Shapes that are taken through the modes together.
+/// Shapes that are projected at a time.
 const TOGETHER: usize = 8;
 
 /// Moves every shape (a column) onto `model`'s mean.

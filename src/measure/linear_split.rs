@@ -22,7 +22,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::linalg::{Moments, eigen};
 
-/// What is left, as moments.
+/// The remaining part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinearSplit {
     /// m_D and C_D, which may be indefinite.
@@ -35,7 +35,7 @@ pub struct LinearSplit {
 
 /// `whole` without `part`, which makes the share `weight` of it; `None` where the part is all of it.
 pub fn linear_split(whole: &Moments, part: &Moments, weight: f64) -> Option<LinearSplit> {
-    /// A rest below this share is rounding.
+    /// A remainder below this share is a rounding error.
     const NOTHING_LEFT: f64 = 1e-6;
     let rest = 1.0 - weight;
     if rest.is_nan() || rest <= NOTHING_LEFT {

@@ -17,24 +17,24 @@ use crate::measure::generalization::{align, left_out_distances, projection_dista
 use crate::measure::specificity::nearest_distances;
 use crate::model::{Alignment, Kind, LinearModel, ModelError};
 
-/// Numbers of modes that are all looked at; of more, about as many.
+/// Up to this many modes every number of modes is evaluated; of more, about as many.
 const MOST_COUNTS: usize = 20;
 /// Random shapes for the specificity, and their seed.
 const SAMPLES: usize = 1000;
 const SEED: u64 = 1;
-/// Shapes up to which each is left out on its own; of more, tenths.
+/// Up to this many shapes cross-validation leaves out one at a time; of more, a tenth.
 const MOST_ALONE: usize = 50;
 const FOLDS: usize = 10;
 
-/// What the shapes are to the model.
+/// Whether the shapes are test shapes or training shapes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
-    /// Others than it was made of.
+    /// Test shapes.
     Test,
-    /// Those it was made of, each left out in turn.
+    /// Training shapes, each left out in turn.
     LeaveOneOut,
-    /// Those it was made of, a tenth left out in turn.
+    /// Training shapes, a tenth left out in turn.
     Folds,
 }
 
@@ -44,9 +44,9 @@ pub enum Method {
 pub struct Evaluation {
     /// Number of shapes.
     pub shapes: usize,
-    /// What they are to the model.
+    /// Whether they are test or training shapes.
     pub method: Method,
-    /// How often the model was made anew.
+    /// How many models were built for the cross-validation.
     pub folds: usize,
     /// Numbers of modes.
     pub modes: Vec<usize>,
@@ -83,14 +83,14 @@ pub enum EvaluationError {
         /// Of the model.
         model: usize,
     },
-    /// There are not enough.
+    /// There are too few shapes.
     TooFew {
         /// How many there are.
         found: usize,
         /// How many it takes.
         needed: usize,
     },
-    /// No model can be made of those that are left.
+    /// No model can be built from the remaining training shapes.
     Model(ModelError),
 }
 

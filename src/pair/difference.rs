@@ -64,7 +64,7 @@ impl DifferenceDefinition {
     }
 }
 
-/// Where the score begins to count.
+/// The threshold of the score.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Level {
     /// At a value, positive: σ for the soft difference, the threshold for the others.

@@ -46,7 +46,7 @@ const AT_MODE: f64 = 1e-7;
 /// A residual below this share of its spread over the model has vanished: R may be in single precision.
 const VANISHED: f64 = 1e-6;
 
-/// Which approximation made a fit.
+/// The method of a Gaussian fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum FitMethod {
@@ -60,10 +60,10 @@ pub enum FitMethod {
     Laplace,
 }
 
-/// A Gaussian and what it was made by.
+/// A Gaussian fit and its method.
 #[derive(Debug, Clone)]
 pub struct Fit {
-    /// The approximation.
+    /// The method.
     pub method: FitMethod,
     /// The Gaussian.
     pub gaussian: Gaussian,

@@ -32,7 +32,7 @@ const MANY_GROUPS: usize = 16;
 /// Norms below this divide as if they were this: its square is still a normal number.
 const SMALLEST_NORM: f32 = 1e-18;
 
-/// Residual rows in single precision, row-major (d·n × q), and how to take distances with them.
+/// Residual rows in single precision, row-major (d·n × q), for batches of distances.
 #[derive(Debug, Clone)]
 pub struct DistanceKernel {
     dimension: usize,

@@ -8,8 +8,7 @@
 //! point), so that every round is a quadratic problem with two balls, whose multipliers are found by
 //! Newton's method on their secular equations.
 //!
-//! **Limits.** On meshes of more than 512 points every k-th point is looked at: the distance is a mean
-//! over them.
+//! **Limits.** On meshes of more than 512 points every k-th point is used: the distance is a mean over them.
 
 use crate::model::Sides;
 use nalgebra::{DMatrix, DVector};
@@ -18,7 +17,7 @@ use crate::linalg::cross;
 use crate::model::LinearModel;
 use crate::pair::Pair;
 
-/// Points that are looked at.
+/// Most points that are used.
 const MOST_POINTS: usize = 512;
 const MOST_ROUNDS: usize = 12;
 /// Relative change of d at which the rounds end.

@@ -15,7 +15,7 @@ use crate::linalg::{Sum, combined};
 use crate::model::LinearModel;
 use crate::pair::Joint;
 
-/// The shape m + U a (d·n), formed as fast as can be.
+/// The shape m + U a (d·n).
 pub fn formed(model: &LinearModel, coefficients: &DVector<f64>) -> Vec<f64> {
     let [shape] = combined(&[sum_of(model, coefficients)]);
     shape
@@ -55,7 +55,7 @@ impl Joint {
         &self.scaled[side.index()]
     }
 
-    /// The shape m₁ + B c (d·n), formed as fast as can be.
+    /// The shape m₁ + B c (d·n).
     pub fn formed_shape(&self, coordinates: &DVector<f64>) -> Vec<f64> {
         let [shape] = combined(&[self.sum_of(coordinates)]);
         shape

@@ -64,7 +64,7 @@ pub enum PointSelection {
         /// Ranges of point numbers, ascending.
         ranges: String,
     },
-    /// The map into a larger mesh that one of the models brings along.
+    /// The index map into a larger mesh that the file of one of the models has.
     Map,
     /// Point `a[k]` of A is point `b[k]` of B.
     List {

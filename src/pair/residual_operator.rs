@@ -20,8 +20,8 @@ use crate::model::LinearModel;
 
 /// Shapes of one model seen from the other: x = m₁ + U₁ a against M₂.
 ///
-/// R is kept in single precision, 4·d·n·q bytes, and beside it in double precision where that costs at
-/// most two megabytes. Everything reads the same R, so that its rounding is one of the model.
+/// R is kept in single precision, 4·d·n·q bytes, and beside it in double precision where that costs at most two
+/// megabytes. All computations use the same R, so that its rounding acts like a small change of the model.
 #[derive(Debug, Clone)]
 pub struct ResidualOperator {
     dimension: usize,

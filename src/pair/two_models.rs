@@ -78,7 +78,7 @@ impl Pair {
         Sides { a: &self.a, b: &self.b }
     }
 
-    /// What the other model misses of the shapes of this side's.
+    /// The residual operator of the shapes of a side.
     pub fn residual_operator(&self, side: Side) -> ResidualOperator {
         let models = self.models();
         ResidualOperator::new(models[side], models[side.other()])

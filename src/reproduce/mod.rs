@@ -48,7 +48,7 @@ pub trait Observer {
     /// Seconds since some moment in the past.
     fn seconds(&self) -> f64;
 
-    /// Hears what is being run.
+    /// Is told what is being run.
     fn begins(&self, what: &str);
 }
 

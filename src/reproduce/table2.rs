@@ -222,7 +222,7 @@ fn face() -> DVector<f64> {
     mean
 }
 
-/// Which vectors are whose; every list rises.
+/// Which vectors are shared and which are of one model only; every list is ascending.
 struct Split {
     shared: Vec<usize>,
     own: [Vec<usize>; 2],

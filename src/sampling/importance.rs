@@ -28,7 +28,7 @@ use crate::linalg::{Moments, parallel};
 
 /// Groups of pairs, whose moments give the standard error.
 const GROUPS: usize = 16;
-/// Corrections below this share of a standard deviation are what single precision leaves.
+/// Corrections below this share of a standard deviation are errors of single precision.
 const ROUNDING: f64 = 1e-4;
 /// Pairs with one stream of random numbers.
 const BLOCK: usize = 32;

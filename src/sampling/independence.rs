@@ -40,7 +40,7 @@ struct State {
     statistic: f64,
 }
 
-/// One proposal of one chain: everything random about a step.
+/// One proposal of one chain: the random numbers of a step.
 struct Proposal {
     point: Vec<f64>,
     log_proposal: f64,

@@ -34,7 +34,7 @@ pub use whitened::WhitenedChains;
 
 use crate::linalg::parallel;
 
-/// What a target says of one point.
+/// Log density and statistic of a target at one point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Evaluation {
     /// Logarithm of the density, up to a constant.
@@ -55,7 +55,7 @@ pub trait Target: Sync {
     fn differentiate(&self, points: &[f64]) -> (Vec<Evaluation>, Vec<f64>);
 }
 
-/// Kept draws of an ensemble of chains, and how they came about.
+/// Kept draws of an ensemble of chains, with acceptance and cost.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Draws {
     /// q.
@@ -161,7 +161,7 @@ pub trait Chains: core::fmt::Debug + Send {
     }
 }
 
-/// Chains that have ended, known by their draws.
+/// Finished chains, restored from their draws.
 #[derive(Debug, Clone)]
 pub struct EndedChains(pub Draws);
 

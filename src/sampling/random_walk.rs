@@ -36,13 +36,13 @@ pub struct Step {
     pub chain: usize,
     /// Which part of the mixture proposed: 0 to 2 are Gaussian steps, 3 is the scaling move.
     pub part: usize,
-    /// Where the chain was (q).
+    /// The state of the chain (q).
     pub from: Vec<f64>,
-    /// Where it might go (q).
+    /// The proposal (q).
     pub proposal: Vec<f64>,
-    /// What the target said of where it was.
+    /// Log density and statistic at the state.
     pub before: Evaluation,
-    /// What the target said of the proposal.
+    /// Log density and statistic at the proposal.
     pub after: Evaluation,
     /// Logarithm of the Hastings factor.
     pub log_hastings: f64,
@@ -50,7 +50,7 @@ pub struct Step {
     pub log_ratio: f64,
     /// u, uniform on [0, 1): accepted where log u is below that.
     pub uniform: f64,
-    /// Whether it was.
+    /// Whether it was accepted.
     pub accepted: bool,
 }
 

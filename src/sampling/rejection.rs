@@ -117,7 +117,7 @@ impl Rejection {
         }
     }
 
-    /// A run that has ended, known by its draws.
+    /// A finished run, restored from its draws.
     pub fn ended(draws: Draws) -> Self {
         Self { draws, ..Self::new(Envelope::Prior(0), 0, 0, 0, 0) }
     }

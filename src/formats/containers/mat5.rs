@@ -8,7 +8,7 @@
 //!
 //! Four bytes or fewer may be in the tag itself: then its first word holds the size above and the type below. A
 //! variable is an element of type 14 (matrix) or one of type 15 (compressed by zlib, not padded) around it. A matrix
-//! consists of elements: flags with the class, sides, name, and
+//! consists of elements: flags with the class, shape, name, and
 //!
 //! * values, in any type that holds them: MATLAB stores whole doubles as bytes;
 //! * of a structure: length of the field names, the names, and one matrix for each field;
@@ -217,7 +217,7 @@ impl Walk {
         let end = self.place.saturating_add(tag.size);
         let flags = self.numbers(16)?.first().copied().ok_or(Trouble::Damaged)?;
         let (class, complex) = (flags & 0xff, flags & 0x800 != 0);
-        // What MATLAB stores in its own way (text objects, tables) has no sides.
+        // What MATLAB stores in its own way (text objects, tables) has no shape.
         let shape: Vec<u64> = if class == OPAQUE {
             Vec::new()
         } else {

@@ -360,7 +360,7 @@ pub(crate) fn write(array: &Array) -> Vec<u8> {
     };
     let header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
     // The values start at a multiple of 64, and a line feed ends the header. Version 2 has four
-    // bytes for its length, which no number of sides overflows.
+    // bytes for its length, which no number of dimensions overflows.
     let padding = 63 - (12 + header.len()) % 64;
     let length = header.len() + padding + 1;
     let mut bytes = MAGIC.to_vec();

@@ -2,8 +2,8 @@
 //!
 //! | object | written as |
 //! |---|---|
-//! | NumPy array | `_reconstruct()` with the state (1, sides, type, Fortran order, bytes) |
-//! | the same, protocol 5 | `_frombuffer(bytes, type, sides, order)` |
+//! | NumPy array | `_reconstruct()` with the state (1, shape, type, Fortran order, bytes) |
+//! | the same, protocol 5 | `_frombuffer(bytes, type, shape, order)` |
 //! | NumPy number | `scalar(type, bytes)` |
 //! | its type | `dtype('f8')` with the state (3, '<', …) |
 //! | bytes in protocols 0–2 of Python 3 | `_codecs.encode(text, 'latin1')` |

@@ -30,7 +30,7 @@ const MOST_FILES: usize = 10_000;
 
 /// What `input` is; of a gzip file, what is in it.
 pub(crate) fn content(input: &Input) -> Result<Content, FormatError> {
-    /// Packed bytes that surely unpack to all that [`sniff`] looks at.
+    /// Packed bytes that surely unpack to all that [`sniff`] searches.
     const PACKED: usize = 16 << 10;
     let mut inner = input.clone();
     for _ in 0..DEEPEST {

@@ -27,7 +27,7 @@ use super::error::Fault;
 use crate::formats::input::sniffing::Content;
 use crate::model::Cells;
 
-/// Points and how they are joined.
+/// Points and cells.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Mesh {
     /// Coordinates per point, 2 or 3.
@@ -36,7 +36,7 @@ pub(super) struct Mesh {
     pub(super) points: Vec<f64>,
     /// Triangles, segments or nothing; all corners exist.
     pub(super) cells: Cells,
-    /// What the reader should know, each one sentence.
+    /// Notes for the user, each one sentence.
     pub(super) notes: Vec<String>,
 }
 

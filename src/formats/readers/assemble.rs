@@ -18,7 +18,7 @@ use crate::model::{BasisCheck, Cells, Kind, LinearModel};
 /// How far norms may be from 1 or √λ and still count as such.
 const NORM_TOLERANCE: f64 = 0.01;
 
-/// Cosines between modes above this are mentioned.
+/// Cosines between modes above this are reported in a note.
 const NOTED_COSINE: f64 = 0.01;
 
 /// Negative variances up to this share of the largest are rounding errors.
@@ -46,7 +46,7 @@ pub(crate) enum Scaling {
     Unstated,
 }
 
-/// Everything of which a model is made.
+/// The arrays of which a model is assembled.
 #[derive(Debug)]
 pub(crate) struct Ingredients {
     pub(crate) mean: Named,
@@ -63,7 +63,7 @@ pub(crate) struct Ingredients {
     pub(crate) kind: Kind,
 }
 
-/// A model that was put together, with what there is to say about it.
+/// An assembled model, with notes for the user.
 #[derive(Debug)]
 pub(crate) struct Assembled {
     pub(crate) model: LinearModel,
@@ -71,7 +71,7 @@ pub(crate) struct Assembled {
     pub(crate) notes: Vec<String>,
 }
 
-/// Puts a model together.
+/// Assembles a model.
 pub(crate) fn assemble(ingredients: Ingredients) -> Result<Assembled, Fault> {
     let Ingredients { mean, basis, scaling, points, cells, habit, base, rows, kind } = ingredients;
     let mut notes = Vec::new();

@@ -1,7 +1,7 @@
 //! Normalises faces and line segments: one row per cell, point numbers from 0, counter-clockwise seen from outside.
 //!
-//! Files store k × m or m × k corners, count from 0 or from 1 and wind either way. The side of
-//! length 2, 3 or 4 is the corners; where both sides are that short, the format's habit is tried
+//! Files store k × m or m × k corners, count from 0 or from 1 and wind either way. The dimension of
+//! size 2, 3 or 4 is the corners; where both dimensions are that short, the format's habit is tried
 //! first and kept when its indices exist and no cell repeats a corner. A list whose smallest index
 //! is 1 and whose largest is n counts from 1. A triangle points outwards when its normal points
 //! away from the centroid of the mean; when most do not, all are flipped.
@@ -22,7 +22,7 @@ pub(crate) enum Habit {
     CellsFirst,
 }
 
-/// Cells of a mesh with `points` points, and what the reader should know about them.
+/// Cells of a mesh with `points` points, and notes about them for the user.
 pub(crate) fn read(
     array: &Array,
     habit: Habit,

@@ -480,7 +480,7 @@ fn body_model(table: &dyn NamedArrays, prefix: &str) -> Option<Layout> {
         },
         (Some(52), _) => "SMPL+H",
         (Some(55), _) | (None, 10_475) => "SMPL-X",
-        // Nobody else has 300 modes of identity and 100 of expression.
+        // No other format has 300 modes of identity and 100 of expression.
         _ if modes == 400 => "FLAME or SMPL-X",
         _ => return None,
     };
@@ -770,7 +770,7 @@ impl Source<'_> {
         Ok(array.filter(|array| array.is_list_of(length)).and_then(Array::into_f64))
     }
 
-    /// A text of our own export, which alone has general names.
+    /// A text of Shapevenn's own export, the only format with general names.
     fn text(&mut self, name: &str, general: bool) -> Result<Option<String>, Fault> {
         if !general || self.shape(name).is_none() {
             return Ok(None);
