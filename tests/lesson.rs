@@ -1,4 +1,4 @@
-//! `shapevenn lesson`, as a shell sees it: the figures of every scene, and what is said of links that are none.
+//! `shapevenn lesson`, as a shell sees it: the numbers of every scene, and what is said of links that are none.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::process::{Command, Output};
@@ -10,8 +10,8 @@ fn lesson(arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_shapevenn")).args(all).output().unwrap()
 }
 
-/// The figures of a link, of a call that says nothing else.
-fn figures(link: &str) -> Value {
+/// The numbers of a link, of a call that says nothing else.
+fn scene_numbers(link: &str) -> Value {
     let output = lesson(&[link, "--json"]);
     assert_eq!(String::from_utf8_lossy(&output.stderr), "", "{link}: nothing on standard error");
     assert_eq!(output.status.code(), Some(0), "{link}");
@@ -23,35 +23,35 @@ fn real(value: &Value) -> f64 {
 }
 
 #[test]
-fn every_scene_has_its_figures() {
-    let model = figures("page=learn&scene=model&coefficients=1,2");
+fn every_scene_has_its_numbers() {
+    let model = scene_numbers("page=learn&scene=model&coefficients=1,2");
     assert_eq!(model["point"]["logPrior"], -2.5, "−½‖a‖²");
     assert_eq!(model["settings"]["pair"], "stars-5", "the pair when left out");
 
-    let agree = figures("scene=agree");
+    let agree = scene_numbers("scene=agree");
     let tips = agree["tips"].as_array().unwrap();
     assert_eq!(tips.len(), 5, "five tips");
     let [shared, of_a] = [&tips[0], &tips[2]];
     assert!(real(&shared["intersection"]) > 10.0 * real(&of_a["intersection"]), "tip 0 is shared");
     assert!(real(&of_a["a"]) > 1.0 && real(&of_a["b"]) < 1e-9, "tip 2 is A's alone");
 
-    let planes = figures("scene=planes&coefficients=1,0.5");
+    let planes = scene_numbers("scene=planes&coefficients=1,0.5");
     let expected = 0.5 * libm::sin(50_f64.to_radians());
     assert!((real(&planes["point"]["distance"]) - expected).abs() < 1e-12, "|y| sin 50°");
     assert!((real(&planes["angles"][1]) - 50.0).abs() < 1e-9, "their angle");
 
-    let step = figures("scene=step&steps=40&seed=3&chains=2");
+    let step = scene_numbers("scene=step&steps=40&seed=3&chains=2");
     assert_eq!(step["figures"]["draws"], 80, "two chains of 40");
     assert_eq!(step["lastStep"]["chain"], 1, "the last one's last");
-    assert_eq!(figures("scene=step")["lastStep"], Value::Null, "no step, nothing to tell of");
+    assert_eq!(scene_numbers("scene=step")["lastStep"], Value::Null, "no step, nothing to tell of");
 
-    let difference = figures("scene=difference");
+    let difference = scene_numbers("scene=difference");
     assert_eq!(difference["figures"]["draws"], 1000, "as many as asked");
     let [misled, draws] =
         ["misled", "misledDraws"].map(|name| real(&difference["principal"][name]));
     assert!(misled > 1.5 * draws, "{misled} of the Gaussian, {draws} of the draws");
 
-    let cloud = figures("scene=cloud&sampler=independence");
+    let cloud = scene_numbers("scene=cloud&sampler=independence");
     let falls = cloud["intersection"]["falls"].as_array().unwrap();
     let counts: Vec<&Value> = falls.iter().map(|fall| &fall["draws"]).collect();
     assert_eq!(json!(counts), json!([20, 50, 100, 200, 500, 1000, 2000]), "by 1, 2, 5");
@@ -60,16 +60,17 @@ fn every_scene_has_its_figures() {
 
 #[test]
 fn a_race_is_run_by_five_and_broken_in_four_ways() {
-    let of =
-        |link: &str, index: usize, name: &str| real(&figures(link)["race"][index]["figures"][name]);
-    let race = figures("scene=race");
+    let of = |link: &str, index: usize, name: &str| {
+        real(&scene_numbers(link)["race"][index]["figures"][name])
+    };
+    let race = scene_numbers("scene=race");
     let names: Vec<&Value> =
         race["race"].as_array().unwrap().iter().map(|one| &one["sampler"]).collect();
     let expected = ["paper", "paper-corrected", "mala", "hmc", "independence"];
     assert_eq!(json!(names), json!(expected), "the racers");
     let yields = [1, 4].map(|index| of("scene=race", index, "essPerThousand"));
     assert!(yields[1] > 50.0 * yields[0], "{yields:?} effective draws");
-    let scaling = figures("scene=race&break=scaling&steps=2000");
+    let scaling = scene_numbers("scene=race&break=scaling&steps=2000");
     assert_eq!(scaling["race"].as_array().unwrap().len(), 2, "the walks alone");
     assert!(real(&scaling["race"][0]["figures"]["meanSquare"]) < 0.7, "shrunk");
     assert_eq!(of("scene=race&break=one-chain", 3, "chains"), 1.0, "one chain");
@@ -94,7 +95,7 @@ fn text_has_the_numbers_by_their_paths_and_names_other_keys() {
     let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let line = text.lines().find(|line| line.starts_with("point.distance ")).unwrap();
     assert_eq!(line.split_whitespace().last(), Some("0.383022"), "{text}");
-    assert!(text.contains("! camera is no key that changes the numbers of a scene"), "{text}");
+    assert!(text.contains("! camera does not change the numbers of a scene"), "{text}");
 }
 
 #[test]

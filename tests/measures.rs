@@ -66,7 +66,7 @@ fn principal_components_equal_numpys() {
     close((model.mode(0) * sign).as_slice(), &first, "first mode");
 }
 
-/// The column spaces of the SciPy figures, orthonormal.
+/// The column spaces of the SciPy numbers, orthonormal.
 fn spaces() -> (DMatrix<f64>, DMatrix<f64>) {
     let first = DMatrix::from_fn(9, 3, |i, j| libm::cos(0.9 * i as f64 * (j as f64 + 1.0)));
     let second = DMatrix::from_fn(9, 4, |i, j| libm::sin(0.7 * (i + 1) as f64 * (j + 1) as f64));

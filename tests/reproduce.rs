@@ -1,5 +1,5 @@
 //! The paper's experiments without its sampler, which takes nearly all of the time: what our own ways
-//! give, and what the geometry alone says of the printed figures.
+//! give, and what the geometry alone says of the printed numbers.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::cell::Cell;
@@ -87,7 +87,7 @@ fn the_stars_reach_their_floor_at_both_tolerances() {
 }
 
 #[test]
-fn the_geometry_of_the_stars_gives_the_printed_figures_but_for_two_misprints() {
+fn the_geometry_of_the_stars_gives_the_printed_numbers_but_for_two_misprints() {
     let truth = stars().truth;
     let near = |found: f64, printed: f64| (found - printed).abs() < 2.5e-4;
     for (index, row) in truth.iter().enumerate() {

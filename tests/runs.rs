@@ -1,4 +1,4 @@
-//! What is behind a run: figures of its chains, fingerprints of its models, tables of its modes.
+//! What is behind a run: diagnostics of its chains, fingerprints of its models, tables of its modes.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use std::path::Path;
@@ -20,13 +20,13 @@ fn finished(settings: Settings) -> Comparison {
     compared(&a, &b, settings)
 }
 
-#[allow(clippy::cast_possible_truncation, reason = "figures to look at are single precision")]
+#[allow(clippy::cast_possible_truncation, reason = "numbers to look at are single precision")]
 fn single(values: &[f64]) -> Vec<f32> {
     values.iter().map(|value| *value as f32).collect()
 }
 
 #[test]
-fn figures_of_chains_are_those_behind_the_reports_r_hat() {
+fn diagnostics_of_chains_are_those_behind_the_reports_r_hat() {
     let run = finished(Settings { draws: 800, ..Settings::default() });
     let coefficients = report(&run).intersection.coefficients.unwrap();
     for side in Side::BOTH {
@@ -93,7 +93,7 @@ fn pairs_are_draws_of_all_chains_beside_the_moments_and_the_fit() {
 }
 
 #[test]
-fn stored_and_cancelled_runs_have_figures_and_runs_without_draws_say_so() {
+fn stored_and_cancelled_runs_have_diagnostics_and_runs_without_draws_say_so() {
     let (a, b) = face_like_pair(40, 4);
     let run = finished(Settings { draws: 800, ..Settings::default() });
     let stored = run.results().to_arrays();

@@ -3,7 +3,7 @@
 //!
 //! k = 3: models of 9 modes each, 6 their own and 3 shared, of a smooth orthonormal basis of 15. Shared
 //! and own coordinates factorise, so that the true posterior's principal components are the shared
-//! modes exactly; the figures printed in the paper measure the error of sampling alone.
+//! modes exactly; the numbers printed in the paper measure the error of sampling alone.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use crate::common::{compared, grassmann, random_orthonormal};
@@ -18,7 +18,7 @@ const POINTS: usize = 400;
 const SHARED: usize = 3;
 const OWN: usize = 6;
 const SIGMA: f64 = 0.3;
-/// The paper's figure for 9, 9 and 3 dimensions.
+/// The paper's number for 9, 9 and 3 dimensions.
 const PRINTED: f64 = 0.0877;
 
 /// Two models, and the model of what they share.

@@ -104,7 +104,7 @@ impl RunFile {
         };
         let choose = "Choose the run.json that Shapevenn wrote, or a report.json.";
         let value: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
-            .map_err(|fault| refused(format!("is no JSON: {fault}"), choose))?;
+            .map_err(|fault| refused(format!("is not JSON: {fault}"), choose))?;
         for (name, layout) in [("shapevenn", LAYOUT), ("schema", SCHEMA)] {
             match value.get(name) {
                 Some(found) if *found != layout => {
@@ -234,7 +234,7 @@ mod tests {
     fn what_is_no_run_file_is_said() {
         let (run, _) = stars();
         let text = run.to_json();
-        assert!(fault("{").starts_with("x.json is no JSON: EOF"), "{}", fault("{"));
+        assert!(fault("{").starts_with("x.json is not JSON: EOF"), "{}", fault("{"));
         assert!(fault("[1]").contains("it has no members"), "{}", fault("[1]"));
         let other = fault(r#"{"mean": [1], "basis": []}"#);
         assert!(

@@ -196,7 +196,7 @@ test("a model .json is a model, a damaged run file is refused in words", async (
     await dropFiles(page, "body", [cut]);
     await page
       .getByRole("alert")
-      .filter({ hasText: /is no JSON/ })
+      .filter({ hasText: /is not JSON/ })
       .waitFor();
     const odd = changed(run, ({ settings }) => {
       settings.chains = 1;

@@ -37,7 +37,7 @@ pub(crate) fn lesson(arguments: &Arguments) -> Result<(), Failure> {
         serde_json::to_value(&numbers).map_err(|error| Failure::System(error.to_string()))?;
     print("", &document);
     for key in others {
-        println!("! {key} is no key that changes the numbers of a scene");
+        println!("! {key} does not change the numbers of a scene");
     }
     Ok(())
 }
