@@ -181,13 +181,13 @@ impl<'a> Reader<'a> {
         self.start + self.at as u64
     }
 
-    fn place(&self) -> String {
-        let place = self.path.join("/");
-        if place.is_empty() { "the document".to_owned() } else { place }
+    fn path(&self) -> String {
+        let path = self.path.join("/");
+        if path.is_empty() { "the document".to_owned() } else { path }
     }
 
     fn damaged(&self, reason: &str) -> Fault {
-        Fault::Damaged { what: self.place(), reason: format!("{reason} (byte {})", self.offset()) }
+        Fault::Damaged { what: self.path(), reason: format!("{reason} (byte {})", self.offset()) }
     }
 
     /// The members below the outermost often have names that mean nothing to anyone.
@@ -420,7 +420,7 @@ impl<'a> Reader<'a> {
             count += 1;
             if flat.len() > MOST_NUMBERS {
                 let (claimed, limit) = (flat.len() as u64 * 8, MOST_NUMBERS as u64 * 8);
-                return Err(Fault::Size { what: self.place(), claimed, limit });
+                return Err(Fault::Size { what: self.path(), claimed, limit });
             }
         }
         Ok(match inner {
@@ -492,7 +492,7 @@ impl<'a> Reader<'a> {
     }
 
     fn no_number(&self, found: &str) -> Fault {
-        Fault::JsonNumber { path: self.place(), found: found.to_owned() }
+        Fault::JsonNumber { path: self.path(), found: found.to_owned() }
     }
 
     fn string(&mut self) -> Result<String, Fault> {
@@ -575,7 +575,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_is_named_with_its_place() {
+    fn what_is_not_a_number_is_reported_with_its_path() {
         let path = "here/mean".to_owned();
         for word in ["NaN", "Infinity", "-Infinity", "null"] {
             let found = word.to_owned();

@@ -37,7 +37,7 @@ pub(crate) enum Variable {
     /// Numbers or letters, and where they are.
     Values {
         header: Header,
-        place: Place,
+        location: Location,
         /// Whether the numbers are codes of letters.
         letters: bool,
     },
@@ -49,7 +49,7 @@ pub(crate) enum Variable {
 
 /// Where values are.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Place {
+pub(crate) struct Location {
     /// First byte of the bytes to read from.
     pub(crate) start: u64,
     /// Whether those are compressed.
@@ -134,7 +134,7 @@ impl NamedArrays for MatFile<'_> {
     }
 
     fn read(&mut self, name: &str) -> Result<Array, Fault> {
-        let Some(Variable::Values { header, place, letters }) = self.index.variables.get(name)
+        let Some(Variable::Values { header, location, letters }) = self.index.variables.get(name)
         else {
             return Err(crate::formats::error::not_numbers(name, "something else"));
         };
@@ -142,8 +142,8 @@ impl NamedArrays for MatFile<'_> {
             what: name.to_owned(),
             reason: "its compressed bytes are corrupt".to_owned(),
         };
-        let mut stream = Stream::open(self.input, place.start, place.packed);
-        stream.skip(place.skip).map_err(|_| corrupt())?;
+        let mut stream = Stream::open(self.input, location.start, location.packed);
+        stream.skip(location.skip).map_err(|_| corrupt())?;
         let array = npy::read_values(header, &mut stream, self.limit).map_err(|error| {
             let fault = error.into_fault(name, self.limit);
             // Where the file is cut off, compressed bytes look corrupt.

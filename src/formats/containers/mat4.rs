@@ -14,7 +14,7 @@
 //!
 //! **References.** MathWorks, "MAT-File Format", 2019, appendix on level 4.
 
-use crate::formats::containers::mat::{Index, MOST_VARIABLES, Place, Variable};
+use crate::formats::containers::mat::{Index, Location, MOST_VARIABLES, Variable};
 use crate::formats::containers::npy::Header;
 use crate::formats::error::Fault;
 use crate::formats::input::Input;
@@ -62,11 +62,11 @@ fn variable(input: &Input, start: u64) -> Option<Found> {
     // The type is below 10 000, which it is in one order only, but for 0.
     let little = u32::from_le_bytes(words[0]);
     let big = little >= 10_000;
-    let word = |place: usize| {
+    let word = |index: usize| {
         u64::from(if big {
-            u32::from_be_bytes(words[place])
+            u32::from_be_bytes(words[index])
         } else {
-            u32::from_le_bytes(words[place])
+            u32::from_le_bytes(words[index])
         })
     };
     let [kind, rows, columns, complex, name_length] = [0, 1, 2, 3, 4].map(word);
@@ -89,12 +89,12 @@ fn variable(input: &Input, start: u64) -> Option<Found> {
     let shape = vec![rows, columns];
     let header = Header::new(shape, format!("{order}{number}"), true);
     let bytes = header.bytes().unwrap_or(u64::MAX).saturating_mul(1 + complex.min(1));
-    let place = Place { start: start + HEADER + name_length, packed: false, skip: 0 };
-    let end = place.start.saturating_add(bytes);
+    let location = Location { start: start + HEADER + name_length, packed: false, skip: 0 };
+    let end = location.start.saturating_add(bytes);
     let variable = match kind % 10 {
         2 => Variable::Other("a sparse matrix"),
         0 | 1 if complex > 0 => Variable::Other("pairs of real and imaginary parts"),
-        0 | 1 => Variable::Values { header, place, letters },
+        0 | 1 => Variable::Values { header, location, letters },
         _ => return None,
     };
     Some(Found { name, variable, end })

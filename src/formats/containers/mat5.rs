@@ -23,7 +23,7 @@
 use std::io::Read;
 
 use crate::formats::containers::arrays::count_of;
-use crate::formats::containers::mat::{Index, MOST_VARIABLES, Place, Stream, Variable};
+use crate::formats::containers::mat::{Index, Location, MOST_VARIABLES, Stream, Variable};
 use crate::formats::containers::npy::Header;
 use crate::formats::error::Fault;
 use crate::formats::input::{Input, largest_array};
@@ -50,32 +50,33 @@ pub(crate) fn index(input: &Input) -> Result<Index, Fault> {
     let length = input.len();
     let mut index = Index::default();
     let mut budget = largest_array(usize::try_from(length).unwrap_or(usize::MAX));
-    let mut place = 128;
+    let mut position = 128;
     for _ in 0..MOST_VARIABLES {
-        if place + 8 > length {
-            if place < length && index.damage.is_none() {
-                let (what, present) = ("a variable".to_owned(), length - place);
+        if position + 8 > length {
+            if position < length && index.damage.is_none() {
+                let (what, present) = ("a variable".to_owned(), length - position);
                 index.damage = Some(Fault::Truncated { what, needed: 8, present });
             }
             break;
         }
-        let mut outer = Walk::new(input, Place { start: place, packed: false, skip: 0 }, big, 8);
+        let mut outer =
+            Walk::new(input, Location { start: position, packed: false, skip: 0 }, big, 8);
         let Ok(tag) = outer.tag() else { break };
-        let end = place + 8 + tag.size;
+        let end = position + 8 + tag.size;
         if end > length {
             let what = "a variable".to_owned();
-            let (needed, present) = (tag.size, length - place - 8);
+            let (needed, present) = (tag.size, length - position - 8);
             index.damage = Some(Fault::Truncated { what, needed, present });
         }
         let inner = match tag.kind {
-            MATRIX => Place { start: place, packed: false, skip: 0 },
-            COMPRESSED => Place { start: place + 8, packed: true, skip: 0 },
+            MATRIX => Location { start: position, packed: false, skip: 0 },
+            COMPRESSED => Location { start: position + 8, packed: true, skip: 0 },
             _ => {
-                place = end.max(place + 8);
+                position = end.max(position + 8);
                 continue;
             }
         };
-        let bound = if inner.packed { budget } else { length - place };
+        let bound = if inner.packed { budget } else { length - position };
         let mut walk = Walk::new(input, inner, big, bound);
         match walk.matrix("", 0, &mut index) {
             Err(Trouble::Large) => {
@@ -96,10 +97,10 @@ pub(crate) fn index(input: &Input) -> Result<Index, Fault> {
             _ => {}
         }
         if inner.packed {
-            budget = budget.saturating_sub(walk.place);
+            budget = budget.saturating_sub(walk.position);
         }
         // Only compressed elements are not padded.
-        place = if inner.packed { end } else { end.next_multiple_of(8) };
+        position = if inner.packed { end } else { end.next_multiple_of(8) };
     }
     Ok(index)
 }
@@ -127,9 +128,9 @@ struct Tag {
 /// A walk through the elements of a variable.
 struct Walk {
     stream: Stream,
-    from: Place,
+    from: Location,
     /// Bytes passed so far.
-    place: u64,
+    position: u64,
     /// Bytes that may be walked through.
     bound: u64,
     big: bool,
@@ -138,16 +139,19 @@ struct Walk {
 }
 
 impl Walk {
-    fn new(input: &Input, from: Place, big: bool, bound: u64) -> Self {
+    fn new(input: &Input, from: Location, big: bool, bound: u64) -> Self {
         let stream = Stream::open(input, from.start, from.packed);
-        Self { stream, from, place: 0, bound, big, seen: 0 }
+        Self { stream, from, position: 0, bound, big, seen: 0 }
     }
 
     /// Counts bytes that are about to be passed.
     fn pass(&mut self, count: u64) -> Result<(), Trouble> {
         let trouble = if self.from.packed { Trouble::Large } else { Trouble::Damaged };
-        self.place =
-            self.place.checked_add(count).filter(|&place| place <= self.bound).ok_or(trouble)?;
+        self.position = self
+            .position
+            .checked_add(count)
+            .filter(|&position| position <= self.bound)
+            .ok_or(trouble)?;
         Ok(())
     }
 
@@ -214,7 +218,7 @@ impl Walk {
         if tag.size == 0 {
             return Ok(());
         }
-        let end = self.place.saturating_add(tag.size);
+        let end = self.position.saturating_add(tag.size);
         let flags = self.numbers(16)?.first().copied().ok_or(Trouble::Damaged)?;
         let (class, complex) = (flags & 0xff, flags & 0x800 != 0);
         // What MATLAB stores in its own way (text objects, tables) has no shape.
@@ -234,14 +238,14 @@ impl Walk {
             1..=3 if depth == DEEPEST => Variable::Other("structures too deep in one another"),
             1 => {
                 self.cells(name, &shape, depth, index)?;
-                return self.skip(end.saturating_sub(self.place));
+                return self.skip(end.saturating_sub(self.position));
             }
             2 | 3 => {
                 if class == 3 {
                     self.content(LONGEST_NAMES)?;
                 }
                 self.structure(name, &shape, depth, index)?;
-                return self.skip(end.saturating_sub(self.place));
+                return self.skip(end.saturating_sub(self.position));
             }
             5 => Variable::Other("a sparse matrix"),
             _ if complex => Variable::Other("pairs of real and imaginary parts"),
@@ -251,7 +255,7 @@ impl Walk {
         };
         index.variables.insert(name.to_owned(), variable);
         // Nothing follows a variable at the top that would have to be reached.
-        if depth == 0 { Ok(()) } else { self.skip(end.saturating_sub(self.place)) }
+        if depth == 0 { Ok(()) } else { self.skip(end.saturating_sub(self.position)) }
     }
 
     /// Values, which are left where they are.
@@ -280,8 +284,8 @@ impl Walk {
         if !letters && header.bytes() != Some(tag.size) {
             return Ok(Variable::Misfit);
         }
-        let place = Place { skip: self.place, ..self.from };
-        Ok(Variable::Values { header, place, letters })
+        let location = Location { skip: self.position, ..self.from };
+        Ok(Variable::Values { header, location, letters })
     }
 
     fn cells(

@@ -91,7 +91,7 @@ impl Heap<'_> {
 /// The stack machine.
 pub(crate) struct Machine<'a> {
     heap: Heap<'a>,
-    place: usize,
+    position: usize,
     stack: Vec<Id>,
     marks: Vec<usize>,
     memo: BTreeMap<usize, Id>,
@@ -112,7 +112,7 @@ impl<'a> Machine<'a> {
     pub(crate) fn run(bytes: &'a [u8]) -> Result<(Heap<'a>, Id), Fault> {
         let mut machine = Self {
             heap: Heap { bytes, values: Vec::new() },
-            place: 0,
+            position: 0,
             stack: Vec::new(),
             marks: Vec::new(),
             memo: BTreeMap::new(),
@@ -132,7 +132,7 @@ impl<'a> Machine<'a> {
                             Fault::Truncated { what: "an array".to_owned(), needed, present }
                         }
                         Stop::Reason(reason) => {
-                            damaged(format!("{reason} (before byte {})", machine.place))
+                            damaged(format!("{reason} (before byte {})", machine.position))
                         }
                     });
                 }
@@ -351,15 +351,15 @@ impl<'a> Machine<'a> {
     }
 
     fn array<const N: usize>(&mut self) -> Result<[u8; N], Stop> {
-        let rest = self.heap.bytes.get(self.place..).ok_or(Stop::End)?;
+        let rest = self.heap.bytes.get(self.position..).ok_or(Stop::End)?;
         let array = rest.first_chunk::<N>().ok_or(Stop::End)?;
-        self.place += N;
+        self.position += N;
         Ok(*array)
     }
 
     fn skip(&mut self, count: usize) -> Result<(), Stop> {
-        self.place += count;
-        if self.place <= self.heap.bytes.len() { Ok(()) } else { Err(Stop::End) }
+        self.position += count;
+        if self.position <= self.heap.bytes.len() { Ok(()) } else { Err(Stop::End) }
     }
 
     /// A length or number of `N` bytes.
@@ -368,26 +368,26 @@ impl<'a> Machine<'a> {
         let number = bytes.iter().rev().fold(0_u64, |number, &byte| number << 8 | u64::from(byte));
         usize::try_from(number).map_err(|_| Stop::Short {
             needed: number,
-            present: (self.heap.bytes.len() - self.place) as u64,
+            present: (self.heap.bytes.len() - self.position) as u64,
         })
     }
 
     /// The next `length` bytes.
     fn span(&mut self, length: usize, coding: Coding) -> Result<Span, Stop> {
-        let (start, present) = (self.place, self.heap.bytes.len() - self.place);
+        let (start, present) = (self.position, self.heap.bytes.len() - self.position);
         if length > present {
             return Err(Stop::Short { needed: length as u64, present: present as u64 });
         }
-        self.place += length;
-        Ok(Span { start, end: self.place, coding })
+        self.position += length;
+        Ok(Span { start, end: self.position, coding })
     }
 
     /// The bytes up to the end of the line, which is passed.
     fn line(&mut self) -> Result<Span, Stop> {
-        let rest = self.heap.bytes.get(self.place..).unwrap_or_default();
+        let rest = self.heap.bytes.get(self.position..).unwrap_or_default();
         let length = rest.iter().position(|&byte| byte == b'\n').ok_or(Stop::End)?;
-        let start = self.place;
-        self.place += length + 1;
+        let start = self.position;
+        self.position += length + 1;
         Ok(Span { start, end: start + length, coding: Coding::Raw })
     }
 

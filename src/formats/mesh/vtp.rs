@@ -87,8 +87,8 @@ struct DataArray<'a> {
 }
 
 impl<'a> Document<'a> {
-    /// Collects the arrays of a file of `length` bytes. Closing tags are not checked, as many files that can be read
-    /// lack some.
+    /// Collects the arrays of a file of `length` bytes. Closing tags are not checked: a file that lacks some can still
+    /// be read.
     fn read(xml: &'a str, appended: &'a [u8], length: usize) -> Result<Self, Fault> {
         let mut file = Self {
             coding: Coding::new(length),
