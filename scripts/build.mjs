@@ -2,7 +2,13 @@
 import { existsSync, statSync } from "node:fs";
 import { join, relative } from "node:path";
 import { ensureBuild, ensureNode } from "./setup.mjs";
-import { compileEngine, compileTool, filesOfEngine, packageEngine } from "./steps/engine.mjs";
+import {
+  compileEngine,
+  compileTool,
+  filesOfEngine,
+  packageEngine,
+  typesOfEngine,
+} from "./steps/engine.mjs";
 import { isMain, main, root, step } from "./steps/run.mjs";
 import { isFresh, setStamp, takeStamp } from "./steps/stamps.mjs";
 import { wasmCompiler } from "./steps/toolchain.mjs";
@@ -39,6 +45,7 @@ export async function buildEngine({ quick = false, say = step } = {}) {
     // The compiler works on our crate with one processor; the other makes the tool meanwhile.
     const [module] = await Promise.all([compileEngine(wasm, { quick }), compileTool()]);
     await packageEngine(module);
+    typesOfEngine();
     const { size } = statSync(join(root, "www/public/engine/shapevenn_bg.wasm"));
     return `${Math.round(size / 1000)} kB`;
   });

@@ -18,7 +18,7 @@ import {
   ensureSystem,
   ensureWasm,
 } from "./setup.mjs";
-import { lintEngine } from "./steps/engine.mjs";
+import { lintEngine, typesOfEngine } from "./steps/engine.mjs";
 import { nodeTests } from "./steps/node-tests.mjs";
 import { announce, attempt, explain, main, note, StepError } from "./steps/run.mjs";
 import { bundleUnitTests } from "./unit.mjs";
@@ -131,6 +131,12 @@ await main(async () => {
 
   console.log("The built page");
   await test("The engine, built meanwhile", ["WebAssembly"], () => engine);
+  await test("Types of the engine for the worker", ["WebAssembly"], async () => {
+    await engine;
+    const failed = typesOfEngine().current ? 0 : 1;
+    const output = "www/worker/engine.d.ts is not current: SHAPEVENN_WRITE=1 npm run build";
+    return { passed: 1 - failed, failed, output };
+  });
   await test("Clippy, WebAssembly", ["Clippy for WebAssembly"], async () => {
     const { ok, output } = await lintEngine(ready.get("Clippy for WebAssembly"));
     return { passed: ok ? 1 : 0, failed: ok ? 0 : 1, output };

@@ -76,10 +76,10 @@ impl ComparisonError {
             Self::FlatIntersection => {
                 "Try a larger σ, or align B to A: a constant offset between the models empties the intersection."
             }
-            Self::NoDraws { .. } => "Wait until the run has drawn some.",
+            Self::NoDraws { .. } => "Wait until the run is further, or start one.",
             Self::NoMode { .. } => "Choose one of the modes that the model has.",
             Self::StoredDraws { .. } => "Load the two models with which the draws were made.",
-            Self::NothingYet => "Wait until the run has drawn some.",
+            Self::NothingYet => "Wait until the run is further, or start one.",
             Self::NoNormals => "Choose a map that needs no normals.",
             Self::Asked { .. } => "Ask for one that there is.",
         }
@@ -108,7 +108,7 @@ impl fmt::Display for ComparisonError {
             Self::StoredDraws { array } => {
                 write!(f, "The stored draws “{array}” do not fit the two models.")
             }
-            Self::NothingYet => write!(f, "There are no shapes of this region yet."),
+            Self::NothingYet => write!(f, "The run has not computed this yet."),
             Self::NoNormals => write!(
                 f,
                 "The points are not joined to a surface or an outline, so that they have no normals."

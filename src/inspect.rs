@@ -36,6 +36,7 @@ const ENOUGH_VARIANCE: f64 = 0.98;
 
 /// What there is to say about two models before they are compared.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct Inspection {
     /// Why they cannot be compared as they stand.
@@ -60,6 +61,7 @@ pub struct Inspection {
 
 /// Whether two meshes have the same triangles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub enum Agreement {
     /// The same, up to their order and winding.
@@ -72,6 +74,7 @@ pub enum Agreement {
 
 /// A unit, stated and guessed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct UnitFound {
     /// By the file, or declared since.
     pub stated: Unit,
@@ -81,6 +84,7 @@ pub struct UnitFound {
 
 /// Mean distance of corresponding points of the two means, in the unit of A.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct MeanDistance {
     /// As the files are.
     pub before: Option<f64>,
@@ -94,6 +98,7 @@ pub struct MeanDistance {
 
 /// One step that can be taken, or taken back.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Remedy {
     /// What it is about: "unit", "align" …
     pub id: &'static str,
@@ -102,6 +107,7 @@ pub struct Remedy {
     /// Why, in one sentence.
     pub sentence: String,
     /// Settings to change; objects are merged.
+    #[cfg_attr(test, ts(type = "import(\"./protocol\").SettingsPatch"))]
     pub settings: Value,
     /// Whether most people would want it.
     pub recommended: bool,

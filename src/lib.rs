@@ -156,5 +156,7 @@ pub mod settings;
 #[cfg(test)]
 mod testing;
 mod text;
+#[cfg(test)]
+mod typescript;
 #[cfg(target_arch = "wasm32")]
 pub mod wasm;

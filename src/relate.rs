@@ -43,6 +43,7 @@ pub struct Relation {
 /// A relation as the page and `shapevenn matrix --json` have it: the reason instead of numbers where two models
 /// cannot be compared.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct RelationReport {
     /// Why the two cannot be compared with these settings.

@@ -14,6 +14,7 @@ pub const SCHEMA: u32 = 1;
 
 /// A finished (or cancelled) comparison of two models.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct Report {
     /// [`SCHEMA`].
@@ -41,6 +42,7 @@ pub struct Report {
 
 /// The two models of a comparison.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Models {
     /// First model.
     pub a: ModelReport,
@@ -50,6 +52,7 @@ pub struct Models {
 
 /// One model, described.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct ModelReport {
     /// What it is called: the file's name, with the part behind `#`.
@@ -61,6 +64,7 @@ pub struct ModelReport {
     /// Number of points n.
     pub points: usize,
     /// Coordinates per point d.
+    #[cfg_attr(test, ts(type = "2 | 3"))]
     pub dimension: usize,
     /// Number of modes q.
     pub modes: usize,
@@ -80,18 +84,23 @@ pub struct ModelReport {
     pub notes: Vec<String>,
     /// Largest |cos| between two modes of the file; 0 where they were orthogonal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, ts(optional))]
     pub orthogonality: Option<f64>,
     /// Modes of the file that were dropped for lack of variance.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, ts(optional))]
     pub dropped_modes: Option<usize>,
     /// The unit that the extent of the mean shape suggests, where the file states none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, ts(optional))]
     pub unit_guess: Option<Unit>,
     /// Which model of its file it is: "shape", "expression", a group's name.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, ts(optional))]
     pub part: Option<String>,
     /// [`LinearModel::fingerprint`] of the model as it was read, before anything was done to it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, ts(optional))]
     pub fingerprint: Option<String>,
 }
 
@@ -128,6 +137,7 @@ impl ModelReport {
 
 /// Smallest, mean and largest of a map over the vertices.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Spread {
     /// Smallest value.
     pub min: f64,
@@ -153,6 +163,7 @@ impl Spread {
 
 /// Mean and standard deviation of a quantity over draws.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct MeanSd {
     /// Mean over the draws.
     pub mean: f64,
@@ -176,6 +187,7 @@ impl MeanSd {
 
 /// The intersection model and how far it may be believed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct IntersectionReport {
     /// Modes of the intersection model.
@@ -217,6 +229,7 @@ pub struct IntersectionReport {
 
 /// What the moments of a side are made of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum MomentSource {
     /// The Gaussian fit's own; where there are weighted draws, their correction is within its own error.
@@ -229,6 +242,7 @@ pub enum MomentSource {
 
 /// How one side was inferred.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct InferenceReport {
     /// The sampler that ran.
@@ -243,6 +257,7 @@ pub struct InferenceReport {
 
 /// Standard errors of the intersection model. Modes are counted from 1 in words, from 0 in lists.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct Accuracy {
     /// Of the covariance, as a share of it (Frobenius norm).
@@ -259,6 +274,7 @@ pub struct Accuracy {
 
 /// How far the models that either side alone would give lie apart.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct Disagreement {
     /// Mean distance between corresponding points of the two means.
@@ -277,6 +293,7 @@ pub struct Disagreement {
 
 /// σ beside the distances of the two models, in the unit of A.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct ToleranceReport {
     /// The σ that would be recommended.
@@ -299,6 +316,7 @@ pub struct ToleranceReport {
 
 /// Distances of the intersection model to A, to B and to their union, in radians.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct Grassmann {
     /// To model A.
@@ -311,6 +329,7 @@ pub struct Grassmann {
 
 /// Whether to believe a set of draws.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct Diagnostics {
     /// Largest rank-normalised split R-hat over the coefficients; absent for independent draws.
@@ -346,6 +365,7 @@ pub struct Diagnostics {
 
 /// Diagnostics of each coefficient, first mode first.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct ModeDiagnostics {
     /// Rank-normalised R-hat, the larger of split and folded.
@@ -364,6 +384,7 @@ pub struct ModeDiagnostics {
 
 /// The two set differences.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct Differences {
     /// A \ B.
@@ -374,6 +395,7 @@ pub struct Differences {
 
 /// One set difference, sampled exactly.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct DifferenceReport {
     /// Share of the model's shapes that the other cannot make, E[1 − L_D].
@@ -412,6 +434,7 @@ pub struct DifferenceReport {
 
 /// What the proposals of a difference are drawn from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum EnvelopeName {
     /// The model's own shapes.
@@ -423,6 +446,7 @@ pub enum EnvelopeName {
 
 /// Directions in which a model varies most and the other cannot follow.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct ExclusiveReport {
     /// Residual (root mean square over the points) of one standard deviation along each, largest first.
@@ -433,6 +457,7 @@ pub struct ExclusiveReport {
 
 /// Shares of variance, principal angles and divergences of two models.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct Overlap {
     /// Principal angles between span U₁ and span U₂, smallest first.
@@ -455,6 +480,7 @@ pub struct Overlap {
 
 /// What is lost when one model is described by the other, in nats.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct KullbackLeibler {
     /// KL(A‖B): shapes of A, described by B.
@@ -465,6 +491,7 @@ pub struct KullbackLeibler {
 
 /// How few modes hold how much of a model: the share of its variance in its first 1, 2, … modes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Compactness {
     /// Of A.
     pub a: Vec<f64>,
@@ -477,6 +504,7 @@ pub struct Compactness {
 /// A model without the intersection as a matter of moments (Hall, Marshall & Martin's splitting), beside the
 /// set difference.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct LinearSplitReport {
     /// Share of the model that is taken for the intersection, 1 − P of the difference.
@@ -493,6 +521,7 @@ pub struct LinearSplitReport {
 
 /// Something that a person should know: a warning of a report, why two models cannot be compared, an error.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Notice {
     /// Stable code, for programs.
     pub code: String,
@@ -512,6 +541,7 @@ impl Notice {
 
 /// Wall-clock seconds of the stages; the only part of a report that is not reproducible.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Seconds {
     /// Reading the two models.
     pub load: f64,

@@ -1,7 +1,7 @@
-//! WebAssembly bindings of the engine for the page's worker; nothing else uses wasm-bindgen.
+//! WebAssembly bindings of the engine for the page's worker.
 //!
-//! Small things cross as plain objects, shapes as typed arrays (copies, since views into this
-//! memory die when it grows), errors as `{ code, message, hint }`. The worker owns the one
+//! Everything crosses as plain objects, long lists of numbers as typed arrays
+//! ([`crate::linalg::TypedArray`]), errors as `{ code, message, hint }`. The worker owns the one
 //! [`Engine`] and measures time; nothing here knows a clock.
 
 mod blobs;
@@ -12,22 +12,31 @@ mod lessons;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
-use js_sys::{Array, Float32Array, Function, Object, Promise, Reflect, Uint8Array, Uint32Array};
+use js_sys::{Array, Function, Object, Promise, Reflect, Uint8Array};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use wasm_bindgen::prelude::*;
 
-use crate::comparison::{Comparison, Region, RegionShapes, ShapeSource, Stage};
+use crate::comparison::{Comparison, DifferenceView, Region, Stage};
 use crate::error::ComparisonError;
-use crate::files::{self, Described, Download, Error, ShownShape};
-use crate::formats::{self, Options, Origin};
+use crate::files::{self, Described, Download, Error};
+use crate::formats::{self, Options};
 use crate::lessons::Lesson;
 use crate::linalg::parallel;
-use crate::model::{Cells, LinearModel, Sides};
+use crate::model::{Geometry, LinearModel};
 use crate::pair::{PairError, PointSelection};
-use crate::report::{ModelReport, Notice, Seconds};
+use crate::report::{Notice, Seconds};
 use crate::roofline::{self, Workload};
 use crate::settings::Settings;
+
+#[wasm_bindgen(typescript_custom_section)]
+const TYPES: &str = r#"
+import type {
+  Axes, AxesKind, ChainPlots, DifferenceShapes, Download, DroppedFile, Ellipsoid, Evaluation, Explored, Geometry,
+  Group, Inspection, LessonAnswer, LessonAsk, MapName, Nearest, OpenedModel, PairPlots, PointSelection, Preview,
+  Progress, Region, RegionShapes, RelationReport, RunFile, Settings, Side, Sides, Space, SweepPoint, VertexMap,
+} from "./protocol";
+"#;
 
 /// Starts as many threads, each a worker of its own that shares this memory; resolves once they run. Needs
 /// a page that is cross-origin isolated; without it, and until this is called, the engine runs on one.
@@ -54,18 +63,6 @@ pub struct Engine {
     comparison: Option<Comparison>,
     seconds: Seconds,
     lesson: Lesson,
-}
-
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct OpenedModel<'a> {
-    format: &'a str,
-    parts: &'a [String],
-    model: u32,
-    part: &'a str,
-    report: &'a ModelReport,
-    origin: Origin,
-    has_map: bool,
 }
 
 /// Work with a known number of floating-point operations, for the benchmark that measures how near the
@@ -98,23 +95,6 @@ impl Roofline {
     }
 }
 
-fn shown(region: JsValue, shapes: &RegionShapes) -> JsValue {
-    let array = |values: &[f32]| JsValue::from(Float32Array::from(values));
-    let source = match shapes.source {
-        ShapeSource::Model => "model",
-        ShapeSource::Fit => "fit",
-        ShapeSource::Draws => "draws",
-    };
-    object(&[
-        ("region", region),
-        ("mean", array(&shapes.mean)),
-        ("vertexSd", array(&shapes.vertex_sd)),
-        ("samples", array(&shapes.samples)),
-        ("count", plain(&shapes.count)),
-        ("source", JsValue::from_str(source)),
-    ])
-}
-
 fn fault(code: &str, message: impl ToString, hint: impl ToString) -> JsValue {
     plain(&Notice::new(code, message, hint))
 }
@@ -140,16 +120,6 @@ fn object(members: &[(&str, JsValue)]) -> JsValue {
     object.into()
 }
 
-#[allow(clippy::cast_possible_truncation, reason = "maps to look at are single precision")]
-fn single(values: &[f64]) -> JsValue {
-    let single: Vec<f32> = values.iter().map(|value| *value as f32).collect();
-    Float32Array::from(&single[..]).into()
-}
-
-fn indices<const N: usize>(cells: &[[u32; N]]) -> JsValue {
-    Uint32Array::from(cells.as_flattened()).into()
-}
-
 /// By way of a JSON value: every type is then read by one reader, which files and links need as well.
 fn parsed<T: DeserializeOwned>(value: JsValue, what: &str) -> Result<T, JsValue> {
     let refused = |error: &dyn Display| {
@@ -158,22 +128,6 @@ fn parsed<T: DeserializeOwned>(value: JsValue, what: &str) -> Result<T, JsValue>
     let value: serde_json::Value =
         serde_wasm_bindgen::from_value(value).map_err(|error| refused(&error))?;
     serde_json::from_value(value).map_err(|error| refused(&error))
-}
-
-fn geometry_of(model: &LinearModel) -> JsValue {
-    let (triangles, segments) = match model.cells() {
-        Cells::Triangles(triangles) => (indices(triangles), JsValue::NULL),
-        Cells::Segments(segments) => (JsValue::NULL, indices(segments)),
-        Cells::None => (JsValue::NULL, JsValue::NULL),
-    };
-    object(&[
-        ("dimension", plain(&model.dimension())),
-        ("kind", plain(&model.kind())),
-        ("mean", single(model.mean().as_slice())),
-        ("triangles", triangles),
-        ("segments", segments),
-        ("vertexSd", single(&model.vertex_standard_deviations())),
-    ])
 }
 
 fn settings_of(value: JsValue) -> Result<Settings, JsValue> {
@@ -205,7 +159,11 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }`.
-    pub fn groups(&self, files: &Array) -> Result<JsValue, JsValue> {
+    #[wasm_bindgen(unchecked_return_type = "Group[]")]
+    pub fn groups(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "DroppedFile[]")] files: &Array,
+    ) -> Result<JsValue, JsValue> {
         let groups = formats::groups(&blobs::inputs(files, None)?).map_err(thrown)?;
         Ok(plain(&groups))
     }
@@ -215,11 +173,13 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }`.
+    #[wasm_bindgen(unchecked_return_type = "OpenedModel")]
     pub fn open(
         &mut self,
-        files: &Array,
+        #[wasm_bindgen(unchecked_param_type = "DroppedFile[]")] files: &Array,
         part: Option<String>,
         scale: bool,
+        #[wasm_bindgen(unchecked_param_type = "(bytes: number, of: number) => void")]
         on_read: Option<Function>,
     ) -> Result<JsValue, JsValue> {
         let inputs = blobs::inputs(files, on_read)?;
@@ -232,22 +192,14 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }`.
-    #[wasm_bindgen(js_name = openDemo)]
+    #[wasm_bindgen(js_name = openDemo, unchecked_return_type = "OpenedModel")]
     pub fn open_demo(&mut self, demo: &str, bytes: Option<Box<[u8]>>) -> Result<JsValue, JsValue> {
         let described = files::open_demo(demo, bytes.as_deref()).map_err(thrown)?;
         Ok(self.keep(described))
     }
 
     fn keep(&mut self, described: Described) -> JsValue {
-        let opened = plain(&OpenedModel {
-            format: &described.report.format,
-            parts: &described.parts,
-            model: self.next_handle,
-            part: &described.part,
-            report: &described.report,
-            origin: described.origin,
-            has_map: described.model.point_numbers().is_some(),
-        });
+        let opened = plain(&described.opened(self.next_handle));
         self.models.insert(self.next_handle, described);
         self.next_handle += 1;
         opened
@@ -257,7 +209,13 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }` when a model is closed.
-    pub fn inspect(&self, a: u32, b: u32, settings: JsValue) -> Result<JsValue, JsValue> {
+    #[wasm_bindgen(unchecked_return_type = "Inspection")]
+    pub fn inspect(
+        &self,
+        a: u32,
+        b: u32,
+        #[wasm_bindgen(unchecked_param_type = "Partial<Settings>")] settings: JsValue,
+    ) -> Result<JsValue, JsValue> {
         let settings = settings_of(settings)?;
         let (first, second) = (self.model(a)?, self.model(b)?);
         Ok(plain(&crate::inspect::inspect(&first.model, &second.model, &settings)))
@@ -267,6 +225,7 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }` when a line is none.
+    #[wasm_bindgen(unchecked_return_type = "PointSelection")]
     pub fn points(&self, text: &str) -> Result<JsValue, JsValue> {
         let points = PointSelection::parse(text);
         points
@@ -278,9 +237,9 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }` when no comparison is open.
+    #[wasm_bindgen(unchecked_return_type = "Sides<Geometry>")]
     pub fn compared(&self) -> Result<JsValue, JsValue> {
-        let Sides { a, b } = self.current()?.pair().models().map(geometry_of);
-        Ok(object(&[("a", a), ("b", b)]))
+        Ok(plain(&self.current()?.pair().models().map(Geometry::of)))
     }
 
     fn model(&self, handle: u32) -> Result<&Described, JsValue> {
@@ -293,8 +252,9 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }` when the model is closed.
+    #[wasm_bindgen(unchecked_return_type = "Geometry")]
     pub fn geometry(&self, model: u32) -> Result<JsValue, JsValue> {
-        Ok(geometry_of(&self.model(model)?.model))
+        Ok(plain(&Geometry::of(&self.model(model)?.model)))
     }
 
     /// Begins the comparison of two models; the one before it is given up. A setting that is left out
@@ -302,7 +262,12 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }` when the two cannot be compared; the comparison before stays.
-    pub fn start(&mut self, a: u32, b: u32, settings: JsValue) -> Result<(), JsValue> {
+    pub fn start(
+        &mut self,
+        a: u32,
+        b: u32,
+        #[wasm_bindgen(unchecked_param_type = "Partial<Settings>")] settings: JsValue,
+    ) -> Result<(), JsValue> {
         let settings = settings_of(settings)?;
         let (first, second) = (self.model(a)?, self.model(b)?);
         let described = [first.report.clone(), second.report.clone()];
@@ -320,6 +285,7 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }` when the run cannot go on.
+    #[wasm_bindgen(unchecked_return_type = "Progress")]
     pub fn advance(&mut self, evaluations: usize) -> Result<JsValue, JsValue> {
         let comparison = self.comparison.as_mut().ok_or_else(|| thrown(Error::NothingYet))?;
         comparison.advance(evaluations).map(|progress| plain(&progress)).map_err(thrown)
@@ -372,53 +338,54 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }` while there is nothing of it.
+    #[wasm_bindgen(unchecked_return_type = "RegionShapes")]
     pub fn region(
-        &mut self,
-        region: JsValue,
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Region")] region: JsValue,
         count: usize,
         seed: &str,
-        exaggeration: Option<f64>,
-        picture: Option<String>,
+        exaggeration: f64,
+        #[wasm_bindgen(unchecked_param_type = "DifferenceShapes")] picture: JsValue,
     ) -> Result<JsValue, JsValue> {
-        let which: Region = parsed(region.clone(), "region")?;
+        let region: Region = parsed(region, "region")?;
+        let view = DifferenceView { exaggeration, shapes: parsed(picture, "kind of shapes")? };
         let seed = files::seed_of(seed).map_err(thrown)?;
-        let nothing = || thrown(Error::NothingYet);
-        let comparison = self.comparison.as_mut().ok_or_else(nothing)?;
-        let picture = ShownShape::picture_of(exaggeration.unwrap_or(0.0), picture.as_deref());
-        let shapes = comparison.shapes(which, count, seed, picture);
-        Ok(shown(region, &shapes.ok_or_else(nothing)?))
+        let shapes = self.current()?.shapes(region, count, seed, view);
+        Ok(plain(&shapes.ok_or_else(|| thrown(Error::NothingYet))?))
     }
 
     /// The intersection at another σ, by the Gaussian fit alone: `{ prediction, shapes }`.
     ///
     /// # Errors
     /// `{ code, message, hint }` when no comparison is open, or the fit breaks down.
-    pub fn preview(&mut self, sigma: f64, count: usize, seed: &str) -> Result<JsValue, JsValue> {
-        let nothing = || thrown(Error::NothingYet);
-        let comparison = self.comparison.as_mut().ok_or_else(nothing)?;
+    #[wasm_bindgen(unchecked_return_type = "Preview")]
+    pub fn preview(&self, sigma: f64, count: usize, seed: &str) -> Result<JsValue, JsValue> {
         let seed = files::seed_of(seed).map_err(thrown)?;
-        let (prediction, shapes) = comparison.preview(sigma, count, seed).ok_or_else(|| {
+        let preview = self.current()?.preview(sigma, count, seed).ok_or_else(|| {
             let message = format!("The numbers overflow at σ = {sigma}.");
             fault("not-finite", message, "Try a larger σ, or fewer modes.")
         })?;
-        let region = plain(&Region::Intersection);
-        Ok(object(&[("prediction", plain(&prediction)), ("shapes", shown(region, &shapes))]))
+        Ok(plain(&preview))
     }
 
     /// What the fit says of the intersection at each σ: an array of predictions with distances.
     ///
     /// # Errors
     /// `{ code, message, hint }` when no comparison is open.
-    pub fn sweep(&mut self, sigmas: &[f64]) -> Result<JsValue, JsValue> {
-        let comparison = self.comparison.as_mut().ok_or_else(|| thrown(Error::NothingYet))?;
-        Ok(plain(&comparison.sweep(sigmas)))
+    #[wasm_bindgen(unchecked_return_type = "SweepPoint[]")]
+    pub fn sweep(&self, sigmas: &[f64]) -> Result<JsValue, JsValue> {
+        Ok(plain(&self.current()?.sweep(sigmas)))
     }
 
     /// A file to be saved: `{ name, mime, bytes }`.
     ///
     /// # Errors
     /// `{ code, message, hint }` while there is nothing to save.
-    pub fn export(&mut self, what: JsValue) -> Result<JsValue, JsValue> {
+    #[wasm_bindgen(unchecked_return_type = "{ name: string; mime: string; bytes: Uint8Array }")]
+    pub fn export(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "Download")] what: JsValue,
+    ) -> Result<JsValue, JsValue> {
         let what: Download = parsed(what, "kind of file")?;
         let comparison = self.comparison.as_mut().ok_or_else(|| thrown(Error::NothingYet))?;
         let written = files::write(comparison, self.seconds, &what).map_err(thrown)?;

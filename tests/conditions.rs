@@ -6,7 +6,7 @@ use crate::common::{
     compared, face_like_pair, model, random_orthonormal, repetitions, report, warns,
 };
 use nalgebra::DVector;
-use shapevenn::comparison::{Comparison, Region, ShapeSource};
+use shapevenn::comparison::{Comparison, Preview, Region, ShapeSource};
 use shapevenn::model::LinearModel;
 use shapevenn::report::{MomentSource, Report};
 use shapevenn::settings::{Plausibility, Pooling, Sampler, Settings};
@@ -209,7 +209,7 @@ fn a_preview_is_near_the_run_and_works_on_one_that_was_put_back() {
     let settings = Settings { sigma: Some(0.3), ..few() };
     let run = compared(&a, &b, settings.clone());
     let found = report(&run);
-    let (prediction, shapes) = run.preview(0.3, 4, 1).unwrap();
+    let Preview { prediction, shapes } = run.preview(0.3, 4, 1).unwrap();
     assert_eq!((shapes.count, shapes.source), (4, ShapeSource::Fit), "shapes of the fit");
     let tolerance = found.intersection.tolerance.clone().unwrap();
     assert!((prediction.distance / tolerance.predicted - 1.0).abs() < 0.02, "{prediction:?}");
@@ -219,7 +219,7 @@ fn a_preview_is_near_the_run_and_works_on_one_that_was_put_back() {
     assert!((ratio - 1.0).abs() < 0.02, "variation of the preview over the run's: {ratio}");
 
     let back = Comparison::restored(&a, &b, found, &run.results().to_arrays()).unwrap();
-    let (again, _) = back.preview(0.3, 1, 1).unwrap();
+    let again = back.preview(0.3, 1, 1).unwrap().prediction;
     assert_eq!(again, prediction, "put back from its draws");
     let points = back.sweep(&[0.03, 0.3, 3.0]);
     assert_eq!(points.len(), 3, "one for each σ");

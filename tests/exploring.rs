@@ -76,7 +76,7 @@ fn sliders_at_nought_show_the_mean_of_every_space() {
         let found = run.explore(space, AxesKind::Modes, &[], false).unwrap();
         assert!((wide(&found.shape) - wide(&mean)).amax() < 1e-6, "{space:?}");
         assert_eq!((found.norm, found.plausibility), (0.0, 1.0), "{space:?}: nothing is likelier");
-        assert!(found.placed.is_none(), "nobody was asked to follow");
+        assert!(found.nearest.is_none(), "nobody was asked to follow");
         let moved = run.explore(space, AxesKind::Modes, &[0.0, 1.0], false).unwrap();
         assert!((wide(&moved.shape) - wide(&mean)).norm() > 0.3, "{space:?}: a slider moves it");
     }
@@ -91,7 +91,7 @@ fn both_models_answer_with_their_nearest_shapes() {
     for (space, _) in SPACES {
         let found = run.explore(space, AxesKind::Modes, &values, true).unwrap();
         let shape = wide(&found.shape);
-        let placed = found.placed.unwrap();
+        let placed = found.nearest.unwrap();
         for side in Side::BOTH {
             let answer = &placed[side];
             let image = projection(&models[side], &shape);
@@ -114,13 +114,16 @@ fn both_models_answer_with_their_nearest_shapes() {
             if space == Space::B { [&placed.b, &placed.a] } else { [&placed.a, &placed.b] };
         assert_eq!(own.distance == 0.0, space != Space::Intersection, "{space:?}: itself");
         assert!(other.distance > 0.01, "{space:?}: the other cannot follow altogether");
-        let again = run.place(&found.shape).unwrap();
+        let again = run.nearest_shapes(&found.shape).unwrap();
         for (one, two) in [(&placed.a, &again.a), (&placed.b, &again.b)] {
             assert!((one.distance - two.distance).abs() < 1e-5, "placed as any other shape");
             assert!((one.norm - two.norm).abs() < 1e-5, "with the same coefficients");
         }
     }
-    assert!(matches!(run.place(&[0.0; 7]), Err(ComparisonError::Asked { .. })), "no shape");
+    assert!(
+        matches!(run.nearest_shapes(&[0.0; 7]), Err(ComparisonError::Asked { .. })),
+        "no shape"
+    );
 }
 
 #[test]
@@ -130,7 +133,7 @@ fn a_shape_of_a_lies_in_a() {
     #[allow(clippy::cast_possible_truncation, reason = "shapes are single precision")]
     let shape: Vec<f32> =
         a.shape(&[1.0, -2.0, 0.5, 0.1, 1.0, 1.0]).iter().map(|x| *x as f32).collect();
-    let found = run.place(&shape).unwrap();
+    let found = run.nearest_shapes(&shape).unwrap();
     assert!(found.a.distance < 1e-6, "d to A: {}", found.a.distance);
     assert!((found.a.norm - 7.26_f64.sqrt()).abs() < 1e-5, "‖a‖");
     assert!(found.b.distance > 0.1, "but not in B: {}", found.b.distance);
@@ -150,7 +153,7 @@ fn a_dragged_vertex_arrives_and_no_smaller_change_brings_it_there() {
         let reached = wide(&after.shape).rows(3 * vertex, 3).into_owned();
         let missed = (&reached - DVector::from_column_slice(&target)).norm();
         assert!(missed < 1e-3, "{space:?}: missed by {missed}");
-        assert!(after.placed.is_some(), "and the models follow");
+        assert!(after.nearest.is_some(), "and the models follow");
         // Every step of the coefficients that leaves the vertex alone makes the change longer.
         let (before, after) = (wide(&before.coefficients), wide(&after.coefficients));
         let modes = after.len();
@@ -334,7 +337,7 @@ fn maps_and_ellipsoids_of_differences_are_those_of_the_draws() {
         let whole = &centred * centred.transpose() / (shapes.ncols() as f64 - 1.0);
         let map = run.map(MapName::Sd, region, 0).unwrap().values;
         let ellipsoids = run.ellipsoids(7).unwrap();
-        let (_, ellipsoid) = ellipsoids.iter().find(|(which, _)| *which == region).unwrap();
+        let ellipsoid = &ellipsoids[&region];
         for v in 0..POINTS {
             let expected = whole.view((3 * v, 3 * v), (3, 3)).trace().sqrt();
             assert!((f64::from(map[v]) - expected).abs() < 1e-5, "{region:?} at {v}");
@@ -353,11 +356,11 @@ fn maps_and_ellipsoids_of_differences_are_those_of_the_draws() {
 fn the_ellipsoid_of_a_model_is_that_of_its_covariance() {
     let run = run();
     let ellipsoids = run.ellipsoids(4).unwrap();
-    let regions: Vec<Region> = ellipsoids.iter().map(|(region, _)| *region).collect();
+    let regions: Vec<Region> = ellipsoids.keys().copied().collect();
     assert_eq!(regions, Region::ALL, "in all five");
     for (region, side) in [(Region::A, Side::A), (Region::B, Side::B)] {
         let model = run.pair().models()[side].clone();
-        let (_, found) = ellipsoids.iter().find(|(which, _)| *which == region).unwrap();
+        let found = &ellipsoids[&region];
         let axes = DMatrix::from_column_slice(3, 3, &found.axes);
         let block = covariance(&model).view((12, 12), (3, 3)).into_owned();
         assert!((&axes * axes.transpose() - &block).amax() < 1e-12, "{region:?}: covariance");
@@ -369,7 +372,7 @@ fn the_ellipsoid_of_a_model_is_that_of_its_covariance() {
         assert!((found.centre[0] - model.mean()[12]).abs() < 1e-15, "{region:?}: centre");
     }
     let sd = run.map(MapName::Sd, Region::Intersection, 0).unwrap().values[4];
-    let (_, both) = ellipsoids.iter().find(|(which, _)| *which == Region::Intersection).unwrap();
+    let both = &ellipsoids[&Region::Intersection];
     let square: f64 = both.axes.iter().map(|x| x * x).sum();
     assert!((square.sqrt() - f64::from(sd)).abs() < 1e-6, "A∩B: as its map says");
     assert!(matches!(run.ellipsoids(POINTS), Err(ComparisonError::Asked { .. })), "no such vertex");

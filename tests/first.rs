@@ -17,6 +17,6 @@ fn the_stored_first_comparison_is_made_by_this_engine() {
     let made = run.report(Seconds::default()).unwrap();
     let expected = Report { seconds: Seconds::default(), ..stored };
     assert_eq!(files::json(&made), files::json(&expected), "{HINT}");
-    let draws = files::write(&mut run, Seconds::default(), &Download::DrawsNpz).unwrap();
+    let draws = files::write(&run, Seconds::default(), &Download::DrawsNpz).unwrap();
     assert!(draws.bytes == include_bytes!("../www/first/draws.npz"), "other draws: {HINT}");
 }

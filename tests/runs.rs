@@ -83,11 +83,11 @@ fn pairs_are_draws_of_all_chains_beside_the_moments_and_the_fit() {
         draws.iter_slices().step_by(4).flat_map(|point| point[..3].to_vec()).collect();
     assert_eq!(found.draws, single(&expected), "each fourth draw");
     let moments = run.moments(Side::B).unwrap();
-    assert_eq!(found.moments.mean, moments.mean.as_slice()[..3], "mean");
+    assert_eq!(found.moments.mean.as_slice(), &moments.mean.as_slice()[..3], "mean");
     assert_eq!(found.moments.covariance[1], moments.covariance[(0, 1)], "covariance");
     let fit = run.fits().unwrap().b;
     let marginal = found.fit.unwrap();
-    assert_eq!(marginal.mean, fit.mean().as_slice()[..3], "mean of the fit");
+    assert_eq!(marginal.mean.as_slice(), &fit.mean().as_slice()[..3], "mean of the fit");
     assert_eq!(marginal.covariance[8], fit.covariance()[(2, 2)], "variance of the fit");
     assert_eq!(run.pairs(Side::B, 100, 100_000).unwrap().count, 800, "no more than there are");
 }
@@ -135,10 +135,10 @@ fn a_recommended_sigma_that_is_given_again_is_still_recommended() {
 
 #[test]
 fn tables_have_a_line_for_each_mode() {
-    let mut run = finished(Settings { draws: 256, ..Settings::default() });
+    let run = finished(Settings { draws: 256, ..Settings::default() });
     let stated = report(&run);
-    let mut lines = |what: &Download| -> Vec<Vec<String>> {
-        let written = files::write(&mut run, Seconds::default(), what).unwrap();
+    let lines = |what: &Download| -> Vec<Vec<String>> {
+        let written = files::write(&run, Seconds::default(), what).unwrap();
         let text = String::from_utf8(written.bytes).unwrap();
         text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
     };

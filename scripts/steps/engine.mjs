@@ -5,7 +5,7 @@
  * in shared memory both times, which WebAssembly has without isolation too. So the standard library is compiled
  * along, with atomics: as shipped it has none.
  */
-import { existsSync, mkdirSync, readFileSync, renameSync, rmSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { join, relative } from "node:path";
 import { attempt, cache, must, root, StepError } from "./run.mjs";
 
@@ -110,6 +110,16 @@ export async function packageEngine(module) {
   if (existsSync(home)) renameSync(home, old);
   renameSync(fresh, home);
   rmSync(old, { recursive: true, force: true });
+}
+
+/** The types of the engine's class, which the worker is written against: as the built package has them, and as committed. */
+export function typesOfEngine() {
+  const built = readFileSync(join(root, "www/public/engine/shapevenn.d.ts"), "utf8");
+  const text = built.slice(built.indexOf("import type"), built.indexOf("\n}\n") + 3);
+  const header = "// Written by `SHAPEVENN_WRITE=1 npm run build` from src/wasm.rs.\n";
+  const file = join(root, "www/worker/engine.d.ts");
+  if (process.env.SHAPEVENN_WRITE) writeFileSync(file, header + text);
+  return { current: readFileSync(file, "utf8") === header + text };
 }
 
 /** Clippy on the library as the browser sees it, warnings being errors: `{ok, output}`. */

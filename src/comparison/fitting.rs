@@ -141,7 +141,7 @@ impl Fitting {
         fill_normal(&mut random, &mut normals);
         let mut points = vec![0.0; normals.len()];
         for (z, point) in normals.chunks_exact(modes).zip(points.chunks_exact_mut(modes)) {
-            fit.place(z, point);
+            fit.apply(z, point);
         }
         let target = Intersection::new(operator, self.sigma, fit.mean());
         self.evaluations += PILOT_DRAWS as u64;

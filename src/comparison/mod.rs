@@ -23,11 +23,11 @@ mod warnings;
 
 pub(crate) use fitting::settled_fit;
 pub(crate) use inference::MOST_LEAPS;
-pub use looks::diagnostics_plots::{ChainFigures, Marginal, PairFigures};
+pub use looks::diagnostics_plots::{ChainPlots, PairPlots};
 pub use looks::exploring::{Axes, AxesKind, Explored, Nearest, Space};
 pub use looks::maps::{Ellipsoid, MapName, VertexMap};
-pub use looks::preview::{Prediction, SweepPoint};
-pub use looks::regions::{Picture, Region, RegionShapes, ShapeSource};
+pub use looks::preview::{Prediction, Preview, SweepPoint};
+pub use looks::regions::{DifferenceShapes, DifferenceView, Region, RegionShapes, ShapeSource};
 pub use results::{Results, StoredArray};
 pub use run::Stage;
 
@@ -55,6 +55,7 @@ const MOST_PROPOSALS_PER_DRAW: u64 = 100;
 
 /// How far a run is.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct Progress {
     /// Where the run is.

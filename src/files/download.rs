@@ -4,13 +4,14 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::{Error, RunFile, Sources, tables};
-use crate::comparison::{Comparison, Picture, Region, StoredArray};
+use crate::comparison::{Comparison, DifferenceShapes, DifferenceView, Region, StoredArray};
 use crate::formats::{self, Array, Data, DrawnSet};
 use crate::model::LinearModel;
 use crate::report::{Report, Seconds};
 
 /// What can be saved from a run.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Download {
     /// The intersection model as statismo HDF5.
@@ -66,11 +67,13 @@ impl From<i64> for WhichShape {
 
 /// The mean or a sample of a region, exactly as it is shown.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct ShownShape {
     /// The region.
     pub region: Region,
     /// The mean, or a sample of the same seed and count.
+    #[cfg_attr(test, ts(type = "number"))]
     #[serde(rename = "index")]
     pub which: WhichShape,
     /// Number of samples that the seed picks.
@@ -80,9 +83,9 @@ pub struct ShownShape {
     /// γ in x + γ r(a), of a difference.
     #[serde(default)]
     pub exaggeration: f64,
-    /// "exclusiveModes" for shapes along the exclusive modes of a difference instead of draws.
+    /// Which shapes of a difference.
     #[serde(default)]
-    pub picture: Option<String>,
+    pub picture: DifferenceShapes,
 }
 
 /// A seed as links and the page have it, decimal: JavaScript's numbers end at 2⁵³.
@@ -102,13 +105,8 @@ impl ShownShape {
             count: 0,
             seed: "0".to_owned(),
             exaggeration: 0.0,
-            picture: None,
+            picture: DifferenceShapes::default(),
         }
-    }
-
-    /// How a difference is shown.
-    pub fn picture_of(exaggeration: f64, picture: Option<&str>) -> Picture {
-        Picture { exaggeration, exclusive_modes: picture == Some("exclusiveModes") }
     }
 
     fn name(&self) -> String {
@@ -120,13 +118,13 @@ impl ShownShape {
     }
 
     /// Points (d·n) and, of a mean, the per-vertex standard deviation (n).
-    fn points(&self, comparison: &mut Comparison) -> Result<(Vec<f32>, Option<Vec<f32>>), Error> {
+    fn points(&self, comparison: &Comparison) -> Result<(Vec<f32>, Option<Vec<f32>>), Error> {
         let seed = seed_of(&self.seed)?;
-        let picture = Self::picture_of(self.exaggeration, self.picture.as_deref());
-        let shapes = comparison.shapes(self.region, self.count, seed, picture);
+        let view = DifferenceView { exaggeration: self.exaggeration, shapes: self.picture };
+        let shapes = comparison.shapes(self.region, self.count, seed, view);
         let shapes = shapes.ok_or(Error::NothingYet)?;
         match self.which {
-            WhichShape::Mean => Ok((shapes.mean, Some(shapes.vertex_sd))),
+            WhichShape::Mean => Ok((shapes.mean.into_vec(), Some(shapes.vertex_sd.into_vec()))),
             WhichShape::Sample(index) => {
                 let sample = shapes.samples.chunks_exact(shapes.mean.len()).nth(index);
                 Ok((sample.ok_or(Error::NothingYet)?.to_vec(), None))
@@ -150,11 +148,7 @@ pub struct Written {
 ///
 /// # Errors
 /// [`Error::NothingYet`] while the run has not computed it, [`Error::Format`] when it cannot be written.
-pub fn write(
-    comparison: &mut Comparison,
-    seconds: Seconds,
-    what: &Download,
-) -> Result<Written, Error> {
+pub fn write(comparison: &Comparison, seconds: Seconds, what: &Download) -> Result<Written, Error> {
     let bytes = what.bytes(comparison, seconds)?;
     Ok(Written { name: what.name(), mime: what.media_type(), bytes })
 }
@@ -196,7 +190,7 @@ impl Download {
         }
     }
 
-    fn bytes(&self, comparison: &mut Comparison, seconds: Seconds) -> Result<Vec<u8>, Error> {
+    fn bytes(&self, comparison: &Comparison, seconds: Seconds) -> Result<Vec<u8>, Error> {
         let intersection =
             |comparison: &Comparison| comparison.intersection().ok_or(Error::NothingYet);
         let report = |comparison: &Comparison| comparison.report(seconds).ok_or(Error::NothingYet);

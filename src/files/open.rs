@@ -1,5 +1,7 @@
 //! Opens model files, demo models and the shapes that evaluate a model.
 
+use serde::Serialize;
+
 use super::Error;
 use crate::demos;
 use crate::formats::{self, Input, Options, Origin};
@@ -21,6 +23,42 @@ pub struct Described {
     pub model: LinearModel,
     /// Its description.
     pub report: ModelReport,
+}
+
+/// What the page is told of a model that was opened; other parts are opened when they are chosen.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(rename_all = "camelCase")]
+pub struct OpenedModel {
+    /// File format, in words.
+    pub format: String,
+    /// Names of all models of the file, the one to show first in front.
+    pub parts: Vec<String>,
+    /// What the page calls it by, until it is closed.
+    pub model: u32,
+    /// Which of `parts` it is.
+    pub part: String,
+    /// Its description.
+    pub report: ModelReport,
+    /// Where it comes from.
+    pub origin: Origin,
+    /// Whether it says which points of a larger mesh its own are.
+    pub has_map: bool,
+}
+
+impl Described {
+    /// What the page is told, which calls the model by `handle`.
+    pub fn opened(&self, handle: u32) -> OpenedModel {
+        OpenedModel {
+            format: self.report.format.clone(),
+            parts: self.parts.clone(),
+            model: handle,
+            part: self.part.clone(),
+            report: self.report.clone(),
+            origin: self.origin,
+            has_map: self.model.point_numbers().is_some(),
+        }
+    }
 }
 
 /// Opens the model that files make together: usually one file, else a group of [`formats::groups`].

@@ -26,6 +26,7 @@ const LAYOUT: u32 = 1;
 
 /// A comparison that can be repeated.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct RunFile {
     /// Version of the layout: 1.
     pub shapevenn: u32,
@@ -39,6 +40,7 @@ pub struct RunFile {
 
 /// One of the models of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct RunModel {
     /// Its name.
     pub name: String,
@@ -62,6 +64,7 @@ impl RunModel {
 
 /// Where the two models of a run are from: `demo:NAME`, an address, or nothing.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(default)]
 pub struct Sources {
     /// Of model A.

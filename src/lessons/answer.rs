@@ -1,14 +1,14 @@
 //! What a lesson answers. Bulk values are single precision, everything else is as computed.
 
-use crate::model::{Side, Sides};
-use nalgebra::DMatrix;
 use serde::Serialize;
 
-use crate::model::LinearModel;
+use crate::linalg::{Moments, TypedArray};
+use crate::model::{LinearModel, Side, Sides};
 use crate::sampling::Step;
 
 /// A model as it is drawn.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct LessonModel {
     /// Mean (d·n).
@@ -32,26 +32,13 @@ impl LessonModel {
     }
 }
 
-/// A Gaussian over coefficients.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Law {
-    /// Mean (q).
-    pub mean: Vec<f64>,
-    /// Covariance (q × q).
-    pub covariance: Vec<f64>,
-}
-
-impl Law {
-    pub(super) fn of(mean: &[f64], covariance: &DMatrix<f64>) -> Self {
-        Self { mean: mean.to_vec(), covariance: covariance.as_slice().to_vec() }
-    }
-}
-
 /// The two models and what is known of them without a draw.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct LessonModels {
     /// Coordinates per point, d.
+    #[cfg_attr(test, ts(type = "2 | 3"))]
     pub dimension: usize,
     /// n.
     pub points: usize,
@@ -68,7 +55,7 @@ pub struct LessonModels {
     /// A∩B by the Gaussian fits alone.
     pub intersection: LessonModel,
     /// Those fits, in coefficients.
-    pub fits: Sides<Law>,
+    pub fits: Sides<Moments>,
     /// Principal angles, in degrees, smallest first.
     pub angles: Vec<f64>,
     /// E d under the fits.
@@ -79,6 +66,7 @@ pub struct LessonModels {
 
 /// What there is to say of one shape.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct LessonPoint {
     /// x (d·n).
@@ -111,9 +99,10 @@ pub struct LessonPoint {
 
 /// Numbers over two coefficients.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct LessonField {
     /// Row by row, the second coefficient falling (size × size).
-    pub values: Vec<f32>,
+    pub values: TypedArray<f32>,
     /// The highest of them.
     pub highest: f64,
     /// The lowest that is finite.
@@ -122,7 +111,8 @@ pub struct LessonField {
 
 /// Where chains are before their first step.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct LaneStart {
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct ChainGroupStart {
     /// chains × q; nothing for rejection.
     pub states: Vec<f64>,
     /// q.
@@ -133,6 +123,7 @@ pub struct LaneStart {
 
 /// One decision of one chain.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct LessonStep {
     /// Which chain.
@@ -177,9 +168,10 @@ impl LessonStep {
     }
 }
 
-/// How far a lane is.
+/// How far a group of chains is.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct LaneProgress {
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct ChainGroupProgress {
     /// Steps of each chain so far, the burn-in included; of rejection, draws.
     pub step: usize,
     /// Draws kept, over all chains.
@@ -194,17 +186,18 @@ pub struct LaneProgress {
     pub states: Vec<f64>,
     /// The single steps, where they were watched and the sampler is one of the walks.
     pub steps: Vec<LessonStep>,
-    /// Whether the lane does no more.
+    /// Whether the group does no more.
     pub ended: bool,
 }
 
 /// Draws, evenly thinned.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct LaneDraws {
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct ChainGroupDraws {
     /// Chain after chain (count × q).
-    pub values: Vec<f32>,
+    pub values: TypedArray<f32>,
     /// d of each (count); nothing where there are no models.
-    pub distances: Vec<f32>,
+    pub distances: TypedArray<f32>,
     /// How many.
     pub count: usize,
     /// Of so many chains, count/chains each.
@@ -215,8 +208,9 @@ pub struct LaneDraws {
 
 /// What draws say of their target, and of themselves.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
-pub struct LaneFigures {
+pub struct ChainGroupSummary {
     /// Number of chains.
     pub chains: usize,
     /// Draws over all chains.
@@ -233,10 +227,9 @@ pub struct LaneFigures {
     pub ess_per_thousand: Option<f64>,
     /// Mean of ‖a‖²/q.
     pub mean_square: f64,
-    /// Mean (q).
-    pub mean: Vec<f64>,
-    /// Covariance (q × q).
-    pub covariance: Vec<f64>,
+    /// Of the draws (q, q × q).
+    #[serde(flatten)]
+    pub moments: Moments,
     /// Mean d; nothing where there are no models.
     pub mean_distance: Option<f64>,
     /// Of rejection: the share of the prior that is in the target, E[1 − L_D] of a difference.
@@ -247,8 +240,9 @@ pub struct LaneFigures {
 
 /// d_G after some draws.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Fall {
-    /// Draws of each lane.
+    /// Draws of each group.
     pub draws: usize,
     /// d_G to the truth, the paper's.
     pub grassmann: Option<f64>,
@@ -256,9 +250,10 @@ pub struct Fall {
 
 /// A∩B from draws.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct LessonIntersection {
-    /// Principal components of all draws of both lanes.
+    /// Principal components of all draws of both groups.
     pub model: LessonModel,
     /// d_G to the truth, the paper's; nothing where no truth is known.
     pub grassmann: Option<f64>,
@@ -274,21 +269,22 @@ pub struct LessonIntersection {
 
 /// Shapes of draws.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct LaneShapes {
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct ChainGroupShapes {
     /// Shape after shape (count × d·n).
-    pub values: Vec<f32>,
+    pub values: TypedArray<f32>,
     /// How many.
     pub count: usize,
 }
 
 /// What principal components would make of a difference.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct LessonPrincipal {
-    /// Mean of the draws (q).
-    pub mean: Vec<f64>,
-    /// Their covariance (q × q).
-    pub covariance: Vec<f64>,
+    /// Of the draws (q, q × q).
+    #[serde(flatten)]
+    pub moments: Moments,
     /// Share of shapes of that Gaussian with L_D > ½: more in the other model than not.
     pub misled: f64,
     /// The same share of the draws themselves.
@@ -299,6 +295,7 @@ pub struct LessonPrincipal {
 
 /// What is answered.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(untagged)]
 pub enum LessonAnswer {
     /// To `open`.
@@ -313,17 +310,17 @@ pub enum LessonAnswer {
     /// To `field`.
     Field(LessonField),
     /// To `begin`.
-    Begun(LaneStart),
+    Begun(ChainGroupStart),
     /// To `advance`.
-    Progress(LaneProgress),
+    Progress(ChainGroupProgress),
     /// To `draws`.
-    Draws(LaneDraws),
-    /// To `figures`.
-    Figures(LaneFigures),
+    Draws(ChainGroupDraws),
+    /// To `summary`.
+    Summary(ChainGroupSummary),
     /// To `intersection`.
     Intersection(LessonIntersection),
     /// To `shapes`.
-    Shapes(LaneShapes),
+    Shapes(ChainGroupShapes),
     /// To `principal`.
     Principal(LessonPrincipal),
 }

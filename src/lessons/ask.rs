@@ -21,6 +21,7 @@ pub const MOST_DIMENSIONS: usize = 100;
 
 /// What two models are compared, and how.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase", default)]
 pub struct Opening {
     /// "stars-1" … "stars-6" or "planes".
@@ -43,6 +44,7 @@ pub struct Opening {
 
 /// What chains draw from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub enum LessonTarget {
     /// The intersection posterior of a side.
@@ -57,6 +59,7 @@ pub enum LessonTarget {
 
 /// How it is drawn from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum LessonSampler {
     /// The paper's random walk as published.
@@ -84,6 +87,7 @@ impl LessonSampler {
 
 /// What a field is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub enum FieldName {
     /// log of the prior, −½‖a‖².
@@ -102,28 +106,35 @@ pub enum FieldName {
 
 /// How chains begin.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct Beginning {
     /// What they draw from.
     pub target: LessonTarget,
     /// Whose coefficients they move.
+    #[cfg_attr(test, ts(as = "Option<Side>", optional))]
     #[serde(default)]
     pub side: Side,
     /// How.
     pub sampler: LessonSampler,
     /// How many; rejection has one row whatever is asked.
+    #[cfg_attr(test, ts(as = "Option<usize>", optional))]
     #[serde(default = "one")]
     pub chains: usize,
     /// Decimal, as numbers of JSON cannot hold 64 bits.
+    #[cfg_attr(test, ts(as = "Option<String>", optional))]
     #[serde(default = "first_seed")]
     pub seed: String,
     /// Steps of each chain that are thrown away at its start.
+    #[cfg_attr(test, ts(as = "Option<usize>", optional))]
     #[serde(default)]
     pub burn_in: usize,
     /// Dimension of the standard normal distribution.
+    #[cfg_attr(test, ts(optional = nullable))]
     #[serde(default)]
     pub dimension: Option<usize>,
     /// Where all chains start; else where the sampler starts them.
+    #[cfg_attr(test, ts(optional = nullable))]
     #[serde(default)]
     pub start: Option<Vec<f64>>,
 }
@@ -138,10 +149,11 @@ fn first_seed() -> String {
 
 /// What can be asked.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase", tag = "ask")]
 pub enum LessonAsk {
-    /// Two models; all lanes are given up.
-    Open(Opening),
+    /// Two models; all groups of chains are given up.
+    Open(#[cfg_attr(test, ts(type = "Partial<Opening>"))] Opening),
     /// What there is to say of one shape.
     Point {
         /// Of which model it is.
@@ -161,11 +173,13 @@ pub enum LessonAsk {
         /// What.
         of: FieldName,
         /// Whose coefficients.
+        #[cfg_attr(test, ts(as = "Option<Side>", optional))]
         #[serde(default)]
         side: Side,
         /// Which two, across and upwards, from 0.
         modes: [usize; 2],
         /// The other coefficients; missing ones are 0.
+        #[cfg_attr(test, ts(as = "Option<Vec<f64>>", optional))]
         #[serde(default)]
         at: Vec<f64>,
         /// From −extent to extent.
@@ -173,49 +187,52 @@ pub enum LessonAsk {
         /// Rows and columns.
         size: usize,
     },
-    /// Chains, in place of those that the lane had.
+    /// Chains, in place of those that the group had.
     Begin {
         /// Their number from now on.
-        lane: u32,
+        group: u32,
         /// How.
         #[serde(flatten)]
         how: Beginning,
     },
     /// More steps of every chain.
     Advance {
-        /// Which lane.
-        lane: u32,
+        /// Which group of chains.
+        group: u32,
         /// How many.
         steps: usize,
         /// Whether single steps are told.
+        #[cfg_attr(test, ts(as = "Option<bool>", optional))]
         #[serde(default)]
         watch: bool,
     },
     /// Draws, evenly thinned.
     Draws {
-        /// Which lane.
-        lane: u32,
+        /// Which group of chains.
+        group: u32,
         /// How many at the most.
         most: usize,
     },
     /// What the draws say of the target, and of themselves.
-    Figures {
-        /// Which lane.
-        lane: u32,
+    Summary {
+        /// Which group of chains.
+        group: u32,
     },
-    /// Principal components of the pooled draws of two lanes, one of each side.
+    /// Principal components of the pooled draws of two groups of chains, one of each side.
     Intersection {
         /// That of A, that of B.
-        lanes: [u32; 2],
-        /// Draws of each lane after which d_G is told.
+        groups: [u32; 2],
+        /// Draws of each group after which d_G is told.
+        #[cfg_attr(test, ts(as = "Option<Vec<usize>>", optional))]
         #[serde(default)]
         counts: Vec<usize>,
     },
     /// The shapes of draws, thinned as in `Draws`.
     Shapes {
-        /// Which lane.
-        lane: u32,
-        /// Of which model, where the lane knows none.
+        /// Which group of chains.
+        group: u32,
+        /// Of which model, where the group knows none.
+        #[cfg_attr(test, ts(optional = nullable))]
         #[serde(default)]
         side: Option<Side>,
         /// How many at the most.
@@ -223,8 +240,8 @@ pub enum LessonAsk {
     },
     /// What principal components would make of draws of a difference.
     Principal {
-        /// Which lane.
-        lane: u32,
+        /// Which group of chains.
+        group: u32,
     },
 }
 

@@ -7,7 +7,10 @@ use crate::model::Side;
 use nalgebra::{DMatrix, DVector};
 
 use super::LessonError;
-use super::answer::{LaneDraws, LaneFigures, LaneProgress, LaneShapes, LaneStart, Law, LessonStep};
+use super::answer::{
+    ChainGroupDraws, ChainGroupProgress, ChainGroupShapes, ChainGroupStart, ChainGroupSummary,
+    LessonStep,
+};
 use super::ask::{
     Beginning, LessonSampler, LessonTarget, MOST_CHAINS, MOST_DIMENSIONS, MOST_DRAWS, MOST_STEPS,
     padded, within,
@@ -78,7 +81,7 @@ impl ChainGroup {
     pub(super) fn new(
         opened: Option<&Opened>,
         how: &Beginning,
-    ) -> Result<(Self, LaneStart), LessonError> {
+    ) -> Result<(Self, ChainGroupStart), LessonError> {
         let Beginning { target, side, sampler, .. } = *how;
         let dimension = match (target, opened) {
             (LessonTarget::Normal, _) => {
@@ -98,7 +101,7 @@ impl ChainGroup {
         let density = target_of(opened, target, side, dimension)?;
         group.begin(&density, how)?;
         let states = group.states();
-        Ok((group, LaneStart { states, dimension, chains }))
+        Ok((group, ChainGroupStart { states, dimension, chains }))
     }
 
     fn begin(&mut self, density: &ChainTarget, how: &Beginning) -> Result<(), LessonError> {
@@ -123,7 +126,7 @@ impl ChainGroup {
         opened: Option<&Opened>,
         steps: usize,
         watch: bool,
-    ) -> Result<LaneProgress, LessonError> {
+    ) -> Result<ChainGroupProgress, LessonError> {
         within("The number of steps", steps, 0, MOST_STEPS)?;
         let watch = watch && matches!(self.runner, Runner::Walks(_));
         if watch {
@@ -149,7 +152,7 @@ impl ChainGroup {
         }
         let has_models = self.target != LessonTarget::Normal;
         let draws = self.draws();
-        Ok(LaneProgress {
+        Ok(ChainGroupProgress {
             step: self.step(),
             draws: self.length() * self.schedule.chains,
             evaluations: draws.evaluations,
@@ -270,7 +273,7 @@ impl ChainGroup {
     }
 
     /// The answer to `draws`.
-    pub(super) fn show(&self, most: usize) -> LaneDraws {
+    pub(super) fn show(&self, most: usize) -> ChainGroupDraws {
         let (every, length) = (self.every(most), self.length());
         let values: Vec<f64> = self.thinned(most).flatten().copied().collect();
         let statistics = self.draws().statistics.iter();
@@ -278,10 +281,10 @@ impl ChainGroup {
             .filter(|_| self.target != LessonTarget::Normal)
             .flat_map(|chain| chain.iter().take(length).step_by(every).copied())
             .collect();
-        LaneDraws {
+        ChainGroupDraws {
             count: values.len() / self.dimension,
-            values: single(&values),
-            distances: single(&distances),
+            values: single(&values).into(),
+            distances: single(&distances).into(),
             chains: self.chains(),
             every,
         }
@@ -293,20 +296,22 @@ impl ChainGroup {
         opened: &Opened,
         side: Side,
         most: usize,
-    ) -> Result<LaneShapes, LessonError> {
+    ) -> Result<ChainGroupShapes, LessonError> {
         let model = opened.pair.models()[side];
         within("The number of modes of a shape", self.dimension, 1, model.mode_count())?;
         let shape = |draw: &[f64]| formed(model, &coefficients(draw, model.mode_count()));
         let values: Vec<f64> = self.thinned(most).flat_map(shape).collect();
-        Ok(LaneShapes { count: values.len() / model.mean().len(), values: single(&values) })
+        Ok(ChainGroupShapes {
+            count: values.len() / model.mean().len(),
+            values: single(&values).into(),
+        })
     }
 
     /// The answer to `figures`.
-    pub(super) fn figures(&self) -> LaneFigures {
+    pub(super) fn summary(&self) -> ChainGroupSummary {
         let (draws, count) = (self.draws(), self.length() * self.chains());
         let quality = self.quality();
         let per_thousand = |ess: f64| 1000.0 * ess / draws.evaluations as f64;
-        let Moments { mean, covariance } = self.moments();
         let squares: f64 = self.first(usize::MAX).into_iter().flatten().map(|a| a * a).sum();
         let has_models = self.target != LessonTarget::Normal;
         let distances = draws.statistics.iter().flat_map(|chain| chain.iter().take(self.length()));
@@ -315,8 +320,7 @@ impl ChainGroup {
             Runner::Rejection(run, _) => Some(run.probability()),
             _ => None,
         };
-        let Law { mean, covariance } = Law::of(mean.as_slice(), &covariance);
-        LaneFigures {
+        ChainGroupSummary {
             chains: self.chains(),
             draws: count,
             evaluations: draws.evaluations,
@@ -325,8 +329,7 @@ impl ChainGroup {
             ess_bulk_min: quality.map(|(ess, _)| ess),
             ess_per_thousand: quality.filter(|_| draws.evaluations > 0).map(|q| per_thousand(q.0)),
             mean_square: squares / (at_least_one * self.dimension as f64),
-            mean,
-            covariance,
+            moments: self.moments(),
             mean_distance: (has_models && count > 0).then(|| distances.sum::<f64>() / at_least_one),
             probability: probability.map(|(share, _)| share),
             standard_error: probability.map(|(_, error)| error),

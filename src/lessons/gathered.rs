@@ -160,8 +160,7 @@ pub(super) fn principal(
         .filter(|distance| is_common(**distance))
         .count();
     Ok(LessonPrincipal {
-        mean: moments.mean.as_slice().to_vec(),
-        covariance: moments.covariance.as_slice().to_vec(),
+        moments,
         misled: misled as f64 / SHAPES as f64,
         misled_draws: misled_draws as f64 / count as f64,
         side: group.side,

@@ -30,9 +30,9 @@ mod target;
 mod tests;
 
 pub use answer::{
-    Fall, LaneDraws, LaneFigures, LaneProgress, LaneShapes, LaneStart, Law, LessonAnswer,
-    LessonField, LessonIntersection, LessonModel, LessonModels, LessonPoint, LessonPrincipal,
-    LessonStep,
+    ChainGroupDraws, ChainGroupProgress, ChainGroupShapes, ChainGroupStart, ChainGroupSummary,
+    Fall, LessonAnswer, LessonField, LessonIntersection, LessonModel, LessonModels, LessonPoint,
+    LessonPrincipal, LessonStep,
 };
 pub use ask::{
     Beginning, FieldName, LessonAsk, LessonSampler, LessonTarget, MOST_CHAIN_GROUPS, MOST_CHAINS,
@@ -89,7 +89,7 @@ impl Lesson {
                     &grid,
                 )?)
             }
-            LessonAsk::Begin { lane: number, how } => {
+            LessonAsk::Begin { group: number, how } => {
                 if number >= MOST_CHAIN_GROUPS {
                     let expected = format!("a whole number below {MOST_CHAIN_GROUPS}");
                     let found = number.to_string();
@@ -103,24 +103,24 @@ impl Lesson {
                 self.groups.insert(number, begun);
                 LessonAnswer::Begun(start)
             }
-            LessonAsk::Advance { lane: number, steps, watch } => {
+            LessonAsk::Advance { group: number, steps, watch } => {
                 let group = self.groups.get_mut(&number);
                 let group = group.ok_or(LessonError::NoChainGroup { group: number })?;
                 LessonAnswer::Progress(group.advance(self.opened.as_ref(), steps, watch)?)
             }
-            LessonAsk::Draws { lane, most } => LessonAnswer::Draws(self.group(lane)?.show(most)),
-            LessonAsk::Figures { lane } => LessonAnswer::Figures(self.group(lane)?.figures()),
-            LessonAsk::Intersection { lanes: [a, b], counts } => {
+            LessonAsk::Draws { group, most } => LessonAnswer::Draws(self.group(group)?.show(most)),
+            LessonAsk::Summary { group } => LessonAnswer::Summary(self.group(group)?.summary()),
+            LessonAsk::Intersection { groups: [a, b], counts } => {
                 let groups = [(a, self.group(a)?), (b, self.group(b)?)];
                 LessonAnswer::Intersection(gathered::intersection(self.opened()?, groups, &counts)?)
             }
-            LessonAsk::Shapes { lane, side, most } => {
-                let group = self.group(lane)?;
-                let side = side.unwrap_or(group.side);
-                LessonAnswer::Shapes(group.shapes(self.opened()?, side, most)?)
+            LessonAsk::Shapes { group, side, most } => {
+                let drawn = self.group(group)?;
+                let side = side.unwrap_or(drawn.side);
+                LessonAnswer::Shapes(drawn.shapes(self.opened()?, side, most)?)
             }
-            LessonAsk::Principal { lane } => {
-                let numbered = (lane, self.group(lane)?);
+            LessonAsk::Principal { group } => {
+                let numbered = (group, self.group(group)?);
                 LessonAnswer::Principal(gathered::principal(self.opened()?, numbered)?)
             }
         })

@@ -7,7 +7,7 @@ use crate::model::{Side, Sides};
 use nalgebra::{DMatrix, DVector};
 
 use super::LessonError;
-use super::answer::{Law, LessonModel, LessonModels};
+use super::answer::{LessonModel, LessonModels};
 use super::ask::{LessonTarget, Opening, number};
 use super::target::ChainTarget;
 use crate::comparison::settled_fit;
@@ -212,10 +212,7 @@ impl Opened {
             _ => None,
         };
         let intersection = self.joint.model(&self.closed_form, self.most_modes());
-        let fit = |side: Side| {
-            let fit = &self.fits[side.index()];
-            Law::of(fit.mean().as_slice(), &fit.covariance())
-        };
+        let fit = |side: Side| self.fits[side.index()].moments();
         let angles = principal_angles(&self.joint.modes(Side::A), &self.joint.modes(Side::B));
         let distance =
             |side: Side| expected_distance(&self.sides[side.index()], &self.fits[side.index()]);

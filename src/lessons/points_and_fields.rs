@@ -131,5 +131,5 @@ pub(super) fn field(
     let finite = || values.iter().copied().filter(|value| value.is_finite());
     let (highest, lowest) =
         (finite().fold(f64::NEG_INFINITY, f64::max), finite().fold(f64::INFINITY, f64::min));
-    Ok(LessonField { values: single(&values), highest, lowest })
+    Ok(LessonField { values: single(&values).into(), highest, lowest })
 }

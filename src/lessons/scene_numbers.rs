@@ -4,8 +4,8 @@ use crate::model::{Side, Sides};
 use serde::Serialize;
 
 use super::answer::{
-    LaneFigures, LessonAnswer, LessonIntersection, LessonModels, LessonPoint, LessonPrincipal,
-    LessonStep,
+    ChainGroupSummary, LessonAnswer, LessonIntersection, LessonModels, LessonPoint,
+    LessonPrincipal, LessonStep,
 };
 use super::ask::{Beginning, LessonAsk, LessonSampler, LessonTarget, MOST_STEPS, Opening, within};
 use super::scene::{Break, Scene, SceneName};
@@ -68,7 +68,7 @@ pub struct RaceNumbers {
     /// Which one.
     pub sampler: LessonSampler,
     /// What its draws say.
-    pub figures: LaneFigures,
+    pub figures: ChainGroupSummary,
 }
 
 /// What a scene shows in numbers.
@@ -89,12 +89,12 @@ pub struct SceneNumbers {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub variance_share: Option<Sides<f64>>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub figures: Option<LaneFigures>,
+    pub figures: Option<ChainGroupSummary>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub last_step: Option<LessonStep>,
     /// The chains of both sides.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub sides: Option<Sides<LaneFigures>>,
+    pub sides: Option<Sides<ChainGroupSummary>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub intersection: Option<LessonIntersection>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -155,7 +155,7 @@ impl Scene {
         self.begin(lesson, 0, self.side, self.burn_in.unwrap_or(0))?;
         let last = self.steps.min(1);
         advance(lesson, 0, self.steps - last)?;
-        let ask = LessonAsk::Advance { lane: 0, steps: last, watch: true };
+        let ask = LessonAsk::Advance { group: 0, steps: last, watch: true };
         let last_step = asked!(lesson, ask, LessonAnswer::Progress).steps.pop();
         let figures = Some(chains(lesson, 0)?);
         Ok(SceneNumbers { last_step, figures, ..self.without_numbers() })
@@ -169,7 +169,7 @@ impl Scene {
         for (group, side) in [(0, Side::A), (1, Side::B)] {
             self.draw(lesson, group, side, burn_in)?;
         }
-        let ask = LessonAsk::Intersection { lanes: [0, 1], counts: counts(self.draws) };
+        let ask = LessonAsk::Intersection { groups: [0, 1], counts: counts(self.draws) };
         let intersection = Some(asked!(lesson, ask, LessonAnswer::Intersection));
         let sides = Some(Sides { a: chains(lesson, 0)?, b: chains(lesson, 1)? });
         Ok(SceneNumbers { intersection, sides, ..self.without_numbers() })
@@ -182,7 +182,7 @@ impl Scene {
         self.open(lesson)?;
         self.draw(lesson, 0, self.side, self.burn_in.unwrap_or(0))?;
         let figures = Some(chains(lesson, 0)?);
-        let ask = LessonAsk::Principal { lane: 0 };
+        let ask = LessonAsk::Principal { group: 0 };
         let principal = Some(asked!(lesson, ask, LessonAnswer::Principal));
         Ok(SceneNumbers { figures, principal, ..self.without_numbers() })
     }
@@ -208,7 +208,7 @@ impl Scene {
                     dimension: scaling.then_some(DIMENSION),
                     ..self.beginning(self.side, burn_in)
                 };
-                asked!(lesson, LessonAsk::Begin { lane: group, how }, LessonAnswer::Begun);
+                asked!(lesson, LessonAsk::Begin { group, how }, LessonAnswer::Begun);
                 advance(lesson, group, burn_in + self.steps)?;
                 Ok(RaceNumbers { sampler, figures: chains(lesson, group)? })
             })
@@ -288,7 +288,7 @@ impl Scene {
         side: Side,
         burn_in: usize,
     ) -> Result<usize, LessonError> {
-        let ask = LessonAsk::Begin { lane: group, how: self.beginning(side, burn_in) };
+        let ask = LessonAsk::Begin { group, how: self.beginning(side, burn_in) };
         Ok(asked!(lesson, ask, LessonAnswer::Begun).chains)
     }
 
@@ -312,7 +312,7 @@ fn advance(lesson: &mut Lesson, group: u32, steps: usize) -> Result<(), LessonEr
     let mut left = steps;
     while left > 0 {
         let steps = left.min(MOST_STEPS);
-        let ask = LessonAsk::Advance { lane: group, steps, watch: false };
+        let ask = LessonAsk::Advance { group, steps, watch: false };
         asked!(lesson, ask, LessonAnswer::Progress);
         left -= steps;
     }
@@ -320,8 +320,8 @@ fn advance(lesson: &mut Lesson, group: u32, steps: usize) -> Result<(), LessonEr
 }
 
 /// What the draws of a group of chains say.
-fn chains(lesson: &mut Lesson, group: u32) -> Result<LaneFigures, LessonError> {
-    Ok(asked!(lesson, LessonAsk::Figures { lane: group }, LessonAnswer::Figures))
+fn chains(lesson: &mut Lesson, group: u32) -> Result<ChainGroupSummary, LessonError> {
+    Ok(asked!(lesson, LessonAsk::Summary { group }, LessonAnswer::Summary))
 }
 
 /// 20, 50, 100, 200 … below `draws`, and all of them.

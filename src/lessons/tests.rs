@@ -136,8 +136,8 @@ fn draws_do_not_depend_on_how_the_steps_are_cut_or_watched() {
     for (target, samplers) in [("intersection", &SAMPLERS[..]), ("difference", &SAMPLERS[..])] {
         for sampler in samplers {
             let mut lesson = planes();
-            let mut begin = |lane: u32| {
-                let ask = json!({ "ask": "begin", "lane": lane, "target": target,
+            let mut begin = |group: u32| {
+                let ask = json!({ "ask": "begin", "group": group, "target": target,
                     "sampler": sampler, "chains": 3, "seed": "7", "burnIn": 11 });
                 answered(&mut lesson, ask)
             };
@@ -146,14 +146,15 @@ fn draws_do_not_depend_on_how_the_steps_are_cut_or_watched() {
             for _ in 0..100 {
                 last = answered(
                     &mut lesson,
-                    json!({ "ask": "advance", "lane": 0, "steps": 1, "watch": true }),
+                    json!({ "ask": "advance", "group": 0, "steps": 1, "watch": true }),
                 );
             }
-            let whole = answered(&mut lesson, json!({ "ask": "advance", "lane": 1, "steps": 100 }));
+            let whole =
+                answered(&mut lesson, json!({ "ask": "advance", "group": 1, "steps": 100 }));
             assert_eq!(last["states"], whole["states"], "{target}, {sampler}: states");
-            for ask in ["draws", "figures"] {
-                let mut of = |lane: u32| {
-                    answered(&mut lesson, json!({ "ask": ask, "lane": lane, "most": 400 }))
+            for ask in ["draws", "summary"] {
+                let mut of = |group: u32| {
+                    answered(&mut lesson, json!({ "ask": ask, "group": group, "most": 400 }))
                 };
                 let (cut, whole) = (of(0), of(1));
                 assert_eq!(cut, whole, "{target}, {sampler}: {ask}");
@@ -171,10 +172,10 @@ fn watched_steps_obey_the_rule_and_the_densities() {
         let mut lesson = planes();
         answered(
             &mut lesson,
-            json!({ "ask": "begin", "lane": 3, "target": "intersection",
+            json!({ "ask": "begin", "group": 3, "target": "intersection",
             "side": "b", "sampler": sampler, "chains": 2, "seed": "5", "start": [0.5, -1.0] }),
         );
-        let ask = json!({ "ask": "advance", "lane": 3, "steps": 300, "watch": true });
+        let ask = json!({ "ask": "advance", "group": 3, "steps": 300, "watch": true });
         let progress = answered(&mut lesson, ask);
         let steps = progress["steps"].as_array().unwrap();
         assert_eq!(steps.len(), 600, "each chain's steps");
@@ -228,11 +229,11 @@ fn on_fifty_dimensions_the_published_walk_shrinks_and_the_corrected_does_not() {
         let mut lesson = Lesson::new();
         answered(
             &mut lesson,
-            json!({ "ask": "begin", "lane": 0, "target": "normal",
+            json!({ "ask": "begin", "group": 0, "target": "normal",
             "dimension": 50, "sampler": sampler, "chains": 64, "seed": "3", "burnIn": 3000 }),
         );
-        answered(&mut lesson, json!({ "ask": "advance", "lane": 0, "steps": 5000 }));
-        let ask = LessonAsk::Draws { lane: 0, most: MOST_DRAWS };
+        answered(&mut lesson, json!({ "ask": "advance", "group": 0, "steps": 5000 }));
+        let ask = LessonAsk::Draws { group: 0, most: MOST_DRAWS };
         let Ok(LessonAnswer::Draws(draws)) = lesson.answer(ask) else { panic!("draws") };
         let square = |a: &[f32]| a.iter().map(|x| f64::from(x * x)).sum::<f64>() / 50.0;
         let length = draws.count / draws.chains;
@@ -244,11 +245,11 @@ fn on_fifty_dimensions_the_published_walk_shrinks_and_the_corrected_does_not() {
             .collect();
         let error = summarise(&chains).mcse_mean;
         let found =
-            real(&answered(&mut lesson, json!({ "ask": "figures", "lane": 0 }))["meanSquare"]);
+            real(&answered(&mut lesson, json!({ "ask": "summary", "group": 0 }))["meanSquare"]);
         let bound = 5.0 * error + known_to;
         assert!((found - expected).abs() < bound, "{sampler}: {found} ± {error}, not {expected}");
         assert!(bound < 0.2, "{sampler}: ± {error} tells the two apart");
-        let progress = answered(&mut lesson, json!({ "ask": "advance", "lane": 0, "steps": 1 }));
+        let progress = answered(&mut lesson, json!({ "ask": "advance", "group": 0, "steps": 1 }));
         assert_eq!((&progress["ended"], &progress["step"]), (&json!(true), &json!(4562)), "full");
     }
 }
@@ -261,11 +262,11 @@ fn rejection_draws_lie_where_the_difference_is() {
     let mut lesson = planes();
     answered(
         &mut lesson,
-        json!({ "ask": "begin", "lane": 0, "target": "difference",
+        json!({ "ask": "begin", "group": 0, "target": "difference",
         "sampler": "rejection", "seed": "1" }),
     );
-    answered(&mut lesson, json!({ "ask": "advance", "lane": 0, "steps": 20_000 }));
-    let figures = answered(&mut lesson, json!({ "ask": "figures", "lane": 0 }));
+    answered(&mut lesson, json!({ "ask": "advance", "group": 0, "steps": 20_000 }));
+    let figures = answered(&mut lesson, json!({ "ask": "summary", "group": 0 }));
     // As in sampling/rejection.rs: E[1 − L_D] = 1 − t, E a₂² = (1 − t³)/(1 − t), t = (1 + (s/σ)²)^−½.
     let t = 1.0 / (1.0 + 1.0 / (CLOSENESS * CLOSENESS)).sqrt();
     let (probability, error) = (real(&figures["probability"]), real(&figures["standardError"]));
@@ -293,7 +294,7 @@ fn rejection_draws_lie_where_the_difference_is() {
     let step = edge / 1000.0;
     let of_draws: f64 = (0..1000).map(|k| 2.0 * step * density((f64::from(k) + 0.5) * step)).sum();
     let of_gaussian = libm::erf(edge / (2.0 * second).sqrt());
-    let principal = answered(&mut lesson, json!({ "ask": "principal", "lane": 0 }));
+    let principal = answered(&mut lesson, json!({ "ask": "principal", "group": 0 }));
     for (name, expected, count) in
         [("misledDraws", of_draws, 20_000.0), ("misled", of_gaussian, 2000.0)]
     {
@@ -312,11 +313,11 @@ fn chains_on_the_difference_agree_with_its_closed_form() {
         let mut lesson = planes();
         answered(
             &mut lesson,
-            json!({ "ask": "begin", "lane": 0, "target": "difference",
+            json!({ "ask": "begin", "group": 0, "target": "difference",
             "sampler": sampler, "chains": 16, "burnIn": 200, "seed": "2" }),
         );
-        answered(&mut lesson, json!({ "ask": "advance", "lane": 0, "steps": 2200 }));
-        let ask = LessonAsk::Draws { lane: 0, most: MOST_DRAWS };
+        answered(&mut lesson, json!({ "ask": "advance", "group": 0, "steps": 2200 }));
+        let ask = LessonAsk::Draws { group: 0, most: MOST_DRAWS };
         let Ok(LessonAnswer::Draws(draws)) = lesson.answer(ask) else { panic!("draws") };
         let squares: Vec<Vec<f64>> = draws
             .values
@@ -337,16 +338,16 @@ fn principal_components_of_the_stars_come_near_the_truth_as_expected() {
     assert!(!models["truth"].is_null(), "stars as they come have a truth");
     let mut squares = [0.0; 2];
     for seed in 1..=SEEDS {
-        for (lane, side) in [(0, "a"), (1, "b")] {
+        for (group, side) in [(0, "a"), (1, "b")] {
             answered(
                 &mut lesson,
-                json!({ "ask": "begin", "lane": lane, "target": "intersection",
+                json!({ "ask": "begin", "group": group, "target": "intersection",
                 "side": side, "sampler": "independence", "chains": 4, "burnIn": 10,
                 "seed": seed.to_string() }),
             );
-            answered(&mut lesson, json!({ "ask": "advance", "lane": lane, "steps": 510 }));
+            answered(&mut lesson, json!({ "ask": "advance", "group": group, "steps": 510 }));
         }
-        let ask = json!({ "ask": "intersection", "lanes": [0, 1], "counts": [100, 2000] });
+        let ask = json!({ "ask": "intersection", "groups": [0, 1], "counts": [100, 2000] });
         let found = answered(&mut lesson, ask);
         assert_eq!(found["grassmann"], found["falls"][1]["grassmann"], "all draws are 2,000");
         // The closed form is off by what σ leaves: its square adds.
@@ -407,14 +408,14 @@ fn chains_start_where_they_are_told_to() {
     for sampler in &SAMPLERS[..6] {
         let start = answered(
             &mut lesson,
-            json!({ "ask": "begin", "lane": 0,
+            json!({ "ask": "begin", "group": 0,
             "target": "intersection", "sampler": sampler, "chains": 2, "start": [3.0, -2.0] }),
         );
         for (found, expected) in numbers(&start["states"]).into_iter().zip([3.0, -2.0, 3.0, -2.0]) {
             assert!((found - expected).abs() < 1e-12, "{sampler}: {start}");
         }
     }
-    let ask = json!({ "ask": "begin", "lane": 0, "target": "difference", "sampler": "rejection",
+    let ask = json!({ "ask": "begin", "group": 0, "target": "difference", "sampler": "rejection",
         "start": [3.0, -2.0] });
     assert_eq!(asked(&mut lesson, ask), Err(LessonError::NoStart), "rejection starts nowhere");
 }
@@ -424,12 +425,12 @@ fn draws_and_shapes_are_thinned_alike() {
     let mut lesson = planes();
     answered(
         &mut lesson,
-        json!({ "ask": "begin", "lane": 0, "target": "prior", "side": "b",
+        json!({ "ask": "begin", "group": 0, "target": "prior", "side": "b",
         "sampler": "hmc", "chains": 3 }),
     );
-    answered(&mut lesson, json!({ "ask": "advance", "lane": 0, "steps": 100 }));
-    let draws = answered(&mut lesson, json!({ "ask": "draws", "lane": 0, "most": 31 }));
-    let shapes = answered(&mut lesson, json!({ "ask": "shapes", "lane": 0, "most": 31 }));
+    answered(&mut lesson, json!({ "ask": "advance", "group": 0, "steps": 100 }));
+    let draws = answered(&mut lesson, json!({ "ask": "draws", "group": 0, "most": 31 }));
+    let shapes = answered(&mut lesson, json!({ "ask": "shapes", "group": 0, "most": 31 }));
     assert_eq!((&draws["count"], &draws["every"]), (&json!(30), &json!(10)), "ten of each chain");
     assert_eq!(shapes["count"], 30, "a shape for each");
     let (values, shapes) = (numbers(&draws["values"]), numbers(&shapes["values"]));
@@ -452,7 +453,7 @@ fn faults_are_sentences_with_what_was_expected_and_found() {
         assert!(!error.hint().is_empty() && !error.code().is_empty(), "{error}: code and hint");
         error.to_string()
     };
-    let begin = |chains: usize| json!({ "ask": "begin", "lane": 0, "target": "normal", "sampler": "paper", "chains": chains });
+    let begin = |chains: usize| json!({ "ask": "begin", "group": 0, "target": "normal", "sampler": "paper", "chains": chains });
     assert_eq!(
         said(json!({ "ask": "open", "pair": "moons" })),
         "The pair must be one of stars-1 to stars-6, or planes, not “moons”."
@@ -466,20 +467,20 @@ fn faults_are_sentences_with_what_was_expected_and_found() {
         "The number of chains must be a whole number from 1 to 64, not “65”."
     );
     assert_eq!(
-        said(json!({ "ask": "advance", "lane": 4, "steps": 1 })),
+        said(json!({ "ask": "advance", "group": 4, "steps": 1 })),
         "There is no chain group 4."
     );
     let mut lesson = opened(json!({ "ask": "open", "pair": "planes", "tilt": 0 })).0;
-    let ask = json!({ "ask": "begin", "lane": 0, "target": "difference", "sampler": "rejection" });
+    let ask = json!({ "ask": "begin", "group": 0, "target": "difference", "sampler": "rejection" });
     let error = asked(&mut lesson, ask).unwrap_err();
     assert_eq!(error, LessonError::EmptyDifference { side: "A" }, "one plane holds the other");
     answered(&mut lesson, begin(64));
-    let ask = json!({ "ask": "advance", "lane": 0, "steps": 313, "watch": true });
+    let ask = json!({ "ask": "advance", "group": 0, "steps": 313, "watch": true });
     assert_eq!(
         asked(&mut lesson, ask).unwrap_err().to_string(),
         "The number of steps to watch, over all chains, must be a whole number from 0 to 20000, not “20032”."
     );
-    let ask = json!({ "ask": "intersection", "lanes": [0, 0], "counts": [] });
+    let ask = json!({ "ask": "intersection", "groups": [0, 0], "counts": [] });
     let error = asked(&mut lesson, ask).unwrap_err().to_string();
     assert_eq!(error, "Chain group 0 does not draw from the intersection posterior of A.");
 }

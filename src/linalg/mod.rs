@@ -7,6 +7,7 @@ pub(crate) mod parallel;
 mod product;
 pub(crate) mod simd;
 mod thin_svd;
+mod typed_array;
 
 pub(crate) use combination::{Sum, combined};
 pub(crate) use eigen::eigen;
@@ -15,6 +16,7 @@ pub use product::{cross, gram, product};
 pub(crate) use product::{product_in_place, product_of, row_squares_of};
 pub use thin_svd::{ThinSvd, thin_svd};
 pub(crate) use thin_svd::{into_thin_svd, singular_values};
+pub use typed_array::TypedArray;
 
 /// The same numbers in single precision, as the page draws them.
 #[allow(clippy::cast_possible_truncation, reason = "to single precision is what it is for")]

@@ -1,19 +1,35 @@
 //! Mean and covariance of draws and of mixtures, and their principal components.
 
 use nalgebra::{DMatrix, DVector};
+use serde::{Serialize, Serializer};
 
 use super::{eigen, gram};
 
 /// Eigenvalues below this share of the largest are rounding errors.
 const SMALLEST_EIGENVALUE: f64 = 1e-10;
 
-/// Mean and covariance in some coordinates.
+/// Mean and covariance in some coordinates. In JSON both are lists, the covariance row by row.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Moments {
     /// Mean (p).
+    #[cfg_attr(test, ts(type = "Array<number>"))]
     pub mean: DVector<f64>,
     /// Covariance (p × p).
+    #[cfg_attr(test, ts(type = "Array<number>"))]
     pub covariance: DMatrix<f64>,
+}
+
+impl Serialize for Moments {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Lists<'a> {
+            mean: &'a [f64],
+            covariance: &'a [f64],
+        }
+        // Symmetric: column by column is row by row.
+        Lists { mean: self.mean.as_slice(), covariance: self.covariance.as_slice() }.serialize(to)
+    }
 }
 
 impl Moments {
@@ -32,6 +48,15 @@ impl Moments {
             }
         }
         Self { mean, covariance: gram(&centred) / (count - 1.0).max(1.0) }
+    }
+
+    /// Of the first `count` coordinates.
+    #[must_use]
+    pub fn first(&self, count: usize) -> Self {
+        Self {
+            mean: self.mean.rows(0, count).into_owned(),
+            covariance: self.covariance.view((0, 0), (count, count)).into_owned(),
+        }
     }
 
     /// Of the equal mixture of two distributions.

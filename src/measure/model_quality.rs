@@ -28,6 +28,7 @@ const FOLDS: usize = 10;
 
 /// Whether the shapes are test shapes or training shapes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// Test shapes.
@@ -40,6 +41,7 @@ pub enum Method {
 
 /// Generalization and specificity, for the first so many modes.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct Evaluation {
     /// Number of shapes.

@@ -14,6 +14,7 @@ const SMALLEST_RELATIVE_DEVIATION: f64 = 1e-6;
 
 /// What the numbers of a model mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub enum Kind {
     /// Point positions.
@@ -26,6 +27,7 @@ pub enum Kind {
 
 /// The unit of length in which a shape model is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, Default)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub enum Unit {
     /// Micrometres.
     #[serde(rename = "µm")]
@@ -100,6 +102,7 @@ pub enum Cells {
 
 /// What [`LinearModel::from_scaled_basis`] found about the given basis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct BasisCheck {
     /// Largest |cos| between two different columns of the given basis; 0 when orthogonal.

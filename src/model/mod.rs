@@ -11,6 +11,7 @@
 //! for all its copies.
 
 mod fingerprint;
+mod geometry;
 mod linear_model;
 mod normals;
 mod points;
@@ -18,6 +19,7 @@ mod population;
 mod procrustes;
 mod side;
 
+pub use geometry::Geometry;
 pub(crate) use linear_model::lengths;
 pub use linear_model::{BasisCheck, Cells, Kind, LinearModel, ModelError, Unit};
 pub use normals::vertex_normals;

@@ -16,6 +16,7 @@ use crate::linalg::thin_svd;
 
 /// What may be moved when B is aligned to A.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub enum Alignment {
     /// Nothing: the models are compared as they are.

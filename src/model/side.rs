@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// One of the two models of a comparison, or what belongs to it: shapes of A seen from B, and of B seen from A.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub enum Side {
     /// The first model.
@@ -44,6 +45,7 @@ impl Side {
 
 /// One of something for each of the two models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Sides<T> {
     /// Of A, or of shapes of A near B.
     pub a: T,

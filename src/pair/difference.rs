@@ -43,6 +43,7 @@ const PILOT_BLOCK: usize = 256;
 
 /// What makes a shape of one model count as outside the other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum DifferenceDefinition {
     /// Its distance d, softly: with probability 1 − exp(−½(d/σ)²), the paper's.

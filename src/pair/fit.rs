@@ -48,6 +48,7 @@ const VANISHED: f64 = 1e-6;
 
 /// The method of a Gaussian fit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum FitMethod {
     /// d by the root mean square.

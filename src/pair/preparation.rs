@@ -27,6 +27,7 @@ use crate::text::thousands;
 
 /// What is done to two models before they are compared.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct Preparation {
     /// Steps that concern A alone.
@@ -43,6 +44,7 @@ pub struct Preparation {
 
 /// Steps that concern one model.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct SidePreparation {
     /// The unit that the file does not state.
@@ -57,6 +59,7 @@ pub struct SidePreparation {
 
 /// Which point of B is which point of A.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(tag = "by", rename_all = "camelCase", deny_unknown_fields)]
 pub enum PointSelection {
     /// The same points of both: "0-99,120", both ends included.

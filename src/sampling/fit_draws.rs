@@ -37,7 +37,7 @@ impl Chains for FitChains {
         let mut z = vec![0.0; size];
         for (index, point) in points.chunks_exact_mut(size).enumerate() {
             fill_normal(&mut self.random[index % self.schedule.chains], &mut z);
-            self.fit.place(&z, point);
+            self.fit.apply(&z, point);
             log_densities.push(-0.5 * z.iter().map(|value| value * value).sum::<f64>());
         }
         for (index, evaluation) in target.evaluate(&points).into_iter().enumerate() {

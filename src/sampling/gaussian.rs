@@ -58,7 +58,7 @@ impl Gaussian {
     }
 
     /// μ + T z, written to `point`.
-    pub fn place(&self, z: &[f64], point: &mut [f64]) {
+    pub fn apply(&self, z: &[f64], point: &mut [f64]) {
         point.copy_from_slice(self.mean.as_slice());
         add_upper_product(&self.transform, z, point);
     }
@@ -106,7 +106,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn placed_normals_have_the_given_precision_and_density() {
+    fn transformed_normals_have_the_given_precision_and_density() {
         let precision = DMatrix::from_row_slice(2, 2, &[4.0, 1.0, 1.0, 3.0]);
         let gaussian =
             Gaussian::from_precision(DVector::from_vec(vec![1.0, -2.0]), precision.clone())
@@ -116,7 +116,7 @@ mod tests {
             "T Tᵀ"
         );
         let mut point = [0.0; 2];
-        gaussian.place(&[0.3, -0.7], &mut point);
+        gaussian.apply(&[0.3, -0.7], &mut point);
         let z = gaussian.whiten(&point);
         assert!(
             (z[0] - 0.3).abs() < 1e-14 && (z[1] + 0.7).abs() < 1e-14,

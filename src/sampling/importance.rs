@@ -130,7 +130,7 @@ impl Importance {
         self.blocks += blocks;
         let points = parallel::map(normals.len() / size, |index| {
             let mut point = vec![0.0; size];
-            self.fit.place(&normals[index * size..(index + 1) * size], &mut point);
+            self.fit.apply(&normals[index * size..(index + 1) * size], &mut point);
             point
         })
         .concat();

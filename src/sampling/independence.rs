@@ -85,10 +85,10 @@ impl IndependenceChains {
         let mut point = vec![0.0; z.len()];
         // The component that was drawn from knows its z: only the other one must find it.
         let (fit, defence) = if defensive {
-            self.defence.place(&z, &mut point);
+            self.defence.apply(&z, &mut point);
             (self.fit.log_density(&point), self.defence.log_density_of_whitened(&z))
         } else {
-            self.fit.place(&z, &mut point);
+            self.fit.apply(&z, &mut point);
             (self.fit.log_density_of_whitened(&z), self.defence.log_density(&point))
         };
         let log_proposal = log_mixture(fit, defence, DEFENSIVE_SHARE);

@@ -230,7 +230,7 @@ fn look(
         })
         .concat()
     };
-    let points = by_chain(&z, &|z, point| fit.place(z, point));
+    let points = by_chain(&z, &|z, point| fit.apply(z, point));
     let (found, slopes) = if gradient {
         let (found, gradients) = target.differentiate(&points);
         (found, by_chain(&gradients, &|gradient, slope| fit.whiten_gradient(gradient, slope)))

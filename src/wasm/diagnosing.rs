@@ -1,33 +1,15 @@
 //! Diagnosing runs, evaluating models, run files: this part of the engine's bindings.
 
-use crate::model::Side;
-use js_sys::{Array, Float32Array, Uint32Array};
-use serde::Serialize;
+use js_sys::Array;
 use wasm_bindgen::prelude::*;
 
-use super::{Engine, blobs, fault, object, parsed, plain, thrown};
-use crate::files::{self, RunFile, RunModel, Sources};
-use crate::model::Sides;
-use crate::settings::Settings;
-
-/// What the page needs of a run file.
-#[derive(Serialize)]
-struct ReadRun<'a> {
-    models: &'a Sides<RunModel>,
-    settings: &'a Settings,
-}
+use super::{Engine, blobs, parsed, plain, thrown};
+use crate::files::{self, RunFile, Sources};
+use crate::model::Side;
 
 /// Which model the page means.
 fn side_of(side: &str) -> Result<Side, JsValue> {
-    match side {
-        "a" => Ok(Side::A),
-        "b" => Ok(Side::B),
-        _ => Err(fault("settings", format!("There is no side “{side}”."), "Reload the page.")),
-    }
-}
-
-fn floats(values: &[f32]) -> JsValue {
-    Float32Array::from(values).into()
+    parsed(JsValue::from_str(side), "side")
 }
 
 #[wasm_bindgen]
@@ -37,18 +19,14 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }` when there are no draws, or no such mode.
-    pub fn diagnose(&self, side: &str, mode: usize) -> Result<JsValue, JsValue> {
-        let found = self.current()?.diagnose(side_of(side)?, mode).map_err(thrown)?;
-        Ok(object(&[
-            ("chains", plain(&found.chains)),
-            ("length", plain(&found.length)),
-            ("every", plain(&found.every)),
-            ("draws", floats(&found.draws)),
-            ("distances", floats(&found.distances)),
-            ("bins", plain(&found.bins)),
-            ("ranks", Uint32Array::from(&found.ranks[..]).into()),
-            ("autocorrelation", floats(&found.autocorrelation)),
-        ]))
+    #[wasm_bindgen(unchecked_return_type = "ChainPlots")]
+    pub fn diagnose(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Side")] side: &str,
+        mode: usize,
+    ) -> Result<JsValue, JsValue> {
+        let found = self.current()?.diagnose(side_of(side)?, mode);
+        found.map(|found| plain(&found)).map_err(thrown)
     }
 
     /// At most `most` draws of the first `modes` coefficients of a side, and the Gaussians beside them:
@@ -56,16 +34,15 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }` when there are no draws.
-    pub fn pairs(&self, side: &str, modes: usize, most: usize) -> Result<JsValue, JsValue> {
-        let found = self.current()?.pairs(side_of(side)?, modes, most).map_err(thrown)?;
-        Ok(object(&[
-            ("modes", plain(&found.modes)),
-            ("count", plain(&found.count)),
-            ("draws", floats(&found.draws)),
-            ("mean", plain(&found.moments.mean)),
-            ("covariance", plain(&found.moments.covariance)),
-            ("fit", plain(&found.fit)),
-        ]))
+    #[wasm_bindgen(unchecked_return_type = "PairPlots")]
+    pub fn pairs(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Side")] side: &str,
+        modes: usize,
+        most: usize,
+    ) -> Result<JsValue, JsValue> {
+        let found = self.current()?.pairs(side_of(side)?, modes, most);
+        found.map(|found| plain(&found)).map_err(thrown)
     }
 
     /// Generalization and specificity of a model, by shapes that test it (`[{ name, blob }]`) or by those
@@ -73,7 +50,13 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }` when the shapes cannot be read or are not like those of the model.
-    pub fn evaluate(&self, model: u32, shapes: &Array, training: bool) -> Result<JsValue, JsValue> {
+    #[wasm_bindgen(unchecked_return_type = "Evaluation")]
+    pub fn evaluate(
+        &self,
+        model: u32,
+        #[wasm_bindgen(unchecked_param_type = "DroppedFile[]")] shapes: &Array,
+        training: bool,
+    ) -> Result<JsValue, JsValue> {
         let model = self.model(model)?;
         let inputs = blobs::inputs(shapes, None)?;
         let evaluation = files::evaluate(model, &inputs, training);
@@ -85,10 +68,9 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }` when it is neither.
-    #[wasm_bindgen(js_name = readRun)]
+    #[wasm_bindgen(js_name = readRun, unchecked_return_type = "RunFile")]
     pub fn read_run(&self, text: &str) -> Result<JsValue, JsValue> {
-        let run = RunFile::parse("The file", text).map_err(thrown)?;
-        Ok(plain(&ReadRun { models: &run.models, settings: &run.settings }))
+        RunFile::parse("The file", text).map(|run| plain(&run)).map_err(thrown)
     }
 
     /// The text of the run file of the comparison; `{ a, b }` say where the models are from.
@@ -96,7 +78,10 @@ impl Engine {
     /// # Errors
     /// `{ code, message, hint }` when no comparison is open.
     #[wasm_bindgen(js_name = runFile)]
-    pub fn run_file(&self, sources: JsValue) -> Result<String, JsValue> {
+    pub fn run_file(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Sides<string | null>")] sources: JsValue,
+    ) -> Result<String, JsValue> {
         let sources: Sources = parsed(sources, "list of sources")?;
         Ok(RunFile::of(self.current()?, &sources).to_json())
     }

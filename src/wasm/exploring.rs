@@ -1,42 +1,11 @@
 //! What the page asks to explore and measure: axes, shapes that follow, maps, ellipsoids, relations.
 
-use crate::model::Sides;
-use js_sys::Float32Array;
 use wasm_bindgen::prelude::*;
 
-use super::{Engine, object, parsed, plain, settings_of, thrown};
-use crate::comparison::{AxesKind, Comparison, Explored, MapName, Nearest, Region, Space};
+use super::{Engine, parsed, plain, settings_of, thrown};
+use crate::comparison::{AxesKind, MapName, Region, Space};
 use crate::files::Error;
 use crate::relate::{RelationReport, relate};
-
-fn array(values: &[f32]) -> JsValue {
-    Float32Array::from(values).into()
-}
-
-fn nearest(found: &Nearest) -> JsValue {
-    object(&[
-        ("shape", array(&found.shape)),
-        ("residuals", array(&found.residuals)),
-        ("distance", found.distance.into()),
-        ("norm", found.norm.into()),
-        ("plausibility", found.plausibility.into()),
-        ("likelihood", found.likelihood.into()),
-    ])
-}
-
-fn placed(found: &Sides<Nearest>) -> JsValue {
-    object(&[("a", nearest(&found.a)), ("b", nearest(&found.b))])
-}
-
-fn explored(found: &Explored) -> JsValue {
-    object(&[
-        ("shape", array(&found.shape)),
-        ("coefficients", array(&found.coefficients)),
-        ("norm", found.norm.into()),
-        ("plausibility", found.plausibility.into()),
-        ("placed", found.placed.as_ref().map_or(JsValue::NULL, placed)),
-    ])
-}
 
 fn space_of(name: &str) -> Result<Space, JsValue> {
     parsed(JsValue::from_str(name), "space")
@@ -46,12 +15,6 @@ fn kind_of(name: &str) -> Result<AxesKind, JsValue> {
     parsed(JsValue::from_str(name), "kind of axes")
 }
 
-impl Engine {
-    fn explorable(&mut self) -> Result<&mut Comparison, JsValue> {
-        self.comparison.as_mut().ok_or_else(|| thrown(Error::NothingYet))
-    }
-}
-
 #[wasm_bindgen]
 impl Engine {
     /// The axes of a space ("a", "b", "intersection") of a kind ("modes", "exclusive", "relative", "angles"):
@@ -59,35 +22,44 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }` when no comparison is open, or the space has no such axes (yet).
-    pub fn axes(&mut self, space: &str, kind: &str) -> Result<JsValue, JsValue> {
+    #[wasm_bindgen(unchecked_return_type = "Axes")]
+    pub fn axes(
+        &mut self,
+        #[wasm_bindgen(unchecked_param_type = "Space")] space: &str,
+        #[wasm_bindgen(unchecked_param_type = "AxesKind")] kind: &str,
+    ) -> Result<JsValue, JsValue> {
         let (space, kind) = (space_of(space)?, kind_of(kind)?);
-        self.explorable()?.axes(space, kind).map(|axes| plain(&axes)).map_err(thrown)
+        let comparison = self.comparison.as_mut().ok_or_else(|| thrown(Error::NothingYet))?;
+        comparison.axes(space, kind).map(|axes| plain(&axes)).map_err(thrown)
     }
 
-    /// The shape at slider values along the axes: `{ shape, coefficients, norm, plausibility, placed }`. With
-    /// `follow`, `placed` has the nearest shapes `{ a, b }`, each `{ shape, residuals, distance, norm,
+    /// The shape at slider values along the axes: `{ shape, coefficients, norm, plausibility, nearest }`. With
+    /// `follow`, `nearest` has the nearest shapes `{ a, b }`, each `{ shape, residuals, distance, norm,
     /// plausibility, likelihood }`; else it is null.
     ///
     /// # Errors
     /// As [`Engine::axes`].
+    #[wasm_bindgen(unchecked_return_type = "Explored")]
     pub fn explore(
         &mut self,
-        space: &str,
-        kind: &str,
+        #[wasm_bindgen(unchecked_param_type = "Space")] space: &str,
+        #[wasm_bindgen(unchecked_param_type = "AxesKind")] kind: &str,
         coefficients: &[f64],
         follow: bool,
     ) -> Result<JsValue, JsValue> {
         let (space, kind) = (space_of(space)?, kind_of(kind)?);
-        let found = self.explorable()?.explore(space, kind, coefficients, follow);
-        found.map(|found| explored(&found)).map_err(thrown)
+        let comparison = self.comparison.as_mut().ok_or_else(|| thrown(Error::NothingYet))?;
+        let found = comparison.explore(space, kind, coefficients, follow);
+        found.map(|found| plain(&found)).map_err(thrown)
     }
 
     /// Where a shape (d·n, in the frame of A) lies: its nearest shapes `{ a, b }`.
     ///
     /// # Errors
     /// `{ code, message, hint }` when no comparison is open, or it has another number of points.
-    pub fn place(&mut self, shape: &[f32]) -> Result<JsValue, JsValue> {
-        self.explorable()?.place(shape).map(|found| placed(&found)).map_err(thrown)
+    #[wasm_bindgen(js_name = nearestShapes, unchecked_return_type = "Sides<Nearest>")]
+    pub fn nearest_shapes(&self, shape: &[f32]) -> Result<JsValue, JsValue> {
+        self.current()?.nearest_shapes(shape).map(|found| plain(&found)).map_err(thrown)
     }
 
     /// The shape of least change from the one with these coefficients (in modes) whose point `vertex` is at
@@ -95,17 +67,18 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }` when no comparison is open, or there is no such point.
+    #[wasm_bindgen(unchecked_return_type = "Explored")]
     pub fn drag(
-        &mut self,
-        space: &str,
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Space")] space: &str,
         coefficients: &[f64],
         vertex: usize,
         target: &[f64],
         follow: bool,
     ) -> Result<JsValue, JsValue> {
         let space = space_of(space)?;
-        let found = self.explorable()?.drag(space, coefficients, vertex, target, follow);
-        found.map(|found| explored(&found)).map_err(thrown)
+        let found = self.current()?.drag(space, coefficients, vertex, target, follow);
+        found.map(|found| plain(&found)).map_err(thrown)
     }
 
     /// A map over the vertices of a region: `{ values, signed }`. `mode` counts from 0.
@@ -113,11 +86,16 @@ impl Engine {
     /// # Errors
     /// `{ code, message, hint }` while there is nothing of the region, or where the map needs normals and there
     /// are none.
-    pub fn map(&mut self, name: &str, region: JsValue, mode: usize) -> Result<JsValue, JsValue> {
+    #[wasm_bindgen(unchecked_return_type = "VertexMap")]
+    pub fn map(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "MapName")] name: &str,
+        #[wasm_bindgen(unchecked_param_type = "Region")] region: JsValue,
+        mode: usize,
+    ) -> Result<JsValue, JsValue> {
         let name: MapName = parsed(JsValue::from_str(name), "map")?;
         let region: Region = parsed(region, "region")?;
-        let map = self.explorable()?.map(name, region, mode).map_err(thrown)?;
-        Ok(object(&[("values", array(&map.values)), ("signed", map.signed.into())]))
+        self.current()?.map(name, region, mode).map(|map| plain(&map)).map_err(thrown)
     }
 
     /// The covariance of a vertex in every region that there is: `{ a: { centre, axes }, … }`, the semi-axes one
@@ -125,21 +103,22 @@ impl Engine {
     ///
     /// # Errors
     /// `{ code, message, hint }` when no comparison is open, or there is no such vertex.
-    pub fn ellipsoids(&mut self, vertex: usize) -> Result<JsValue, JsValue> {
-        let found = self.explorable()?.ellipsoids(vertex).map_err(thrown)?;
-        let all = object(&[]);
-        for (region, ellipsoid) in &found {
-            // Setting a member of a fresh object cannot fail.
-            let _ = js_sys::Reflect::set(&all, &plain(region), &plain(ellipsoid));
-        }
-        Ok(all)
+    #[wasm_bindgen(unchecked_return_type = "Partial<Record<Region, Ellipsoid>>")]
+    pub fn ellipsoids(&self, vertex: usize) -> Result<JsValue, JsValue> {
+        self.current()?.ellipsoids(vertex).map(|found| plain(&found)).map_err(thrown)
     }
 
     /// Closed-form measures of two models, without draws: `{ problem, points, varianceOfAInB, … }`.
     ///
     /// # Errors
     /// `{ code, message, hint }` when a model is closed or the settings cannot be read.
-    pub fn relate(&self, a: u32, b: u32, settings: JsValue) -> Result<JsValue, JsValue> {
+    #[wasm_bindgen(unchecked_return_type = "RelationReport")]
+    pub fn relate(
+        &self,
+        a: u32,
+        b: u32,
+        #[wasm_bindgen(unchecked_param_type = "Partial<Settings>")] settings: JsValue,
+    ) -> Result<JsValue, JsValue> {
         let settings = settings_of(settings)?;
         let (first, second) = (self.model(a)?, self.model(b)?);
         Ok(plain(&RelationReport::from(relate(&first.model, &second.model, &settings))))

@@ -225,7 +225,7 @@ test("a race is run before the eye, broken by a button, and mended by Back", asy
     await page.locator('[data-chart="squares"]').waitFor();
     await page.goBack();
     await untilAddress(page, /^#v=1&page=learn&scene=race$/);
-    await page.locator(".race-lanes[data-count='5']").waitFor();
+    await page.locator(".race-groups[data-count='5']").waitFor();
   });
 });
 

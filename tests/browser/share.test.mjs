@@ -92,9 +92,9 @@ test("what cannot be downloaded is said in words, and what is open stays", async
     const shown = await metric(page, "overlap.varianceOfAInB");
     for (const [address, code, words] of [
       [`${files.url}/none.h5`, "not-found", /none\.h5 does not exist: localhost:\d+ answered 404/],
-      [`${files.url}/closed.h5`, "forbidden", /may not be read by everybody/],
+      [`${files.url}/closed.h5`, "forbidden", /closed\.h5 is not public: localhost/],
       [`${files.url}/page.h5`, "web-page", /is a web page, not a file of a model/],
-      [`${files.url}/note.h5`, "lfs-pointer", /a Git LFS pointer to it: a note of 1\.23.MB/],
+      [`${files.url}/note.h5`, "lfs-pointer", /a Git LFS pointer to it: the file of 1\.23.MB/],
       [`${shut.url}/m.h5`, "not-shared", /does not let other sites read its files \(no Access-/],
       ["http://a.example/m.h5", "insecure-address", /read without encryption/],
       ["https://github.com/o/r/releases/download/1/m.h5", "not-shared", /release files of GitHub/],

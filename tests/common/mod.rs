@@ -177,7 +177,7 @@ pub fn draws_of(gaussian: &Gaussian, count: usize, seed: u64) -> Vec<Vec<f64>> {
         .map(|_| {
             fill_normal(&mut random, &mut z);
             let mut point = vec![0.0; z.len()];
-            gaussian.place(&z, &mut point);
+            gaussian.apply(&z, &mut point);
             point
         })
         .collect()

@@ -31,6 +31,7 @@ const TRIED = {
   "npm run lint": { execute: {} },
   "npm run types": { execute: {} },
   "npm run test:rust": byTest,
+  "npm run test:rust -- typescript": notHere,
   "npm run test:unit": "it runs this test",
   "npm run test:browser": byTest,
   "npm run test:browser -- WORD": byTest,

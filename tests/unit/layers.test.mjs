@@ -20,7 +20,7 @@ const RUST = {
       "report",
     ],
     ...["error", "inspect", "relate", "demos", "comparison", "files", "lessons", "reproduce"],
-    ...["roofline", "wasm", "bin"],
+    ...["roofline", "typescript", "wasm", "bin"],
   ],
   "src/formats": [
     ...["error", "opened", "input", "containers", "mesh", "readers", "several", "write", "open"],

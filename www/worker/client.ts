@@ -5,34 +5,35 @@
  * starts, and `onRestart` lets the page open its models again.
  */
 import { EngineFailure } from "./engine-errors";
-import type { LessonAnswers, LessonAsk } from "./lessons";
 import type {
   Axes,
   AxesKind,
-  BothSides,
-  ChainFigures,
+  ChainPlots,
+  DifferenceShapes,
+  Download,
   DroppedFile,
   Ellipsoid,
   Evaluation,
   Explored,
-  ExportKind,
-  FileGroup,
   FromEngine,
   Geometry,
+  Group,
   Handle,
   Inspection,
+  LessonAnswers,
+  LessonAsk,
   MapName,
   Nearest,
-  PairFigures,
-  Picture,
+  PairPlots,
   PointSelection,
   Preview,
   Progress,
   Region,
   RegionShapes,
-  Relation,
+  RelationReport,
   RunFile,
   Settings,
+  Sides,
   Space,
   SweepPoint,
   ToEngine,
@@ -94,7 +95,7 @@ export class EngineClient {
     this.#worker = this.#begin();
   }
 
-  async groups(signal: AbortSignal, files: DroppedFile[]): Promise<FileGroup[]> {
+  async groups(signal: AbortSignal, files: DroppedFile[]): Promise<Group[]> {
     return (await this.#ask(signal, { t: "groups", files }, "groups")).groups;
   }
 
@@ -135,7 +136,7 @@ export class EngineClient {
   }
 
   /** The two models as the current run compares them. */
-  async compared(signal: AbortSignal): Promise<BothSides<Geometry>> {
+  async compared(signal: AbortSignal): Promise<Sides<Geometry>> {
     const { a, b } = await this.#ask(signal, { t: "compared" }, "compared");
     return { a, b };
   }
@@ -175,7 +176,7 @@ export class EngineClient {
     count: number,
     seed: string,
     exaggeration = 0,
-    picture: Picture = "draws",
+    picture: DifferenceShapes = "draws",
   ): Promise<RegionShapes> {
     const request = { t: "region", region, count, seed, exaggeration, picture } as const;
     return (await this.#ask(signal, request, "region")).shapes;
@@ -207,8 +208,8 @@ export class EngineClient {
     return (await this.#ask(signal, { ...request, coefficients: along }, "explored")).explored;
   }
 
-  async place(signal: AbortSignal, shape: Float32Array): Promise<BothSides<Nearest>> {
-    return (await this.#ask(signal, { t: "place", shape }, "placed")).placed;
+  async nearestShapes(signal: AbortSignal, shape: Float32Array): Promise<Sides<Nearest>> {
+    return (await this.#ask(signal, { t: "nearest", shape }, "nearest")).nearest;
   }
 
   /** The shape nearest to the one with these coefficients whose vertex is at the target. */
@@ -242,7 +243,7 @@ export class EngineClient {
     return (await this.#ask(signal, { t: "ellipsoids", vertex }, "ellipsoids")).ellipsoids;
   }
 
-  async diagnose(signal: AbortSignal, side: "a" | "b", mode: number): Promise<ChainFigures> {
+  async diagnose(signal: AbortSignal, side: "a" | "b", mode: number): Promise<ChainPlots> {
     return (await this.#ask(signal, { t: "diagnose", side, mode }, "diagnosed")).figures;
   }
 
@@ -251,7 +252,7 @@ export class EngineClient {
     side: "a" | "b",
     modes: number,
     most: number,
-  ): Promise<PairFigures> {
+  ): Promise<PairPlots> {
     return (await this.#ask(signal, { t: "pairs", side, modes, most }, "pairs")).figures;
   }
 
@@ -260,7 +261,7 @@ export class EngineClient {
     a: Handle,
     b: Handle,
     settings: Partial<Settings>,
-  ): Promise<Relation> {
+  ): Promise<RelationReport> {
     return (await this.#ask(signal, { t: "relate", a, b, settings }, "related")).relation;
   }
 
@@ -278,7 +279,7 @@ export class EngineClient {
     return (await this.#ask(signal, { t: "readRun", text }, "run")).run;
   }
 
-  async runFile(signal: AbortSignal, sources: BothSides<string | null>): Promise<string> {
+  async runFile(signal: AbortSignal, sources: Sides<string | null>): Promise<string> {
     return (await this.#ask(signal, { t: "runFile", sources }, "runFile")).text;
   }
 
@@ -291,7 +292,7 @@ export class EngineClient {
     return answer as LessonAnswers[K];
   }
 
-  async export(signal: AbortSignal, what: ExportKind): Promise<Reply<"exported">> {
+  async export(signal: AbortSignal, what: Download): Promise<Reply<"exported">> {
     return this.#ask(signal, { t: "export", what }, "exported");
   }
 

@@ -6,15 +6,7 @@
  * busy reads no messages and would not see a cancel.
  */
 import { isEngineError, sentenceOf } from "./engine-errors";
-import type {
-  Engine,
-  EngineError,
-  FromEngine,
-  Handle,
-  OpenedModel,
-  Stage,
-  ToEngine,
-} from "./protocol";
+import type { Engine, FromEngine, Handle, Notice, OpenedModel, Stage, ToEngine } from "./protocol";
 import { firstBudget, isIndivisible, nextBudget } from "./slices";
 
 export type Post = (message: FromEngine, transfer?: Transferable[]) => void;
@@ -50,7 +42,7 @@ const BUSY_WITH: Record<Question["t"], string> = {
   export: "writing the file",
   axes: "ordering directions",
   explore: "drawing the shape",
-  place: "placing the shape",
+  nearest: "finding the nearest shapes",
   drag: "drawing the shape",
   map: "mapping the vertices",
   ellipsoids: "mapping the vertex",
@@ -174,8 +166,8 @@ export class Coordinator {
         const { space, kind, coefficients, follow } = message;
         return { t: "explored", id, explored: engine.explore(space, kind, coefficients, follow) };
       }
-      case "place":
-        return { t: "placed", id, placed: engine.place(message.shape) };
+      case "nearest":
+        return { t: "nearest", id, nearest: engine.nearestShapes(message.shape) };
       case "drag": {
         const { space, coefficients, vertex, target, follow } = message;
         const explored = engine.drag(space, coefficients, vertex, target, follow);
@@ -220,7 +212,7 @@ export class Coordinator {
       code: "running",
       message: "A comparison is running.",
       hint: "Ask again when it is done.",
-    } satisfies EngineError;
+    } satisfies Notice;
   }
 
   /** Says how far a file is read, now and then, and when all of it is. */

@@ -1,11 +1,11 @@
-import type { EngineError } from "./protocol";
+import type { Notice } from "./protocol";
 
 /** An error of the engine as the page's promises reject with it. */
-export class EngineFailure extends Error implements EngineError {
+export class EngineFailure extends Error implements Notice {
   readonly code: string;
   readonly hint: string;
 
-  constructor(error: EngineError) {
+  constructor(error: Notice) {
     super(error.message);
     this.name = "EngineFailure";
     this.code = error.code;
@@ -14,7 +14,7 @@ export class EngineFailure extends Error implements EngineError {
 }
 
 /** The engine throws plain `{code, message, hint}`; anything else is a panic or out of memory. */
-export function isEngineError(thrown: unknown): thrown is EngineError {
+export function isEngineError(thrown: unknown): thrown is Notice {
   return (
     typeof thrown === "object" &&
     thrown !== null &&

@@ -3,7 +3,7 @@ import { test } from "node:test";
 import { parseThreads, readStart, writeStart } from "./start";
 
 test("what the page tells the worker arrives", () => {
-  const start = { base: "http://host/folder/", serial: true, threads: 3, mock: false };
+  const start = { base: "http://host/folder/", serial: true, threads: 3 };
   assert.deepEqual(readStart(writeStart(start)), start);
 });
 

@@ -6,8 +6,6 @@ export interface WorkerStart {
   serial: boolean;
   /** How many threads; null for as many as the machine has. */
   threads: number | null;
-  /** Development only: an engine that invents its numbers. */
-  mock: boolean;
 }
 
 const MOST_THREADS = 64;
@@ -28,6 +26,5 @@ export function readStart(name: string): WorkerStart {
     base: read.base ?? "/",
     serial: read.serial === true,
     threads: read.threads ?? null,
-    mock: read.mock === true,
   };
 }

@@ -1,7 +1,7 @@
 /** Entry of the engine’s worker: loads the engine, then hands every message to the coordinator. */
 import { Coordinator } from "./coordinator";
 import { sentenceOf } from "./engine-errors";
-import { type Loaded, loadEngine } from "./load";
+import { loadEngine } from "./load";
 import { type FromEngine, PROTOCOL, type ToEngine } from "./protocol";
 import { readStart, type WorkerStart } from "./start";
 
@@ -24,19 +24,11 @@ begin(readStart(scope.name)).catch((thrown: unknown) => {
 });
 
 async function begin(start: WorkerStart): Promise<void> {
-  const { engine, build, threads, version } = await chooseEngine(start);
+  const { engine, build, threads, version } = await loadEngine(start);
   const coordinator = new Coordinator(engine, post, macrotasks());
   post({ t: "ready", protocol: PROTOCOL, build, threads, engine: version });
   scope.onmessage = (event) => coordinator.receive(event.data);
   for (const message of waiting) coordinator.receive(message);
-}
-
-async function chooseEngine(start: WorkerStart): Promise<Loaded> {
-  if (import.meta.env.DEV && start.mock) {
-    const { mockEngine } = await import("./mock");
-    return { engine: await mockEngine(start.base), build: "serial", threads: 1, version: "mock" };
-  }
-  return loadEngine(start);
 }
 
 /** Macrotasks without the 4 ms that nested timers are held back. */

@@ -4,35 +4,13 @@
 //! read, the command line refuses: whoever types a command sees what was wrong with it.
 
 use serde_json::{Map, Value, json};
-use shapevenn::settings::Settings;
+use shapevenn::settings::{FIELDS, FieldValue, Settings};
 
 use crate::Failure;
 
-/// Settings by their key in a link, their name in a report, and how they are written.
-const SETTINGS: [(&str, &str, Kind); 18] = [
-    ("align", "align", Kind::Word),
-    ("modes", "modes", Kind::Count),
-    ("sigma", "sigma", Kind::Number),
-    ("sampler", "sampler", Kind::Word),
-    ("seed", "seed", Kind::Word),
-    ("chains", "chains", Kind::Count),
-    ("draws", "draws", Kind::Count),
-    ("burnin", "burnIn", Kind::Count),
-    ("thin", "thin", Kind::Count),
-    ("fit", "fit", Kind::Word),
-    ("sides", "pooling", Kind::Word),
-    ("plaus", "plausibility", Kind::Word),
-    ("noise", "noise", Kind::Number),
-    ("weighted", "weighted", Kind::Count),
-    ("diff", "difference", Kind::Word),
-    ("leaves", "differenceQuantile", Kind::Percent),
-    ("beyond", "differenceThreshold", Kind::Number),
-    ("diffdraws", "differenceDraws", Kind::Count),
-];
-
-/// The same of one model; each key ends in `-a` or `-b`.
-const OF_ONE: [(&str, Kind); 3] =
-    [("unit", Kind::Word), ("modes", Kind::Count), ("variance", Kind::Percent)];
+/// What is done to one model first; each key ends in `-a` or `-b`.
+const OF_ONE: [(&str, Written); 3] =
+    [("unit", Written::Word), ("modes", Written::Count), ("variance", Written::Percent)];
 
 /// Keys of what is done to both models.
 const OF_BOTH: [&str; 4] = ["rebase", "convert", "points", "subsample"];
@@ -40,12 +18,24 @@ const OF_BOTH: [&str; 4] = ["rebase", "convert", "points", "subsample"];
 /// The pair that a link means which names none, and the σ of its stored comparison.
 const FIRST: (&str, f64) = ("heads-sex", 1.0);
 
+/// How a value is written in a link.
 #[derive(Debug, Clone, Copy)]
-enum Kind {
+enum Written {
     Word,
     Count,
     Number,
     Percent,
+}
+
+impl From<FieldValue> for Written {
+    fn from(value: FieldValue) -> Self {
+        match value {
+            FieldValue::Choice { .. } | FieldValue::Seed => Self::Word,
+            FieldValue::Count { .. } | FieldValue::CountOrAll { .. } => Self::Count,
+            FieldValue::Positive { .. } => Self::Number,
+            FieldValue::Share { .. } => Self::Percent,
+        }
+    }
 }
 
 /// Keys and values of a link.
@@ -77,11 +67,12 @@ impl Link {
     /// Settings of the comparison.
     pub(crate) fn settings(&self) -> Result<Settings, Failure> {
         let mut found = Map::new();
-        for (key, name, kind) in SETTINGS {
+        for field in &FIELDS {
             // “all” and “auto” are what is left out.
-            let given = self.get(key).filter(|text| !matches!(*text, "all" | "auto" | ""));
+            let given = self.get(field.key).filter(|text| !matches!(*text, "all" | "auto" | ""));
             if let Some(text) = given {
-                found.insert(name.to_owned(), value(key, text, kind)?);
+                let value = value(field.key, text, field.value.into())?;
+                found.insert(field.name.to_owned(), value);
             }
         }
         if self.is_silent() && self.demo() == FIRST.0 {
@@ -98,10 +89,10 @@ impl Link {
         let rebased = self.get("rebase").unwrap_or_default();
         let side = |side: char| -> Result<Value, Failure> {
             let mut found = Map::new();
-            for (name, kind) in OF_ONE {
+            for (name, written) in OF_ONE {
                 let key = format!("{name}-{side}");
                 if let Some(text) = self.get(&key) {
-                    found.insert(name.to_owned(), value(&key, text, kind)?);
+                    found.insert(name.to_owned(), value(&key, text, written)?);
                 }
             }
             found.insert("rebase".to_owned(), json!(rebased.contains(side)));
@@ -111,8 +102,10 @@ impl Link {
             "map" => json!({ "by": "map" }),
             ranges => json!({ "by": "region", "ranges": ranges }),
         });
-        let subsample =
-            self.get("subsample").map(|text| value("subsample", text, Kind::Count)).transpose()?;
+        let subsample = self
+            .get("subsample")
+            .map(|text| value("subsample", text, Written::Count))
+            .transpose()?;
         Ok(json!({
             "a": side('a')?,
             "b": side('b')?,
@@ -127,8 +120,7 @@ impl Link {
         let of_one =
             OF_ONE.iter().flat_map(|(name, _)| ["-a", "-b"].map(|end| format!("{name}{end}")));
         let of_both = OF_BOTH.iter().map(|key| (*key).to_owned());
-        let mut keys =
-            SETTINGS.iter().map(|(key, ..)| (*key).to_owned()).chain(of_one).chain(of_both);
+        let mut keys = FIELDS.iter().map(|field| field.key.to_owned()).chain(of_one).chain(of_both);
         keys.all(|key| self.get(&key).is_none())
     }
 
@@ -168,19 +160,19 @@ impl Link {
 }
 
 /// One value, as a report has it.
-fn value(key: &str, text: &str, kind: Kind) -> Result<Value, Failure> {
+fn value(key: &str, text: &str, written: Written) -> Result<Value, Failure> {
     let refused = |expected: &str| Failure::Input {
         message: format!("“{key}={text}” of the link cannot be read; {expected} was expected."),
         hint: "docs/links.md lists the keys of a link and what each may be.".to_owned(),
     };
     let number = || text.parse::<f64>().ok().filter(|value| value.is_finite());
-    match kind {
-        Kind::Word => Ok(json!(text)),
-        Kind::Count => {
+    match written {
+        Written::Word => Ok(json!(text)),
+        Written::Count => {
             text.parse::<u64>().map(|count| json!(count)).map_err(|_| refused("a count"))
         }
-        Kind::Number => number().map(|value| json!(value)).ok_or_else(|| refused("a number")),
-        Kind::Percent => {
+        Written::Number => number().map(|value| json!(value)).ok_or_else(|| refused("a number")),
+        Written::Percent => {
             let share = number().ok_or_else(|| refused("a number of per cent"))? / 100.0;
             // With the digits that the page keeps.
             let short: f64 = format!("{share:.11e}").parse().unwrap_or(share);

@@ -12,24 +12,24 @@ mod overlap_document;
 mod prepare;
 mod reproduce;
 mod rerun;
+mod setting_options;
 mod sources;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::time::Instant;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use link::Link;
+use setting_options::SettingOptions;
 use shapevenn::comparison::{Comparison, Stage};
 use shapevenn::error::ComparisonError;
 use shapevenn::files::{self, Download, Error, ShownShape, Sources};
 use shapevenn::formats;
 use shapevenn::model::LinearModel;
-use shapevenn::pair::DifferenceDefinition;
 use shapevenn::report::{ModelReport, Report, Seconds};
-use shapevenn::settings::{FitChoice, Plausibility, Pooling, Sampler, Settings, SettingsError};
+use shapevenn::settings::{Settings, SettingsError};
 
 /// Which shapes can two statistical shape models both make, and which can only one of them make?
 #[derive(Debug, Parser)]
@@ -96,36 +96,23 @@ enum Command {
     Reproduce(reproduce::Arguments),
 }
 
-/// What a run file, or a link, decides.
-const DECIDED: [&str; 27] = [
-    "align",
-    "modes",
-    "variance",
-    "unit_a",
-    "unit_b",
-    "convert_units",
-    "rebase",
-    "region",
-    "pairs",
-    "crop_map",
-    "subsample",
-    "sigma",
-    "seed",
-    "sampler",
-    "chains",
-    "draws",
-    "burn_in",
-    "thin",
-    "fit",
-    "weighted",
-    "pooling",
-    "plausibility",
-    "noise",
-    "difference",
-    "difference_quantile",
-    "difference_threshold",
-    "difference_draws",
-];
+/// What a run file, or a link, decides: the settings, and what is done to the models first.
+fn decided() -> Vec<&'static str> {
+    let steps = [
+        "align",
+        "modes",
+        "variance",
+        "unit_a",
+        "unit_b",
+        "convert_units",
+        "rebase",
+        "region",
+        "pairs",
+        "crop_map",
+        "subsample",
+    ];
+    steps.into_iter().chain(SettingOptions::ids()).collect()
+}
 
 #[derive(Debug, Args)]
 struct Compare {
@@ -136,84 +123,21 @@ struct Compare {
     #[arg(required_unless_present_any = ["run", "link"])]
     b: Option<String>,
     /// Make a comparison again: its run.json or report.json, and the models where they are no demos
-    #[arg(long, value_name = "RUN.json", conflicts_with_all = DECIDED)]
+    #[arg(long, value_name = "RUN.json", conflicts_with_all = decided())]
     run: Option<PathBuf>,
     /// Make the comparison of a link of the page: an address, or what is behind its “#”
-    #[arg(long, value_name = "LINK", conflicts_with = "run", conflicts_with_all = DECIDED)]
+    #[arg(long, value_name = "LINK", conflicts_with = "run", conflicts_with_all = decided())]
     link: Option<String>,
     #[command(flatten)]
     prepare: prepare::Arguments,
-    /// Tolerance σ in the unit of A; recommended from the models when left out
-    #[arg(long)]
-    sigma: Option<f64>,
-    /// Seed of every random number
-    #[arg(long)]
-    seed: Option<u64>,
-    /// How the intersection is sampled
-    #[arg(long, value_parser = named(Sampler::ALL), default_value = "auto")]
-    sampler: Sampler,
-    /// Chains on each side
-    #[arg(long)]
-    chains: Option<usize>,
-    /// Draws kept on each side of the intersection
-    #[arg(long)]
-    draws: Option<usize>,
-    /// Steps of each chain thrown away at its start
-    #[arg(long)]
-    burn_in: Option<usize>,
-    /// Steps of each chain for every draw kept
-    #[arg(long)]
-    thin: Option<usize>,
-    /// Gaussian fit to build on: auto, variational, reweighted, laplace or rms
-    #[arg(long, value_parser = setting::<FitChoice>)]
-    fit: Option<FitChoice>,
-    /// Weighted draws with gradients, on each side, for the moments of the intersection
-    #[arg(long)]
-    weighted: Option<usize>,
-    /// Sides that make the intersection model: both, a or b
-    #[arg(long, value_parser = setting::<Pooling>)]
-    pooling: Option<Pooling>,
-    /// How plausibility under A and B are put together: product (the paper's) or idempotent
-    #[arg(long, value_parser = setting::<Plausibility>)]
-    plausibility: Option<Plausibility>,
-    /// How far a true member of a population may lie from its own model, in the unit of A
-    #[arg(long)]
-    noise: Option<f64>,
-    /// What counts as a difference: soft (the paper's), distance, relative or outside
-    #[arg(long, value_parser = setting::<DifferenceDefinition>)]
-    difference: Option<DifferenceDefinition>,
-    /// Share of the model's own shapes that a hard difference leaves out
-    #[arg(long)]
-    difference_quantile: Option<f64>,
-    /// Threshold of a hard difference instead, in the unit of its score
-    #[arg(long)]
-    difference_threshold: Option<f64>,
-    /// Draws wanted of each difference
-    #[arg(long)]
-    difference_draws: Option<usize>,
+    #[command(flatten)]
+    settings: SettingOptions,
     /// Write report, draws, the intersection model and the mean shapes to this folder
     #[arg(long)]
     out: Option<PathBuf>,
     /// Print the report as one JSON document
     #[arg(long)]
     json: bool,
-}
-
-/// A parser of one of the names, which the help lists.
-fn named<T: Clone + Send + Sync + 'static, const N: usize>(
-    all: [(T, &'static str); N],
-) -> impl TypedValueParser<Value = T> {
-    let names = PossibleValuesParser::new(all.clone().map(|(_, name)| name));
-    names.map(move |given| {
-        let found = all.iter().position(|(_, name)| *name == given).unwrap_or(0);
-        all[found].0.clone()
-    })
-}
-
-/// A setting by the name that it has in a report.
-fn setting<T: serde::de::DeserializeOwned>(name: &str) -> Result<T, String> {
-    serde_json::from_value(serde_json::Value::String(name.to_owned()))
-        .map_err(|error| error.to_string())
 }
 
 /// Why the command ends early.
@@ -317,25 +241,8 @@ fn to_json(value: &impl serde::Serialize) -> Result<String, Failure> {
 }
 
 fn settings(arguments: &Compare) -> Result<Settings, Failure> {
-    let defaults = Settings::of(arguments.sampler);
-    arguments.prepare.settings(Settings {
-        sigma: arguments.sigma,
-        seed: arguments.seed.unwrap_or(defaults.seed),
-        chains: arguments.chains.unwrap_or(defaults.chains),
-        draws: arguments.draws.unwrap_or(defaults.draws),
-        difference_draws: arguments.difference_draws.unwrap_or(defaults.difference_draws),
-        fit: arguments.fit.unwrap_or_default(),
-        weighted: arguments.weighted.unwrap_or(defaults.weighted),
-        pooling: arguments.pooling.unwrap_or_default(),
-        plausibility: arguments.plausibility.unwrap_or_default(),
-        noise: arguments.noise,
-        difference: arguments.difference.unwrap_or_default(),
-        difference_quantile: arguments.difference_quantile.unwrap_or(defaults.difference_quantile),
-        difference_threshold: arguments.difference_threshold,
-        burn_in: arguments.burn_in.unwrap_or(defaults.burn_in),
-        thin: arguments.thin.unwrap_or(defaults.thin),
-        ..defaults
-    })
+    let given = arguments.settings.settings();
+    arguments.prepare.settings(given.map_err(|error| Failure::System(error.to_string()))?)
 }
 
 fn compare(arguments: &Compare) -> Result<(), Failure> {
@@ -380,7 +287,7 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
     seconds.total = begun.elapsed().as_secs_f64();
     let report = run.report(seconds).ok_or_else(|| Failure::System("no report".to_owned()))?;
     if let Some(folder) = &arguments.out {
-        write_all(&mut run, seconds, folder, rerun::sources_of(&named))?;
+        write_all(&run, seconds, folder, rerun::sources_of(&named))?;
     }
     if arguments.json {
         println!("{}", files::json(&report));
@@ -461,7 +368,7 @@ fn name_of(stage: Stage) -> &'static str {
 }
 
 fn write_all(
-    run: &mut Comparison,
+    run: &Comparison,
     seconds: Seconds,
     folder: &Path,
     sources: Sources,
@@ -609,4 +516,48 @@ fn convert(input: &str, output: &Path) -> Result<(), Failure> {
         }
     };
     std::fs::write(output, bytes).map_err(|error| system(output, &error))
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+    use serde_json::{Value, json};
+    use shapevenn::settings::{FIELDS, Field, FieldValue};
+
+    use super::*;
+
+    /// A value that is not the default, as a link, the command line and a report have it.
+    fn other_than_default(field: &Field) -> (String, String, Value) {
+        let same = |text: &str, value: Value| (text.to_owned(), text.to_owned(), value);
+        match field.value {
+            FieldValue::Choice { of } => same(of[1], json!(of[1])),
+            FieldValue::Count { .. } | FieldValue::CountOrAll { .. } => same("1500", json!(1500)),
+            FieldValue::Positive { .. } => same("0.25", json!(0.25)),
+            FieldValue::Share { .. } => ("95".to_owned(), "0.95".to_owned(), json!(0.95)),
+            FieldValue::Seed => same("7", json!("7")),
+        }
+    }
+
+    #[test]
+    fn every_setting_is_the_same_in_a_link_on_the_command_line_and_in_a_report() {
+        for field in &FIELDS {
+            let (linked, typed, expected) = other_than_default(field);
+            let of_link = Link::parse(&format!("demo=planes&{}={linked}", field.key)).settings();
+            let line = ["shapevenn", "compare", "a", "b", &format!("--{}={typed}", field.option)];
+            let Command::Compare(arguments) = Cli::try_parse_from(line).unwrap().command else {
+                panic!("{line:?} is no comparison");
+            };
+            for found in [of_link.unwrap(), settings(&arguments).unwrap()] {
+                let found = serde_json::to_value(found).unwrap();
+                assert_eq!(found[field.name], expected, "{}", field.name);
+                let standard = serde_json::to_value(Settings::default()).unwrap();
+                assert_ne!(standard[field.name], expected, "{}", field.name);
+            }
+        }
+    }
+
+    #[test]
+    fn the_help_is_built_and_what_a_link_decides_is_there() {
+        Cli::command().debug_assert();
+    }
 }

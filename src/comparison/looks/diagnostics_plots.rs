@@ -8,12 +8,11 @@
 //! folding, and localization: an improved R-hat", Bayesian Analysis 16 (2021).
 
 use crate::model::Side;
-use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
 use crate::comparison::{Comparison, summary};
 use crate::error::ComparisonError;
-use crate::linalg::single;
+use crate::linalg::{Moments, TypedArray, single};
 use crate::sampling::{Draws, autocorrelation, rank_histograms};
 
 /// Draws of a chain that are handed on at the most.
@@ -28,8 +27,9 @@ const MOST_LAGS: usize = 100;
 const NOISE: f64 = 2.0;
 
 /// What the chains of one side did with one coefficient.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ChainFigures {
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct ChainPlots {
     /// Number of chains.
     pub chains: usize,
     /// Draws of each chain in `draws`.
@@ -37,39 +37,32 @@ pub struct ChainFigures {
     /// Every stride-th draw is in `draws`.
     pub every: usize,
     /// The coefficient, chain after chain.
-    pub draws: Vec<f32>,
+    pub draws: TypedArray<f32>,
     /// d(x′, x) of the same draws.
-    pub distances: Vec<f32>,
+    pub distances: TypedArray<f32>,
     /// Bins of a rank plot.
     pub bins: usize,
     /// Of all draws, how many of a chain (rows) have their rank in a bin (columns).
-    pub ranks: Vec<u32>,
+    pub ranks: TypedArray<u32>,
     /// From lag 0 on, the mean over the chains, until it is lost in noise.
-    pub autocorrelation: Vec<f32>,
-}
-
-/// Mean and covariance of some coefficients.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Marginal {
-    /// Mean.
-    pub mean: Vec<f64>,
-    /// Covariance, row by row.
-    pub covariance: Vec<f64>,
+    pub autocorrelation: TypedArray<f32>,
 }
 
 /// Draws of the first coefficients of one side, and the Gaussians beside them.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PairFigures {
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct PairPlots {
     /// The modes, from 0.
     pub modes: Vec<usize>,
     /// Number of draws.
     pub count: usize,
     /// Draws, count × modes.
-    pub draws: Vec<f32>,
+    pub draws: TypedArray<f32>,
     /// What the model of the intersection is made of.
-    pub moments: Marginal,
+    #[serde(flatten)]
+    pub moments: Moments,
     /// The Gaussian fit; stored runs have none.
-    pub fit: Option<Marginal>,
+    pub fit: Option<Moments>,
 }
 
 impl Comparison {
@@ -77,7 +70,7 @@ impl Comparison {
     ///
     /// # Errors
     /// [`ComparisonError::NoDraws`] and [`ComparisonError::NoMode`].
-    pub fn diagnose(&self, side: Side, mode: usize) -> Result<ChainFigures, ComparisonError> {
+    pub fn diagnose(&self, side: Side, mode: usize) -> Result<ChainPlots, ComparisonError> {
         let (draws, length) = self.drawn(side)?;
         if mode >= draws.dimension {
             return Err(ComparisonError::NoMode { mode: mode + 1, modes: draws.dimension });
@@ -86,15 +79,15 @@ impl Comparison {
         let every = length.div_ceil(MOST_DRAWS);
         let thinned = |chain: &[f64]| single(chain[..length].iter().step_by(every));
         let bins = (length / DRAWS_OF_A_BIN).clamp(1, MOST_BINS);
-        Ok(ChainFigures {
+        Ok(ChainPlots {
             chains: chains.len(),
             length: length.div_ceil(every),
             every,
             draws: chains.iter().flat_map(|chain| thinned(chain)).collect(),
             distances: draws.statistics.iter().flat_map(|chain| thinned(chain)).collect(),
             bins,
-            ranks: rank_histograms(&chains, bins),
-            autocorrelation: single(&audible(&chains, length)),
+            ranks: rank_histograms(&chains, bins).into(),
+            autocorrelation: single(&audible(&chains, length)).into(),
         })
     }
 
@@ -107,20 +100,19 @@ impl Comparison {
         side: Side,
         modes: usize,
         most: usize,
-    ) -> Result<PairFigures, ComparisonError> {
+    ) -> Result<PairPlots, ComparisonError> {
         let (draws, _) = self.drawn(side)?;
         let modes = modes.min(draws.dimension);
         let (total, states): (usize, Vec<&[f64]>) = (draws.len(), draws.iter_slices().collect());
         let count = most.min(total);
         let chosen = (0..count).map(|index| states[index * total / count]);
         let moments = self.moments(side).ok_or_else(|| no_draws(side))?;
-        let fit =
-            self.fits().map(|fits| marginal(fits[side].mean(), &fits[side].covariance(), modes));
-        Ok(PairFigures {
+        let fit = self.fits().map(|fits| fits[side].moments().first(modes));
+        Ok(PairPlots {
             modes: (0..modes).collect(),
             count,
             draws: chosen.flat_map(|state| single(&state[..modes])).collect(),
-            moments: marginal(&moments.mean, &moments.covariance, modes),
+            moments: moments.first(modes),
             fit,
         })
     }
@@ -146,13 +138,4 @@ fn audible(chains: &[Vec<f64>], length: usize) -> Vec<f64> {
     let silent = found.windows(2).position(|pair| pair.iter().all(|value| value.abs() < noise));
     found.truncate(silent.map_or(most, |lag| lag.max(LEAST_LAGS)) + 1);
     found
-}
-
-/// Of the first `modes` coefficients.
-fn marginal(mean: &DVector<f64>, covariance: &DMatrix<f64>, modes: usize) -> Marginal {
-    let part = covariance.view((0, 0), (modes, modes));
-    Marginal {
-        mean: mean.as_slice()[..modes].to_vec(),
-        covariance: part.transpose().as_slice().to_vec(),
-    }
 }

@@ -23,7 +23,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::comparison::{Comparison, overflow};
 use crate::error::ComparisonError;
-use crate::linalg::{Sum, combined, single};
+use crate::linalg::{Sum, TypedArray, combined, single};
 use crate::measure::{
     chi_square_above, patterns, principal_angles, principal_vectors, relative_eigenmodes,
     scaled_modes,
@@ -32,6 +32,7 @@ use crate::pair::{Joint, distance_likelihood, formed, least_change, nearest_coef
 
 /// A space of shapes that can be walked through.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub enum Space {
     /// All of A.
@@ -55,6 +56,7 @@ impl Space {
 
 /// How the axes of a space are chosen. The last three are for A and B.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub enum AxesKind {
     /// Principal modes.
@@ -69,6 +71,7 @@ pub enum AxesKind {
 
 /// The axes of a space.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct Axes {
     /// The space.
@@ -89,12 +92,13 @@ pub struct Axes {
 }
 
 /// The nearest shape of a model to some shape x.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Nearest {
     /// x′ (d·n).
-    pub shape: Vec<f32>,
+    pub shape: TypedArray<f32>,
     /// ‖x_v − x′_v‖ at every vertex (n).
-    pub residuals: Vec<f32>,
+    pub residuals: TypedArray<f32>,
     /// d(x′, x), their mean.
     pub distance: f64,
     /// ‖a′‖.
@@ -106,18 +110,19 @@ pub struct Nearest {
 }
 
 /// A shape of a space, and what both models make of it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Explored {
     /// The shape (d·n).
-    pub shape: Vec<f32>,
+    pub shape: TypedArray<f32>,
     /// Its coefficients in the modes of the space, in standard deviations (q).
-    pub coefficients: Vec<f32>,
+    pub coefficients: TypedArray<f32>,
     /// ‖a‖.
     pub norm: f64,
     /// P(χ²_q ≥ ‖a‖²).
     pub plausibility: f64,
     /// Its nearest shapes in A and in B, if asked for.
-    pub placed: Option<Sides<Nearest>>,
+    pub nearest: Option<Sides<Nearest>>,
 }
 
 fn asked(message: impl Into<String>) -> ComparisonError {
@@ -260,7 +265,7 @@ impl Comparison {
     ///
     /// # Errors
     /// [`ComparisonError::Asked`] when it has another number of points, or values that are not finite.
-    pub fn place(&self, shape: &[f32]) -> Result<Sides<Nearest>, ComparisonError> {
+    pub fn nearest_shapes(&self, shape: &[f32]) -> Result<Sides<Nearest>, ComparisonError> {
         let length = self.pair().a().mean().len();
         if shape.len() != length || shape.iter().any(|value| !value.is_finite()) {
             let found = shape.len();
@@ -328,7 +333,7 @@ impl Comparison {
                 (coordinates, sum)
             }
         };
-        let (shape, placed) = match (follow, space.side()) {
+        let (shape, nearest) = match (follow, space.side()) {
             (false, _) => {
                 let [shape] = combined(&[sum]);
                 (shape, None)
@@ -345,11 +350,11 @@ impl Comparison {
         };
         let norm = coefficients.norm();
         Ok(Explored {
-            placed,
-            shape: single(&shape),
+            nearest,
+            shape: single(&shape).into(),
             plausibility: chi_square_above(norm * norm, coefficients.len()),
             norm,
-            coefficients: single(coefficients.iter()),
+            coefficients: single(coefficients.iter()).into(),
         })
     }
 
@@ -400,8 +405,8 @@ impl Comparison {
         let distance = residuals.iter().sum::<f64>() / residuals.len() as f64;
         let norm = coefficients.norm();
         Nearest {
-            shape: single(image),
-            residuals: single(&residuals),
+            shape: single(image).into(),
+            residuals: single(&residuals).into(),
             distance,
             norm,
             plausibility: chi_square_above(norm * norm, coefficients.len()),

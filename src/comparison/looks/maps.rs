@@ -6,6 +6,7 @@
 
 use crate::model::Side;
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -14,13 +15,14 @@ use crate::comparison::Comparison;
 use crate::comparison::looks::exploring::Space;
 use crate::comparison::looks::regions::Region;
 use crate::error::ComparisonError;
-use crate::linalg::{Moments, single};
+use crate::linalg::{Moments, TypedArray, single};
 use crate::measure::{VertexCovariances, scaled_modes, semi_axes};
 use crate::model::{Kind, LinearModel, Sides, vertex_normals};
 use crate::pair::{JointModel, formed, nearest_coefficients};
 
 /// What a map shows at every vertex, in the unit of A unless it says otherwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum MapName {
     /// Standard deviation of the region's shapes.
@@ -42,16 +44,18 @@ pub enum MapName {
 }
 
 /// A number at every vertex.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct VertexMap {
     /// The numbers (n).
-    pub values: Vec<f32>,
+    pub values: TypedArray<f32>,
     /// Whether 0 is the middle of the scale.
     pub signed: bool,
 }
 
 /// How a vertex varies.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Ellipsoid {
     /// Its mean position (d).
     pub centre: Vec<f64>,
@@ -77,7 +81,8 @@ impl Comparison {
         region: Region,
         mode: usize,
     ) -> Result<VertexMap, ComparisonError> {
-        let unsigned = |values: Vec<f64>| VertexMap { values: single(&values), signed: false };
+        let unsigned =
+            |values: Vec<f64>| VertexMap { values: single(&values).into(), signed: false };
         let root = |variances: Vec<f64>| variances.into_iter().map(|v| v.max(0.0).sqrt()).collect();
         Ok(match name {
             MapName::Sd => unsigned(root(self.covariances(region)?.variances())),
@@ -109,7 +114,10 @@ impl Comparison {
     ///
     /// # Errors
     /// [`ComparisonError::Asked`] when there is no such vertex.
-    pub fn ellipsoids(&self, vertex: usize) -> Result<Vec<(Region, Ellipsoid)>, ComparisonError> {
+    pub fn ellipsoids(
+        &self,
+        vertex: usize,
+    ) -> Result<BTreeMap<Region, Ellipsoid>, ComparisonError> {
         if vertex >= self.pair().a().point_count() {
             return Err(ComparisonError::Asked { message: format!("There is no point {vertex}.") });
         }
@@ -220,7 +228,7 @@ impl Comparison {
         let floor = (LEAST_VARIANCE * largest).max(f64::MIN_POSITIVE);
         let ratio = |(a, b): (f64, f64)| libm::log2(a.max(floor) / b.max(floor));
         let values: Vec<f64> = a.into_iter().zip(b).map(ratio).collect();
-        VertexMap { values: single(&values), signed: true }
+        VertexMap { values: single(&values).into(), signed: true }
     }
 
     /// One standard deviation of a mode of the region's model as a displacement (d·n).
@@ -273,7 +281,7 @@ impl Comparison {
             }
             None => (self.lengths(step), false),
         };
-        VertexMap { values: single(&values), signed }
+        VertexMap { values: single(&values).into(), signed }
     }
 
     /// The length of a displacement at every vertex (n).

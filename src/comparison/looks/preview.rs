@@ -17,6 +17,7 @@ use crate::sampling::{Gaussian, Stream, fill_normal, stream};
 
 /// What a fit predicts of the intersection at one σ, averaged over the sides.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct Prediction {
     /// σ, in the unit of A.
@@ -31,8 +32,19 @@ pub struct Prediction {
     pub mean_norm: f64,
 }
 
+/// The intersection at another σ, by the Gaussian fits alone.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Preview {
+    /// Distances.
+    pub prediction: Prediction,
+    /// Shapes.
+    pub shapes: RegionShapes,
+}
+
 /// The intersection at one σ of a sweep.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct SweepPoint {
     /// Distances.
@@ -72,12 +84,7 @@ impl Comparison {
 
     /// The intersection at another `sigma`, by the fit alone: what it predicts, and mean, variation and
     /// `count` shapes. `None` where the fit breaks down.
-    pub fn preview(
-        &self,
-        sigma: f64,
-        count: usize,
-        seed: u64,
-    ) -> Option<(Prediction, RegionShapes)> {
+    pub fn preview(&self, sigma: f64, count: usize, seed: u64) -> Option<Preview> {
         let fits = self.fits_at(sigma)?;
         let prediction = self.predicted(sigma, fits.as_ref());
         let model = self.prepared.intersection_model(&self.moments_of(&fits)?)?;
@@ -90,17 +97,17 @@ impl Comparison {
             let mut z = vec![0.0; from.mode_count()];
             fill_normal(&mut random, &mut z);
             let mut point = vec![0.0; z.len()];
-            fits[side].place(&z, &mut point);
+            fits[side].apply(&z, &mut point);
             samples.extend(single(from.shape(&point).iter()));
         }
         let shapes = RegionShapes {
-            mean: single(joint.shape(&model.mean).iter()),
-            vertex_sd: single(&joint.vertex_standard_deviations(&model)),
-            samples,
+            mean: single(joint.shape(&model.mean).iter()).into(),
+            vertex_sd: single(&joint.vertex_standard_deviations(&model)).into(),
+            samples: samples.into(),
             count,
             source: ShapeSource::Fit,
         };
-        Some((prediction, shapes))
+        Some(Preview { prediction, shapes })
     }
 
     /// The paper's ablation of σ, by the fit alone: one point for each `sigma` at which it does not break

@@ -5,24 +5,25 @@ use serde::{Deserialize, Serialize};
 
 use crate::comparison::Comparison;
 use crate::comparison::inference::Inference;
-use crate::linalg::{Moments, single};
+use crate::linalg::{Moments, TypedArray, single};
 use crate::measure::vertex_standard_deviations;
 use crate::sampling::{Draws, Stream, fill_normal, stream, uniform};
 
 /// A region of the Venn diagram.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub enum Region {
     /// All of A.
     A,
-    /// All of B.
-    B,
-    /// A ∩ B.
-    Intersection,
     /// A \ B.
     AWithoutB,
+    /// A ∩ B.
+    Intersection,
     /// B \ A.
     BWithoutA,
+    /// All of B.
+    B,
 }
 
 impl Region {
@@ -44,6 +45,7 @@ impl Region {
 
 /// What the shapes of a region come from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub enum ShapeSource {
     /// The model itself.
@@ -55,75 +57,89 @@ pub enum ShapeSource {
 }
 
 /// Mean, variation and some shapes of a region, in the frame and unit of A.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(rename_all = "camelCase")]
 pub struct RegionShapes {
     /// Mean shape (d·n).
-    pub mean: Vec<f32>,
+    pub mean: TypedArray<f32>,
     /// Per-vertex standard deviation (n).
-    pub vertex_sd: Vec<f32>,
+    pub vertex_sd: TypedArray<f32>,
     /// Shapes one after the other (count × d·n).
-    pub samples: Vec<f32>,
+    pub samples: TypedArray<f32>,
     /// Number of shapes; may be less than was asked for when there are no draws.
     pub count: usize,
     /// What they come from.
     pub source: ShapeSource,
 }
 
+/// Which shapes of a difference are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(rename_all = "camelCase")]
+pub enum DifferenceShapes {
+    /// Draws.
+    #[default]
+    Draws,
+    /// Shapes along the exclusive modes.
+    ExclusiveModes,
+}
+
 /// How the shapes of a difference are shown.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Picture {
+pub struct DifferenceView {
     /// γ in x + γ r(a): how much of what the other model cannot make is added once more.
     pub exaggeration: f64,
-    /// Shapes along the exclusive modes instead of draws.
-    pub exclusive_modes: bool,
+    /// Which shapes.
+    pub shapes: DifferenceShapes,
 }
 
 /// Standard deviations from the mean at which an exclusive mode is shown.
 const EXCLUSIVE_REACH: f64 = 3.0;
 
 impl Comparison {
-    /// Shapes of a region; `picture` says how a difference is shown. `None` while there is nothing of it.
+    /// Shapes of a region; `view` says how a difference is shown. `None` while there is nothing of it.
     pub fn shapes(
         &self,
         region: Region,
         count: usize,
         seed: u64,
-        picture: Picture,
+        view: DifferenceView,
     ) -> Option<RegionShapes> {
         match region {
-            Region::AWithoutB => self.difference(Side::A, count, seed, picture),
-            Region::BWithoutA => self.difference(Side::B, count, seed, picture),
+            Region::AWithoutB => self.difference(Side::A, count, seed, view),
+            Region::BWithoutA => self.difference(Side::B, count, seed, view),
             _ => self.region(region, count, seed),
         }
     }
 
-    /// Shapes of A\B (`side` 0) or B\A (1) as `picture` asks; `None` while there is nothing of it.
+    /// Shapes of A\B (`side` 0) or B\A (1) as `view` asks; `None` while there is nothing of it.
     pub fn difference(
         &self,
         side: Side,
         count: usize,
         seed: u64,
-        picture: Picture,
+        view: DifferenceView,
     ) -> Option<RegionShapes> {
         let (model, operator) = (self.prepared.model(side), self.prepared.operator(side));
         let shape =
-            |coefficients: &[f64]| operator.exaggerated(model, coefficients, picture.exaggeration);
-        if picture.exclusive_modes {
+            |coefficients: &[f64]| operator.exaggerated(model, coefficients, view.exaggeration);
+        if view.shapes == DifferenceShapes::ExclusiveModes {
             let modes = self.prepared.exclusive(side);
             let count = count.min(modes.values.len());
             let samples = (0..count).flat_map(|index| {
                 single(shape((modes.directions.column(index) * EXCLUSIVE_REACH).as_slice()).iter())
             });
             return Some(RegionShapes {
-                mean: single(shape(&vec![0.0; model.mode_count()]).iter()),
-                vertex_sd: single(&operator.expected_vertex_residuals()),
+                mean: single(shape(&vec![0.0; model.mode_count()]).iter()).into(),
+                vertex_sd: single(&operator.expected_vertex_residuals()).into(),
                 samples: samples.collect(),
                 count,
                 source: ShapeSource::Model,
             });
         }
         let plain = self.difference_shapes(side, count, seed)?;
-        if picture.exaggeration == 0.0 {
+        if view.exaggeration == 0.0 {
             return Some(plain);
         }
         let draws = self.run.drawn()?.rejections[side].draws();
@@ -132,7 +148,8 @@ impl Comparison {
             .flat_map(|_| single(shape(pick(draws, uniform(&mut random))).iter()))
             .collect();
         let mean = Moments::of(draws.iter_slices(), draws.dimension).mean;
-        Some(RegionShapes { samples, mean: single(shape(mean.as_slice()).iter()), ..plain })
+        let samples = samples.into();
+        Some(RegionShapes { samples, mean: single(shape(mean.as_slice()).iter()).into(), ..plain })
     }
 
     /// Shapes of `region` from what there is, `count` of them picked by `seed`; `None` while there is
@@ -157,9 +174,9 @@ impl Comparison {
             samples.extend(single(model.shape(&coefficients).iter()));
         }
         RegionShapes {
-            mean: single(model.mean().iter()),
-            vertex_sd: single(&model.vertex_standard_deviations()),
-            samples,
+            mean: single(model.mean().iter()).into(),
+            vertex_sd: single(&model.vertex_standard_deviations()).into(),
+            samples: samples.into(),
             count,
             source: ShapeSource::Model,
         }
@@ -184,15 +201,15 @@ impl Comparison {
                 let mut z = vec![0.0; from.mode_count()];
                 fill_normal(&mut random, &mut z);
                 let mut point = vec![0.0; z.len()];
-                fits?[side].place(&z, &mut point);
+                fits?[side].apply(&z, &mut point);
                 from.shape(&point)
             };
             samples.extend(single(shape.iter()));
         }
         Some(RegionShapes {
-            mean: single(joint.shape(&model.mean).iter()),
-            vertex_sd: single(&joint.vertex_standard_deviations(&model)),
-            samples,
+            mean: single(joint.shape(&model.mean).iter()).into(),
+            vertex_sd: single(&joint.vertex_standard_deviations(&model)).into(),
+            samples: samples.into(),
             count,
             source: if drawn { ShapeSource::Draws } else { ShapeSource::Fit },
         })
@@ -211,9 +228,9 @@ impl Comparison {
             samples.extend(single(model.shape(pick(draws, uniform(&mut random))).iter()));
         }
         Some(RegionShapes {
-            mean: single(model.shape(moments.mean.as_slice()).iter()),
-            vertex_sd: single(&vertex_standard_deviations(model, &moments.factor())),
-            samples,
+            mean: single(model.shape(moments.mean.as_slice()).iter()).into(),
+            vertex_sd: single(&vertex_standard_deviations(model, &moments.factor())).into(),
+            samples: samples.into(),
             count,
             source: ShapeSource::Draws,
         })

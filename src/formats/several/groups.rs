@@ -49,6 +49,7 @@ pub(crate) fn read_together(
 
 /// Files that make one model.
 #[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Group {
     /// What to call it: the file's name, or the folder's.
     pub name: String,

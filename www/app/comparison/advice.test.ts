@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { PairFigures, SweepPoint } from "../../worker/protocol";
+import type { PairPlots, SweepPoint } from "../../worker/protocol";
 import {
   autocorrelationAdvice,
   distanceAdvice,
@@ -136,8 +136,8 @@ test("short chains that differ by chance alone are left in peace", () => {
 
 function pairs(
   transform: (u: number, v: number) => [number, number],
-  fit: PairFigures["fit"],
-): PairFigures {
+  fit: PairPlots["fit"],
+): PairPlots {
   const draw = normals(3);
   const draws = Array.from({ length: 600 }, () => transform(draw(), draw()));
   const mean = [0, 1].map((i) => draws.reduce((sum, pair) => sum + (pair[i] ?? 0), 0) / 600);

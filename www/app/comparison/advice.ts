@@ -6,7 +6,7 @@
  * Bayesian Analysis 16 (2021). The mean of 400 independent draws has a standard error of 0.05 standard
  * deviations; a deviation of more than two standard errors is reported. The other limits are our own choice.
  */
-import type { ChainFigures, PairFigures, SamplerName, SweepPoint } from "../../worker/protocol";
+import type { ChainPlots, PairPlots, Sampler, SweepPoint } from "../../worker/protocol";
 import { count, length, number, percent, plusMinus } from "../text/format";
 import type { Advice } from "../ui/Chart";
 import { average, halvesOf, oddest, splitRHat, spreadOf } from "./chains";
@@ -31,7 +31,7 @@ const calm = (text: string): Advice => ({
   chain: null,
 });
 
-function remedy(sampler: SamplerName): string {
+function remedy(sampler: Sampler): string {
   return sampler === "auto" ? "draw longer" : "draw longer or use the automatic sampler";
 }
 
@@ -39,9 +39,9 @@ const capital = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 
 /** Advice on the trace plot; `rHat` is the engine's value for all draws, null where it is infinite. */
 export function traceAdvice(
-  diagnostics: ChainFigures,
+  diagnostics: ChainPlots,
   rHat: number | null,
-  sampler: SamplerName,
+  sampler: Sampler,
 ): Advice {
   const chains = chainsOf(diagnostics.draws, diagnostics.chains);
   if ((rHat ?? splitRHat(chains)) < R_HAT) return calm(`The ${chains.length} chains overlap`);
@@ -60,11 +60,7 @@ export function traceAdvice(
 const MANY_OUTSIDE = 0.1;
 
 /** Advice on the rank plots: R-hat tells whether the chains differ, the bars which chain and at which ranks. */
-export function rankAdvice(
-  diagnostics: ChainFigures,
-  rHat: number | null,
-  sampler: SamplerName,
-): Advice {
+export function rankAdvice(diagnostics: ChainPlots, rHat: number | null, sampler: Sampler): Advice {
   const { bins, ranks } = diagnostics;
   const { expected, low, high } = rankBand(diagnostics);
   const bars = chainsOf(ranks, diagnostics.chains);
@@ -97,9 +93,9 @@ export function rankAdvice(
 
 /** Advice on the autocorrelation plot: whether the draws amount to enough independent ones. */
 export function autocorrelationAdvice(
-  diagnostics: ChainFigures,
+  diagnostics: ChainPlots,
   essBulk: number,
-  sampler: SamplerName,
+  sampler: Sampler,
 ): Advice {
   const draws = drawsOf(diagnostics);
   const lag = insignificantLag(diagnostics.autocorrelation, draws);
@@ -127,11 +123,7 @@ export function autocorrelationAdvice(
  * Advice on the plot of the distance d over the draws. The report has no R-hat of d, so the split R-hat of the
  * shown draws is taken.
  */
-export function distanceAdvice(
-  diagnostics: ChainFigures,
-  unit: string,
-  sampler: SamplerName,
-): Advice {
+export function distanceAdvice(diagnostics: ChainPlots, unit: string, sampler: Sampler): Advice {
   const chains = chainsOf(diagnostics.distances, diagnostics.chains);
   const { mean, variance } = spreadOf(chains.flat());
   const half = Math.floor((chains[0]?.length ?? 0) / 2);
@@ -167,7 +159,7 @@ export function distanceAdvice(
 const SHARE_ERRORS = 4;
 
 /** Advice on the pair plots: whether the draws are Gaussian, and whether the Gaussian fit has their moments. */
-export function pairsAdvice(diagnostics: PairFigures, essBulk: number): Advice {
+export function pairsAdvice(diagnostics: PairPlots, essBulk: number): Advice {
   const { modes, fit, count: drawn } = diagnostics;
   const not = (text: string): Advice => ({ calm: false, text, chain: null });
   if (essBulk < ESS) {
@@ -201,7 +193,7 @@ export function pairsAdvice(diagnostics: PairFigures, essBulk: number): Advice {
 }
 
 /** The mode in which the Gaussian fit differs most from the draws, by mean or by standard deviation. */
-function farthest(diagnostics: PairFigures, fit: NonNullable<PairFigures["fit"]>) {
+function farthest(diagnostics: PairPlots, fit: NonNullable<PairPlots["fit"]>) {
   const each = diagnostics.modes.map((_, i) => {
     const [own, theirs] = [deviation(diagnostics, i), deviation(fit, i)];
     const shift = Math.abs((diagnostics.mean[i] ?? 0) - (fit.mean[i] ?? 0)) / theirs;

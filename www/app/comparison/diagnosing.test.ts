@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { ModeDiagnostics, PairFigures, Report } from "../../worker/protocol";
+import type { ModeDiagnostics, PairPlots, Report } from "../../worker/protocol";
 import {
   chainsOf,
   correlation,
@@ -121,7 +121,7 @@ test("draws of a Gaussian lie within its ellipses as often as they should", () =
     draws[2 * i] = 1 + 2 * u;
     draws[2 * i + 1] = 0.6 * u + 0.8 * v;
   }
-  const diagnostics: PairFigures = {
+  const diagnostics: PairPlots = {
     modes: [0, 1],
     count,
     draws,

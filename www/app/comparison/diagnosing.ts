@@ -5,13 +5,7 @@
  * Rank plots: Vehtari, Gelman, Simpson, Carpenter & Bürkner, “Rank-normalization, folding, and
  * localization”, Bayesian Analysis 16 (2021).
  */
-import type {
-  BothSides,
-  ChainFigures,
-  ModeDiagnostics,
-  PairFigures,
-  Report,
-} from "../../worker/protocol";
+import type { ChainPlots, ModeDiagnostics, PairPlots, Report, Sides } from "../../worker/protocol";
 import { R_HAT, worstMode } from "./words";
 
 export interface Coefficient {
@@ -53,7 +47,7 @@ export function worstCoefficient(report: Report, side: "a" | "b" | null): Coeffi
     mcseSd: [],
     autocorrelation: [],
   };
-  const looked: BothSides<ModeDiagnostics> = {
+  const looked: Sides<ModeDiagnostics> = {
     a: side === "b" ? nothing : both.a,
     b: side === "a" ? nothing : both.b,
   };
@@ -81,7 +75,7 @@ const BAND = 2;
  * Band of the bars of a rank plot by chance: of N ranks in bins, each goes to one of the chains, so a bar is
  * hypergeometric with variance e (1 − 1/chains)(1 − 1/bins), e its mean.
  */
-export function rankBand({ ranks, chains, bins }: ChainFigures): RankBand {
+export function rankBand({ ranks, chains, bins }: ChainPlots): RankBand {
   const total = ranks.reduce((sum, value) => sum + value, 0);
   const expected = total / (chains * bins);
   const reach = BAND * Math.sqrt(expected * (1 - 1 / chains) * (1 - 1 / bins));
@@ -89,7 +83,7 @@ export function rankBand({ ranks, chains, bins }: ChainFigures): RankBand {
 }
 
 /** Total number of draws from which the diagnostics are computed. */
-export function drawsOf({ ranks }: ChainFigures): number {
+export function drawsOf({ ranks }: ChainPlots): number {
   return ranks.reduce((sum, value) => sum + value, 0);
 }
 
@@ -138,7 +132,7 @@ export function ellipseOf({ mean, covariance }: Gaussian, i: number, j: number):
 
 /** Share of the draws within a number of standard deviations in two of their coefficients. */
 export function shareWithin(
-  diagnostics: PairFigures,
+  diagnostics: PairPlots,
   i: number,
   j: number,
   deviations: number,

@@ -1,5 +1,5 @@
 /** Made-up draws for tests of plots and advice. */
-import type { ChainFigures } from "../../worker/protocol";
+import type { ChainPlots } from "../../worker/protocol";
 
 /** Pseudo-random numbers of N(0, 1), always the same. */
 export function normals(seed: number): () => number {
@@ -21,7 +21,7 @@ export function diagnosticsOf(
   chains: number[][],
   autocorrelation: number[] = [1, 0],
   distances: number[][] = chains,
-): ChainFigures {
+): ChainPlots {
   const length = chains[0]?.length ?? 0;
   const bins = Math.min(20, Math.max(1, Math.floor(length / 8)));
   const all = chains.flat();

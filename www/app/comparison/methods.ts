@@ -1,5 +1,5 @@
 /** Writes the methods paragraph of a paper and its BibTeX from a report. Pure; every number is the report's. */
-import type { BothSides, Inference, Report, SamplerName } from "../../worker/protocol";
+import type { InferenceReport, Report, Sampler, Sides } from "../../worker/protocol";
 import { completed, preparationWords } from "../state/preparation";
 import { count, length, number, percent, plusMinus } from "../text/format";
 import { type Phrase, reported } from "../text/phrase";
@@ -118,7 +118,7 @@ function sampling(report: Report): Phrase {
   ];
 }
 
-const SAMPLED_BY: Record<SamplerName, string> = {
+const SAMPLED_BY: Record<Sampler, string> = {
   auto: "an automatically chosen sampler",
   variational: "independent draws from a Gaussian fit",
   independence: "an independence sampler that proposes from a Gaussian fit",
@@ -129,7 +129,10 @@ const SAMPLED_BY: Record<SamplerName, string> = {
   "paper-corrected": "the random walk of the paper with its Hastings factor",
 };
 
-function samplerNames(report: Report, inference: BothSides<Inference> | null | undefined): string {
+function samplerNames(
+  report: Report,
+  inference: Sides<InferenceReport> | null | undefined,
+): string {
   const word = (side: "a" | "b") => {
     const name = inference?.[side].sampler ?? report.settings.sampler;
     return SAMPLED_BY[name] ?? name;

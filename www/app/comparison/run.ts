@@ -1,7 +1,7 @@
 /** Runs a comparison when models or settings change, restores the stored one, and requests the shapes to draw. */
 import { batch, computed, effect } from "@preact/signals";
 import { wasAborted } from "../../worker/engine-errors";
-import type { BothSides, Progress, Region, Report, SweepPoint } from "../../worker/protocol";
+import type { Progress, Region, Report, Sides, SweepPoint } from "../../worker/protocol";
 import { demoSource, sourceText } from "../models/sources";
 import { FIRST_DEMO } from "../state/demos";
 import { engineClient, onEngineRestart, report as reportError } from "../state/engine";
@@ -220,7 +220,7 @@ function finish(
   ran: Held,
   report: Report,
   { report: text, cancelled }: { report: string; cancelled: boolean },
-  sources: BothSides<string | null>,
+  sources: Sides<string | null>,
 ): void {
   const { key } = ran;
   batch(() => {

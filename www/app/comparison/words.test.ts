@@ -1,16 +1,14 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { star } from "../../worker/mock-models";
-import { mockReport } from "../../worker/mock-report";
-import type { Inspection, Progress } from "../../worker/protocol";
+import type { Inspection, ModelReport, Progress } from "../../worker/protocol";
 import { FIRST_DEMO } from "../state/demos";
 import { completed } from "../state/preparation";
 import { plain } from "../text/phrase";
 import { DIAGNOSTICS, GROUPS, valueAt } from "./numbers";
+import { madeUpReport } from "./report.fixture";
 import * as words from "./words";
 
-const seconds = { load: 0, prepare: 0, sample: 0, total: 0 };
-const report = mockReport(star("a", 0), star("b", 1), {}, seconds);
+const report = madeUpReport();
 const { nouns } = FIRST_DEMO;
 
 test("the headline says what each can make of the other", () => {
@@ -130,8 +128,12 @@ test("the page says converged only if the engine does, whatever the diagnostics 
 });
 
 test("a report of an older engine leaves the new sentences out", () => {
-  const { inference, accuracy, disagreement, coefficients, ...rest } = report.intersection;
-  const old = { ...report, intersection: rest };
+  const old = withIntersection({
+    inference: null,
+    accuracy: null,
+    disagreement: null,
+    coefficients: null,
+  });
   assert.equal(words.inferred(old, "a"), null);
   assert.equal(words.unsettled(old), null);
   assert.equal(words.twoSides(old), null);
@@ -221,7 +223,7 @@ test("the paper's difference is said to be the model where it is, and only that 
 
 test("a hard difference is told by its own definition", () => {
   const said = (difference: "distance" | "relative" | "outside") => {
-    const hard = mockReport(star("a", 0), star("b", 1), { difference }, seconds);
+    const hard = madeUpReport({ difference });
     return plain(words.differences(hard, nouns));
   };
   for (const name of ["distance", "relative", "outside"] as const) {
@@ -250,7 +252,7 @@ test("what a file leaves open is told, what is in order is not", () => {
   const { a } = report.models;
   assert.equal(words.unitSentence({ ...a, unit: "mm" }), null);
   assert.equal(words.unitSentence({ ...a, unit: "units" }), "Unit not stated.");
-  const guessed = { ...a, unit: "units", unitGuess: "mm" };
+  const guessed: ModelReport = { ...a, unit: "units", unitGuess: "mm" };
   assert.equal(words.unitSentence(guessed), "Unit not stated, probably mm.");
   assert.equal(words.basisSentence(a), null);
   assert.equal(words.basisSentence({ ...a, orthogonality: 1e-7, droppedModes: 0 }), null);

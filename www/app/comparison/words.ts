@@ -3,17 +3,17 @@
  * engine.
  */
 import type {
-  BothSides,
-  DifferenceName,
+  DifferenceDefinition,
   FitMethod,
-  Inference,
+  InferenceReport,
   Inspection,
   ModeDiagnostics,
   ModelReport,
   Origin,
   Progress,
   Report,
-  SamplerName,
+  Sampler,
+  Sides,
 } from "../../worker/protocol";
 import type { Nouns } from "../state/demos";
 import { completed, preparationWords, UNSTATED } from "../state/preparation";
@@ -99,13 +99,13 @@ export function differences(report: Report, nouns: Nouns): Phrase {
   return [...each, " cannot be made by the other model at this σ."];
 }
 
-const HARD: Record<Exclude<DifferenceName, "soft">, string> = {
+const HARD: Record<Exclude<DifferenceDefinition, "soft">, string> = {
   distance: "that lie farthest from the other model",
   relative: "of whose deviation from the mean the other model misses the largest part",
   outside: "whose nearest shape in the other model is least plausible there",
 };
 
-export type DifferencePicture = DifferenceName | "exclusiveModes";
+export type DifferencePicture = DifferenceDefinition | "exclusiveModes";
 
 /** Names and explanations of the definitions of a difference. */
 export const DEFINITIONS: Record<DifferencePicture, { label: string; help: string }> = {
@@ -258,7 +258,7 @@ export function liveBelief(progress: Progress): string {
 
 export const LOOKS_WELL = "diagnostics are fine so far, all modes are checked at the end";
 
-const MOMENTS: Record<Inference["moments"], string> = {
+const MOMENTS: Record<InferenceReport["moments"], string> = {
   "closed-form":
     "mean and variance come from the fit in closed form; the correction by weighted draws is below its standard error",
   weighted:
@@ -293,7 +293,7 @@ interface Worst {
 
 /** The worst value of one diagnostic over all modes of both models; modes counted from 1. */
 export function worstMode(
-  both: BothSides<ModeDiagnostics>,
+  both: Sides<ModeDiagnostics>,
   which: "rHat" | "essBulk" | "essTail",
 ): Worst | null {
   let worst: Worst | null = null;
@@ -431,7 +431,7 @@ export function secondsLeft(fraction: number, seconds: number): number | null {
   return fraction < 0.03 || seconds < 0.5 ? null : (seconds * (1 - fraction)) / fraction;
 }
 
-const SAMPLER_WORDS: Record<SamplerName, string> = {
+const SAMPLER_WORDS: Record<Sampler, string> = {
   auto: "automatic sampler",
   variational: "Gaussian fit alone",
   independence: "independence sampler",

@@ -1,7 +1,7 @@
 /** Hooks with which a scene asks the engine: a question is sent again whenever it changes. */
 import { useSignal } from "@preact/signals";
 import { useEffect, useMemo } from "preact/hooks";
-import type { LessonAnswers, LessonAsk } from "../../worker/lessons";
+import type { LessonAnswers, LessonAsk } from "../../worker/protocol";
 import { latest } from "../state/latest";
 import { type Ask, asker, sceneFailed } from "./engine";
 import { lessonState } from "./state";

@@ -1,6 +1,6 @@
 /** Sends questions of the lessons to the engine, one at a time for each scene. */
 import { wasAborted } from "../../worker/engine-errors";
-import type { LessonAnswers, LessonAsk } from "../../worker/lessons";
+import type { LessonAnswers, LessonAsk } from "../../worker/protocol";
 import { engineClient, onEngineRestart, report } from "../state/engine";
 import { lessonState, resets } from "./state";
 

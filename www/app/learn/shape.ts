@@ -1,5 +1,5 @@
 /** Computes shapes of a small model from its mean and modes, for drawing. Pure. */
-import type { LessonModel } from "../../worker/lessons";
+import type { LessonModel } from "../../worker/protocol";
 
 /** Shape for coefficients: mean + Σ coefficient · (scaled) mode. */
 export function shapeAt({ mean, basis }: LessonModel, coefficients: readonly number[]): number[] {

@@ -34,8 +34,8 @@ test("what is written is read back, for every field", () => {
       differenceThreshold: 3.5,
       differenceDraws: 64,
       prepare: {
-        a: { unit: "mm", modes: 12, variance: null, rebase: false },
-        b: { unit: "µm", modes: null, variance: 0.95, rebase: true },
+        a: { unit: "mm" as const, modes: 12, variance: null, rebase: false },
+        b: { unit: "µm" as const, modes: null, variance: 0.95, rebase: true },
         convert: true,
         points: { by: "region" as const, ranges: "0-99,120,130-140" },
         subsample: 2000,
@@ -198,8 +198,8 @@ test("every setting that differs from the default is in the link, under a key of
     differenceThreshold: 1,
     differenceDraws: 100,
     prepare: {
-      a: { unit: "m", modes: 3, variance: 0.9, rebase: true },
-      b: { unit: "cm", modes: 3, variance: 0.9, rebase: true },
+      a: { unit: "m" as const, modes: 3, variance: 0.9, rebase: true },
+      b: { unit: "cm" as const, modes: 3, variance: 0.9, rebase: true },
       convert: true,
       points: { by: "map" as const },
       subsample: 100,

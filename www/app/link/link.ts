@@ -4,7 +4,14 @@
  * Links of older pages must keep opening: unknown keys are ignored, and missing or unreadable values are replaced by
  * the default.
  */
-import type { PointSelection, Preparation, Settings, SidePreparation } from "../../worker/protocol";
+import type {
+  Field,
+  PointSelection,
+  Preparation,
+  Sampler,
+  Settings,
+  SidePreparation,
+} from "../../worker/protocol";
 import { defaultLesson, type LessonState, readLesson, writeLesson } from "../learn/link";
 import { misreadAddresses, readModels, writeModels } from "../models/address/codec";
 import { MEASURE_NAMES, type MeasureName } from "../models/list/measures";
@@ -19,23 +26,17 @@ import {
 import { type LinkedModels, noLinkedModels } from "../state/linked-models";
 import { UNITS } from "../state/preparation";
 import {
-  ALIGNMENTS,
   budgetOf,
+  choicesOf,
   DEFAULTS,
-  DIFFERENCES,
-  FITS,
-  leastDraws,
-  MOST_DRAWS,
-  type Options,
-  PLAUSIBILITIES,
+  FIELDS,
   parseCount,
   parsePercent,
   parsePositive,
   parseSeed,
   percentText,
-  RANGES,
-  SAMPLERS,
-  SIDES_USED,
+  rangeOf,
+  rangeOfDraws,
   SUBSAMPLE,
 } from "../state/settings";
 import {
@@ -54,16 +55,21 @@ import { parseRanges } from "../text/ranges";
 export const LINK_VERSION = 1;
 
 /** The keys of a link that are settings of the run. */
-export const SETTING_KEYS = (
-  "align modes sigma sampler seed chains draws burnin thin " +
-  "fit sides plaus noise weighted diff leaves beyond diffdraws " +
-  "unit-a unit-b modes-a modes-b variance-a variance-b rebase convert points subsample"
-).split(" ");
+export const SETTING_KEYS = [
+  ...FIELDS.map(({ key }) => key),
+  ..."unit-a unit-b modes-a modes-b variance-a variance-b rebase convert points subsample".split(
+    " ",
+  ),
+];
 
 /** Longest list of points in a link: longer links are cut by programs that pass them on. */
 const LONGEST_RANGES = 2000;
 
 const MOST_VERTICES = 1e7;
+
+const MODES = rangeOf("modes");
+
+const SAMPLER_NAMES = choicesOf("sampler") as Sampler[];
 
 /** Everything that a link holds. */
 export interface LinkState extends LinkedModels, ViewState {
@@ -108,20 +114,11 @@ function comparisonPairs(state: LinkState): [string, string | number][] {
   if (state.urls) pairs.push(...writeModels(state));
   else pairs.push(["demo", state.demo]);
   pairs.push(
-    ["align", settings.align],
-    ["modes", settings.modes ?? "all"],
-    ["sigma", settings.sigma ?? "auto"],
-    ["sampler", settings.sampler],
-    ["seed", settings.seed],
-    ["chains", settings.chains],
-    ["draws", settings.draws],
-    ["burnin", settings.burnIn],
-    ["thin", settings.thin],
-    ...rareSettings(settings),
+    ...settingPairs(settings),
     ...preparationPairs(settings.prepare),
     ["view", state.view],
+    ...lookPairs(state),
   );
-  pairs.push(...lookPairs(state));
   const turned = cameraText(camera);
   if (turned !== cameraText(HOME)) pairs.push(["camera", turned]);
   return pairs;
@@ -153,22 +150,16 @@ function lookPairs(state: LinkState): [string, string | number][] {
   return [...plain, ...writeExplorer(state.explorer)];
 }
 
-/** Keys of settings that differ from their defaults; the others are left out. */
-function rareSettings(settings: Settings): [string, string | number][] {
-  const pairs: [string, Exclude<keyof Settings, "prepare">, (string | number | null)?][] = [
-    ["fit", "fit"],
-    ["sides", "pooling"],
-    ["plaus", "plausibility"],
-    ["noise", "noise"],
-    ["weighted", "weighted"],
-    ["diff", "difference"],
-    ["leaves", "differenceQuantile", percentText(settings.differenceQuantile)],
-    ["beyond", "differenceThreshold"],
-    ["diffdraws", "differenceDraws"],
-  ];
-  return pairs
-    .filter(([, name]) => settings[name] !== DEFAULTS[name])
-    .map(([key, name, text]) => [key, text ?? settings[name] ?? ""]);
+/** Keys of settings: some are in every link, the others only if they differ from their defaults. */
+function settingPairs(settings: Settings): [string, string][] {
+  return FIELDS.filter(
+    ({ name, alwaysInLinks }) => alwaysInLinks || settings[name] !== DEFAULTS[name],
+  ).map(({ key, name, value }) => [key, settingText(settings[name], value.kind)]);
+}
+
+function settingText(value: string | number | null, kind: Field["value"]["kind"]): string {
+  if (value === null) return kind === "countOrAll" ? "all" : "auto";
+  return kind === "share" ? percentText(Number(value)) : String(value);
 }
 
 /** Keys of the preparation of the models; none for a pair that is compared as it stands. */
@@ -212,7 +203,7 @@ export function readLink(fragment: string): LinkState {
     settings: readSettings(given),
     tab: oneOf(given.get("room"), TABS) ?? fallback.tab,
     map: oneOf(given.get("map"), MAPS) ?? fallback.map,
-    mapMode: valid(parseCount(given.get("mode") ?? "", ...RANGES.modes), 1) - 1,
+    mapMode: valid(parseCount(given.get("mode") ?? "", ...MODES), 1) - 1,
     vertex: valid<number | null>(parseCount(given.get("vertex") ?? "", 0, MOST_VERTICES), null),
     explorer: readExplorer(given),
     scale: readScale(given.get("scale")),
@@ -231,37 +222,39 @@ export function readLink(fragment: string): LinkState {
 }
 
 function readSettings(given: URLSearchParams): Settings {
-  const named = <T extends string>(key: string, options: Options<T>, fallback: T) =>
-    oneOf(given.get(key), Object.keys(options) as T[]) ?? fallback;
-  const sampler = named("sampler", SAMPLERS, DEFAULTS.sampler);
-  const budget = budgetOf(sampler);
-  const count = (key: string, [least, most]: readonly [number, number], fallback: number) =>
-    valid(parseCount(given.get(key) ?? "", least, most), fallback);
-  const positive = (key: string) => valid(parsePositive(given.get(key) ?? ""), null);
-  const modes = count("modes", RANGES.modes, 0);
-  const chains = count("chains", RANGES.chains, budget.chains);
-  const least = leastDraws(chains);
+  const sampler = oneOf(given.get("sampler"), SAMPLER_NAMES) ?? DEFAULTS.sampler;
+  const standard: Settings = { ...DEFAULTS, ...budgetOf(sampler) };
+  const read = FIELDS.map((field) => [
+    field.name,
+    readSetting(field, given.get(field.key) ?? "", standard[field.name]),
+  ]);
+  const settings: Settings = { ...standard, ...Object.fromEntries(read) };
+  const [least, most] = rangeOfDraws(settings.chains);
+  const draws = parseCount(given.get("draws") ?? "", least, most);
   return {
-    sigma: positive("sigma"),
-    noise: positive("noise"),
-    seed: valid(parseSeed(given.get("seed") ?? ""), DEFAULTS.seed),
-    sampler,
-    fit: named("fit", FITS, DEFAULTS.fit),
-    pooling: named("sides", SIDES_USED, DEFAULTS.pooling),
-    plausibility: named("plaus", PLAUSIBILITIES, DEFAULTS.plausibility),
-    chains,
-    draws: count("draws", [least, MOST_DRAWS], Math.max(budget.draws, least)),
-    burnIn: count("burnin", RANGES.burnIn, budget.burnIn),
-    thin: count("thin", RANGES.thin, budget.thin),
-    weighted: count("weighted", RANGES.weighted, DEFAULTS.weighted),
-    difference: oneOf(given.get("diff"), DIFFERENCES) ?? DEFAULTS.difference,
-    differenceQuantile: valid(parsePercent(given.get("leaves") ?? ""), DEFAULTS.differenceQuantile),
-    differenceThreshold: positive("beyond"),
-    differenceDraws: count("diffdraws", RANGES.differenceDraws, DEFAULTS.differenceDraws),
-    modes: modes === 0 ? null : modes,
-    align: named("align", ALIGNMENTS, DEFAULTS.align),
+    ...settings,
+    draws: valid(draws, Math.max(standard.draws, least)),
     prepare: readPreparation(given),
   };
+}
+
+type SettingValue = string | number | null;
+
+function readSetting({ value }: Field, text: string, standard: SettingValue): SettingValue {
+  switch (value.kind) {
+    case "choice":
+      return oneOf(text, value.of) ?? standard;
+    case "count":
+      return valid<SettingValue>(parseCount(text, value.least, value.most), standard);
+    case "countOrAll":
+      return valid<SettingValue>(parseCount(text, value.least, value.most), null);
+    case "positive":
+      return valid(parsePositive(text), null);
+    case "share":
+      return valid<SettingValue>(parsePercent(text), standard);
+    case "seed":
+      return valid<SettingValue>(parseSeed(text), standard);
+  }
 }
 
 function readPreparation(given: URLSearchParams): Preparation {
@@ -270,7 +263,7 @@ function readPreparation(given: URLSearchParams): Preparation {
     valid<number | null>(parseCount(given.get(key) ?? "", least, most), null);
   const side = (name: "a" | "b"): SidePreparation => ({
     unit: oneOf(given.get(`unit-${name}`), UNITS) ?? null,
-    modes: count(`modes-${name}`, RANGES.modes),
+    modes: count(`modes-${name}`, MODES),
     variance: valid<number | null>(parsePercent(given.get(`variance-${name}`) ?? ""), null),
     rebase: /^[ab]+$/.test(rebased) && rebased.includes(name),
   });
@@ -289,17 +282,15 @@ function readPreparation(given: URLSearchParams): Preparation {
 /** The keys and values of an address that this page does not know, as `key=value`. */
 export function misread(fragment: string): string[] {
   const given = new URLSearchParams(fragment.replace(/^#/, ""));
-  const words: Record<string, string[]> = {
-    sampler: Object.keys(SAMPLERS),
-    fit: Object.keys(FITS),
-    sides: Object.keys(SIDES_USED),
-    plaus: Object.keys(PLAUSIBILITIES),
-    diff: DIFFERENCES,
-    align: Object.keys(ALIGNMENTS),
-    "unit-a": [...UNITS],
-    "unit-b": [...UNITS],
-  };
-  const settings = Object.entries(words).flatMap(([key, known]) => {
+  const choices = FIELDS.flatMap(({ key, value }) =>
+    value.kind === "choice" ? [[key, value.of] as const] : [],
+  );
+  const words: (readonly [string, readonly string[]])[] = [
+    ...choices,
+    ["unit-a", UNITS],
+    ["unit-b", UNITS],
+  ];
+  const settings = words.flatMap(([key, known]) => {
     const value = given.get(key);
     return value === null || known.includes(value) ? [] : `${key}=${value}`;
   });
@@ -317,7 +308,7 @@ function readScale(text: string | null): [number, number] | null {
 }
 
 function readCoefficient(text: string | null): number | null {
-  const mode = parseCount(text ?? "", ...RANGES.modes);
+  const mode = parseCount(text ?? "", ...MODES);
   return mode === "invalid" ? null : mode - 1;
 }
 

@@ -4,10 +4,13 @@ import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { type Schema, writeValues, written } from "../learn/params";
 import { SCENE_PARAMS } from "../learn/scenes";
+import { DEFAULTS, FIELDS, percentText } from "../state/settings";
 import { defaultLink, misread, readLink, writeLink } from "./link";
 
 interface Row {
   key: string;
+  value: string;
+  standard: string;
   example: string;
 }
 
@@ -19,7 +22,8 @@ const rows: Row[] = lines
   .map((line) => {
     const cells = line.split("|").slice(1, -1);
     const code = (cell: string | undefined) => /`([^`]+)`/.exec(cell ?? "")?.[1] ?? "";
-    return { key: code(cells[0]), example: code(cells.at(-1)) };
+    const [key = "", value = "", standard = "", example = ""] = cells;
+    return { key: code(key), value, standard, example: code(example) };
   });
 
 /** The keys that are asked for while a link is read. */
@@ -47,6 +51,26 @@ test("every key that is read is documented once, and no other", () => {
   const known = [...asked("v=1&demo=planes"), "scene", "size", "v"].sort();
   assert.ok(known.length > 50, `${known.length} keys`);
   assert.deepEqual(rows.map(({ key }) => key).sort(), known);
+});
+
+test("every setting has its choices and its default in the document, and is read and written by its key", () => {
+  for (const { key, name, value } of FIELDS) {
+    const row = rows.find((one) => one.key === key);
+    const said = `${key}: ${row?.value} ${row?.standard}`;
+    const standard = DEFAULTS[name];
+    if (value.kind === "choice") {
+      const choices = [...(row?.value ?? "").matchAll(/`([^`]+)`/g)].map(([, choice]) => choice);
+      assert.deepEqual(choices, [...value.of], said);
+    }
+    if (standard !== null) {
+      const text = value.kind === "share" ? percentText(Number(standard)) : String(standard);
+      assert.match(row?.standard ?? "", new RegExp(`(^|[ \`])${text}([ \`]|$)`), said);
+    }
+    const { settings } = readLink(row?.example ?? "");
+    assert.notDeepEqual(settings[name], standard, said);
+    const again = new URLSearchParams(writeLink({ ...defaultLink(), settings }));
+    assert.equal(again.get(key), new URLSearchParams(row?.example).get(key), said);
+  }
 });
 
 test("every example is read, and makes a difference by its key", () => {

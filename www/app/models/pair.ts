@@ -1,7 +1,7 @@
 /** Asks the engine whether the two models can be compared, and for remedies if not. */
 import { effect } from "@preact/signals";
 import { EngineFailure, isEngineError, wasAborted } from "../../worker/engine-errors";
-import type { EngineError, Inspection } from "../../worker/protocol";
+import type { Inspection, Notice } from "../../worker/protocol";
 import { engineClient, report } from "../state/engine";
 import { latest } from "../state/latest";
 import { change, inspected, pairKey, settings, slots, spoken } from "../state/state";
@@ -35,7 +35,7 @@ async function inspect(key: string): Promise<void> {
 }
 
 /** Inspection of a pair that the engine cannot inspect: its error and the facts of the models. */
-function unknownPair({ code, message, hint }: EngineError): Inspection {
+function unknownPair({ code, message, hint }: Notice): Inspection {
   const [a, b] = [slots.a.peek()?.report, slots.b.peek()?.report];
   return {
     problem: { code, message, hint },

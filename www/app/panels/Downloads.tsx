@@ -1,5 +1,5 @@
 import { useSignal } from "@preact/signals";
-import type { ExportKind, Region } from "../../worker/protocol";
+import type { Download, Region } from "../../worker/protocol";
 import { shapeCount } from "../comparison/run";
 import { saveRun } from "../link/runfile/run";
 import { REGION_NAMES } from "../stage/names";
@@ -20,7 +20,7 @@ import { openFiles } from "./dropped-files";
 import { Methods, Pictures } from "./Pictures";
 
 /** What can be downloaded, and in which file formats. */
-const KINDS: { of: string; files: [ending: string, kind: ExportKind["kind"], help: string][] }[] = [
+const KINDS: { of: string; files: [ending: string, kind: Download["kind"], help: string][] }[] = [
   {
     of: "A∩B",
     files: [
@@ -51,7 +51,7 @@ export function Downloads() {
         <fieldset key={of} class="download-row">
           <legend>{of}</legend>
           {files.map(([ending, kind, help]) => (
-            <Save key={kind} what={{ kind } as ExportKind} {...{ of, ending, help, ready }} />
+            <Save key={kind} what={{ kind } as Download} {...{ of, ending, help, ready }} />
           ))}
         </fieldset>
       ))}
@@ -110,7 +110,7 @@ function RunFileRow({ ready }: { ready: boolean }) {
 }
 
 interface SaveProps {
-  what: ExportKind;
+  what: Download;
   of: string;
   ending: string;
   help: string;
@@ -138,7 +138,7 @@ function Shape({ ready }: { ready: boolean }) {
   const from = useSignal<Region>("intersection");
   const index = useSignal(-1);
   const shown = Math.min(9, shapes.value[from.value]?.count ?? 0);
-  const what = (kind: (typeof MESHES)[number]): ExportKind => ({
+  const what = (kind: (typeof MESHES)[number]): Download => ({
     kind,
     region: from.value,
     index: index.value,

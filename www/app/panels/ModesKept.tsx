@@ -1,5 +1,5 @@
 import { keptModes } from "../state/preparation";
-import { parseCount, RANGES } from "../state/settings";
+import { parseCount, rangeOf } from "../state/settings";
 import { change, type Side, settings } from "../state/state";
 import { count } from "../text/format";
 
@@ -17,7 +17,7 @@ export function ModesKept({ side, deviations }: { side: Side; deviations: number
     change({ prepare: { [side]: { variance, modes } } });
   };
   const take = (input: HTMLInputElement) => {
-    const modes = parseCount(input.value, RANGES.modes[0], deviations.length);
+    const modes = parseCount(input.value, rangeOf("modes")[0], deviations.length);
     input.setAttribute("aria-invalid", String(modes === "invalid"));
     if (modes !== "invalid") change({ prepare: { [side]: { modes, variance: null } } });
   };

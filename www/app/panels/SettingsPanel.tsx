@@ -1,12 +1,10 @@
-import type { DifferenceName, Settings } from "../../worker/protocol";
+import type { DifferenceDefinition, Settings } from "../../worker/protocol";
 import { DEFINITIONS } from "../comparison/words";
 import {
   budgetOf,
   DEFAULTS,
   DIFFERENCES,
   FITS,
-  leastDraws,
-  MOST_DRAWS,
   type Options,
   PLAUSIBILITIES,
   parseCount,
@@ -14,7 +12,8 @@ import {
   parsePositive,
   parseSeed,
   percentText,
-  RANGES,
+  rangeOf,
+  rangeOfDraws,
   SAMPLERS,
   SIDES_USED,
 } from "../state/settings";
@@ -50,15 +49,17 @@ export function SettingsPanel() {
         label="Chains"
         name="chains"
         standard={budgetOf(now.sampler).chains}
-        range={RANGES.chains}
+        range={rangeOf("chains")}
         help="Markov chains for each model. With more chains convergence is checked better; each chain has fewer draws."
-        onChange={(chains) => change({ chains, draws: Math.max(now.draws, leastDraws(chains)) })}
+        onChange={(chains) =>
+          change({ chains, draws: Math.max(now.draws, rangeOfDraws(chains)[0]) })
+        }
       />
       <CountField
         label="Draws per model"
         name="draws"
         standard={budgetOf(now.sampler).draws}
-        range={[leastDraws(now.chains), MOST_DRAWS]}
+        range={rangeOfDraws(now.chains)}
         help="Shapes drawn of the intersection from A, and as many from B. Four times as many halve the Monte-Carlo errors; the time grows in proportion."
       />
       <More />
@@ -124,7 +125,7 @@ function More() {
         accessibleLabel="Weighted draws"
         name="weighted"
         standard={DEFAULTS.weighted}
-        range={RANGES.weighted}
+        range={rangeOf("weighted")}
         suffix="draws"
         help="Weighted draws with gradients, for each model, that correct the mean and variance of the fit. Four times as many halve the standard errors."
       />
@@ -139,7 +140,7 @@ const DEFINED = Object.fromEntries(
     const { label, help } = DEFINITIONS[name];
     return [name, { label: label.charAt(0).toUpperCase() + label.slice(1), help }];
   }),
-) as Options<DifferenceName>;
+) as Options<DifferenceDefinition>;
 
 function DifferenceFields() {
   const now = settings.value;
@@ -186,7 +187,7 @@ function DifferenceFields() {
         accessibleLabel="Draws of a difference"
         name="differenceDraws"
         standard={DEFAULTS.differenceDraws}
-        range={RANGES.differenceDraws}
+        range={rangeOf("differenceDraws")}
         help="Shapes drawn of each difference. Four times as many halve the standard errors of its mean."
       />
     </>
@@ -204,7 +205,7 @@ function ModesField() {
       placeholder="all"
       suffix={most > 0 ? `of ${most}` : ""}
       parse={(text) =>
-        text.trim() === "" || text.trim() === "all" ? null : parseCount(text, ...RANGES.modes)
+        text.trim() === "" || text.trim() === "all" ? null : parseCount(text, ...rangeOf("modes"))
       }
       onChange={(modes) => change({ modes })}
       wrong="a whole number, or nothing for all"

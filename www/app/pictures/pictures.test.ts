@@ -1,11 +1,10 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { crc32 } from "node:zlib";
-import { star } from "../../worker/mock-models";
-import { mockReport } from "../../worker/mock-report";
 import type { Settings } from "../../worker/protocol";
 import { bibTeX, methods } from "../comparison/methods";
 import { valueAt } from "../comparison/numbers";
+import { madeUpReport } from "../comparison/report.fixture";
 import { plain } from "../text/phrase";
 import { captionOf, type Shown } from "./caption";
 import {
@@ -21,9 +20,8 @@ import {
 import { layoutFigure, UNITS_PER_INCH, widthInPixels, wrapped } from "./layout";
 import { withResolution } from "./png";
 
-const seconds = { load: 0, prepare: 0, sample: 0, total: 0 };
 const reportWith = (settings: Partial<Settings>) =>
-  mockReport(star("stars-1-a", 0), star("stars-1-b", 1), settings, seconds);
+  madeUpReport(settings, { a: "stars-1-a", b: "stars-1-b" });
 
 const shown: Shown = {
   shows: "shapes",
@@ -41,7 +39,7 @@ test("the methods paragraph holds σ, how it was chosen, the seed, the engine an
     /σ of the distance likelihood was chosen as 0\.300\u202funits \(recommended would be/,
   );
   assert.match(chosen, /seed 4711/);
-  assert.match(chosen, /Shapevenn mock/);
+  assert.match(chosen, /Shapevenn of a test/);
   assert.match(chosen, /“stars-1-a”/);
   assert.match(chosen, /WACV 2024, arXiv:2211\.16314\.$/);
   const recommended = plain(methods(reportWith({ sigma: null })));
@@ -88,7 +86,7 @@ test("a caption says models, σ, seed and what is shown", () => {
   const text = captionOf(shown, report);
   assert.match(text, /^Random shapes of A, A∖B, A∩B, B∖A and B, 9 of each, side by side\./);
   assert.match(text, /A: stars-1-a \(120 points, 3 modes\); B: stars-1-b/);
-  assert.match(text, /σ 0\.300\u202funits, seed 7, rigidly aligned; Shapevenn mock\.$/);
+  assert.match(text, /σ 0\.300\u202funits, seed 7, rigidly aligned; Shapevenn of a test\.$/);
   const vertex = { number: 5, deviations: 2, dimension: 2 as const };
   assert.doesNotMatch(captionOf({ ...shown, vertex }, report), /Ellipse/);
   const map = captionOf({ ...shown, shows: "variance", vertex, differences: "γ 1.0" }, report);

@@ -1,5 +1,5 @@
 /** Writes the shown comparison as a command for the terminal. Pure. */
-import type { BothSides, Settings, SidePreparation } from "../../worker/protocol";
+import type { Settings, SidePreparation, Sides } from "../../worker/protocol";
 import { budgetOf, DEFAULTS } from "../state/settings";
 
 /** A model as an argument of the command line. */
@@ -38,7 +38,7 @@ const FLAGS = {
   align: "align",
 } as const;
 
-export function commandOf(settings: Settings, models: BothSides<CommandModel>): Command {
+export function commandOf(settings: Settings, models: Sides<CommandModel>): Command {
   const standard = { ...DEFAULTS, ...budgetOf(settings.sampler) };
   const words = ["shapevenn", "compare", modelWord(models.a), modelWord(models.b)];
   if (settings.sampler !== DEFAULTS.sampler) words.push("--sampler", settings.sampler);

@@ -2,7 +2,7 @@
 import { EngineClient } from "../../worker/client";
 import { EngineFailure, sentenceOf } from "../../worker/engine-errors";
 import { parseThreads, writeStart } from "../../worker/start";
-import { engine, type Notice, notify, spoken } from "./state";
+import { engine, notify, type ShownNotice, spoken } from "./state";
 
 const query = new URLSearchParams(location.search);
 const restarted = new Set<() => void>();
@@ -47,7 +47,6 @@ function spawn(serial: boolean): Worker {
     base: new URL(".", document.baseURI).href,
     serial: serial || query.has("serial"),
     threads: parseThreads(query.get("threads")),
-    mock: import.meta.env.DEV && query.has("mock"),
   });
   return new Worker(new URL("../../worker/worker.ts", import.meta.url), {
     type: "module",
@@ -57,9 +56,9 @@ function spawn(serial: boolean): Worker {
 
 /** Shows an error next to the part of the page that it concerns. */
 export function report(
-  place: Notice["place"],
+  place: ShownNotice["place"],
   thrown: unknown,
-  again: Notice["again"] = null,
+  again: ShownNotice["again"] = null,
 ): void {
   const failure =
     thrown instanceof EngineFailure

@@ -14,10 +14,10 @@ import { DEFAULTS, settingsKey } from "./settings";
 
 test("a patch changes what it names and nothing beside it", () => {
   const once = patched(DEFAULTS, { align: "rigid", prepare: { a: { modes: 3 }, subsample: 50 } });
-  const twice = patched(once, { prepare: { a: { unit: "mm" }, points: { by: "map" } } });
+  const twice = patched(once, { prepare: { a: { unit: "mm" as const }, points: { by: "map" } } });
   assert.equal(twice.align, "rigid");
   assert.deepEqual(twice.prepare, {
-    a: { ...AS_IT_IS, modes: 3, unit: "mm" },
+    a: { ...AS_IT_IS, modes: 3, unit: "mm" as const },
     b: AS_IT_IS,
     convert: false,
     points: { by: "map" },
@@ -69,7 +69,7 @@ test("modes are kept by number or by their share of the variance", () => {
 
 test("what was done is said in words", () => {
   const prepare = {
-    a: { ...AS_IT_IS, unit: "mm", variance: 0.95 },
+    a: { ...AS_IT_IS, unit: "mm" as const, variance: 0.95 },
     b: { ...AS_IT_IS, rebase: true },
     convert: true,
     points: { by: "region" as const, ranges: "0-9,20" },

@@ -1,38 +1,31 @@
-/** Settings of a run for the page: choices, defaults and ranges, the same as in src/settings.rs. */
+/** Settings of a run: keys, ranges, choices and defaults as the engine has them, and their names on the page. */
 import type {
   Alignment,
-  DifferenceName,
+  DifferenceDefinition,
+  Field,
   FitChoice,
   Plausibility,
   Pooling,
-  SamplerName,
+  Sampler,
   Settings,
 } from "../../worker/protocol";
-import { completed, UNPREPARED } from "./preparation";
+import table from "../../worker/settings.json";
+import { completed } from "./preparation";
 
-export const DEFAULTS: Settings = {
-  sigma: null,
-  noise: null,
-  seed: "1",
-  sampler: "auto",
-  fit: "auto",
-  pooling: "both",
-  plausibility: "product",
-  ...budgetOf("auto"),
-  weighted: 1024,
-  difference: "soft",
-  differenceQuantile: 0.8,
-  differenceThreshold: null,
-  differenceDraws: 2000,
-  modes: null,
-  align: "none",
-  prepare: UNPREPARED,
-};
+/** Every setting that has a key in links, in their order (src/settings/fields.rs). */
+export const FIELDS = table.fields as Field[];
+
+export const DEFAULTS: Settings = defaults();
+
+function defaults(): Settings {
+  const { sigmaRecommended, ...settings } = table.defaults;
+  return settings as Settings;
+}
 
 /** The choices of a setting with their explanations, the default first. */
 export type Options<T extends string> = Record<T, { label: string; help: string }>;
 
-export const SAMPLERS: Options<SamplerName> = {
+export const SAMPLERS: Options<Sampler> = {
   auto: {
     label: "Auto",
     help: "Independence if the Gaussian fit is good, else Hamiltonian; the results state which ran and why.",
@@ -105,7 +98,13 @@ export const PLAUSIBILITIES: Options<Plausibility> = {
 };
 
 /** The definitions of the difference; comparison/words.ts explains them. */
-export const DIFFERENCES: DifferenceName[] = ["soft", "distance", "relative", "outside"];
+export const DIFFERENCES = choicesOf("difference") as DifferenceDefinition[];
+
+/** The names that a setting can have. */
+export function choicesOf(name: Field["name"]): readonly string[] {
+  const value = FIELDS.find((field) => field.name === name)?.value;
+  return value?.kind === "choice" ? value.of : [];
+}
 
 export const ALIGNMENTS: Options<Alignment> = {
   none: {
@@ -117,42 +116,24 @@ export const ALIGNMENTS: Options<Alignment> = {
 };
 
 /** Default numbers of chains, draws and steps of each sampler; the random walk has those of the paper. */
-export function budgetOf(
-  sampler: SamplerName,
-): Pick<Settings, "chains" | "draws" | "burnIn" | "thin"> {
-  switch (sampler) {
-    case "hmc":
-      return { chains: 16, draws: 4000, burnIn: 200, thin: 1 };
-    case "mala":
-    case "pcn":
-      return { chains: 16, draws: 4000, burnIn: 500, thin: 4 };
-    case "paper":
-    case "paper-corrected":
-      return { chains: 25, draws: 2500, burnIn: 2000, thin: 30 };
-    default:
-      return { chains: 8, draws: 4000, burnIn: 10, thin: 1 };
-  }
+export function budgetOf(sampler: Sampler): Pick<Settings, "chains" | "draws" | "burnIn" | "thin"> {
+  return table.budgets[sampler];
 }
 
-/** Smallest and largest value of each count. */
-export const RANGES = {
-  chains: [2, 1024],
-  burnIn: [0, 10_000_000],
-  thin: [1, 100_000],
-  weighted: [1024, 10_000_000],
-  differenceDraws: [32, 10_000_000],
-  modes: [1, 100_000],
-} as const;
+/** Smallest and largest value of a count. */
+export function rangeOf(name: Field["name"]): [number, number] {
+  const value = FIELDS.find((field) => field.name === name)?.value;
+  return value && "least" in value ? [value.least, value.most] : [0, 0];
+}
+
+/** Smallest and largest number of draws per model; every chain has its least. */
+export function rangeOfDraws(chains: number): [number, number] {
+  const [, most] = rangeOf("draws");
+  return [table.leastDrawsOfAChain * chains, most];
+}
 
 /** Smallest and largest number of compared points. */
 export const SUBSAMPLE = [3, 10_000_000] as const;
-
-export const MOST_DRAWS = 10_000_000;
-
-/** Least number of draws: eight for each chain. */
-export function leastDraws(chains: number): number {
-  return 8 * chains;
-}
 
 export const SEED_LIMIT = 2n ** 64n;
 

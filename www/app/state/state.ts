@@ -2,7 +2,6 @@
 import { computed, type Signal, signal } from "@preact/signals";
 import type { EngineInfo } from "../../worker/client";
 import type {
-  BothSides,
   DroppedFile,
   Geometry,
   Inspection,
@@ -15,6 +14,7 @@ import type {
   Report,
   Settings,
   SettingsPatch,
+  Sides,
 } from "../../worker/protocol";
 import { type Camera, HOME } from "./camera";
 import { DEMO_GROUPS, FIRST_DEMO, findDemo, type Nouns, nounsOf } from "./demos";
@@ -70,7 +70,7 @@ export interface Result {
   key: string;
   nouns: Nouns;
   /** Sources of its models, as a run file states them. */
-  sources: BothSides<string | null>;
+  sources: Sides<string | null>;
   /** Whether it is the result stored with the page. */
   stored: boolean;
   cancelled: boolean;
@@ -82,7 +82,7 @@ export interface RunState {
   cancelling: boolean;
 }
 
-export interface Notice {
+export interface ShownNotice {
   id: number;
   place: Side | "pair" | "run" | "page" | "link" | "content";
   code: string;
@@ -110,7 +110,7 @@ export const result = signal<Result | null>(null);
 export const run = signal<RunState | null>(null);
 /** Key of the run that failed, so that it is not started again. */
 export const failedKey = signal<string | null>(null);
-export const notices = signal<Notice[]>([]);
+export const notices = signal<ShownNotice[]>([]);
 export const engine = signal<EngineInfo | null>(null);
 /** Message for screen readers. */
 export const spoken = signal("");
@@ -149,7 +149,7 @@ export const preview = signal<Prediction | null>(null);
 /** The previewed σ while its slider moves. */
 export const tried = signal<number | null>(null);
 /** Geometry of the compared points, if they differ from those of the models. */
-export const compared = signal<BothSides<Geometry> | null>(null);
+export const compared = signal<Sides<Geometry> | null>(null);
 /** Reason why a region has no shapes. */
 export const emptyRegions = signal<Partial<Record<Region, string>>>({});
 /** The painted mask while compared points are painted: 1 for each painted vertex of A. */
@@ -297,18 +297,18 @@ export function change(part: SettingsPatch): void {
 let noticeId = 0;
 
 export function notify(
-  place: Notice["place"],
+  place: ShownNotice["place"],
   code: string,
   message: string,
   hint: string,
-  again: Notice["again"] = null,
+  again: ShownNotice["again"] = null,
 ): void {
   noticeId += 1;
   const kept = notices.value.filter((notice) => notice.place !== place);
   notices.value = [...kept, { id: noticeId, place, code, message, hint, again }];
 }
 
-export function dismiss(place: Notice["place"]): void {
+export function dismiss(place: ShownNotice["place"]): void {
   if (notices.value.some((notice) => notice.place === place)) {
     notices.value = notices.value.filter((notice) => notice.place !== place);
   }

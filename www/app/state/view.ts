@@ -1,5 +1,5 @@
 /** Types and defaults of the view in a link: page, tab, map, region, camera. */
-import type { MapName, Picture, Region, Settings } from "../../worker/protocol";
+import type { DifferenceShapes, MapName, Region, Settings } from "../../worker/protocol";
 import { type Camera, HOME } from "./camera";
 import { FIRST_DEMO } from "./demos";
 import { DEFAULTS } from "./settings";
@@ -23,7 +23,7 @@ export const MAPS: MapName[] = [
   "mode",
 ];
 export const REGIONS: Region[] = ["a", "aWithoutB", "intersection", "bWithoutA", "b"];
-export const PICTURES: Picture[] = ["draws", "exclusiveModes"];
+export const PICTURES: DifferenceShapes[] = ["draws", "exclusiveModes"];
 /** Largest exaggeration of the slider. */
 export const MOST_EXAGGERATION = 5;
 
@@ -49,7 +49,7 @@ export interface ViewState {
   coefficient: number | null;
   /** The region that is shown alone, if any. */
   region: Region | null;
-  picture: Picture;
+  picture: DifferenceShapes;
   /** How much of what the other model misses is added to a shape of a difference. */
   exaggeration: number;
   /** Seed of the shapes shown in “Samples”. */

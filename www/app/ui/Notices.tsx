@@ -1,4 +1,4 @@
-import { dismiss, type Notice, notices } from "../state/state";
+import { dismiss, notices, type ShownNotice } from "../state/state";
 import { CloseIcon } from "./icons";
 
 /** Scrolls to a notice, which may be out of view on a small screen. */
@@ -7,7 +7,7 @@ export function showNotice(element: HTMLElement | null): void {
 }
 
 /** Error messages, next to the part of the page that they concern. */
-export function Notices({ place }: { place: Notice["place"] }) {
+export function Notices({ place }: { place: ShownNotice["place"] }) {
   const found = notices.value.filter((notice) => notice.place === place);
   return (
     <>

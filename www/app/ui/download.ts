@@ -1,9 +1,9 @@
 /** Saves files to the visitor's computer and copies text. */
-import type { ExportKind } from "../../worker/protocol";
+import type { Download } from "../../worker/protocol";
 import { engineClient, report } from "../state/engine";
 import { dismiss } from "../state/state";
 
-export async function download(what: ExportKind): Promise<void> {
+export async function download(what: Download): Promise<void> {
   try {
     const { name, mime, bytes } = await engineClient().export(new AbortController().signal, what);
     dismiss("page");

@@ -1,5 +1,5 @@
 /** Computes the contents of the panes of the five regions: shapes, colours, ellipsoids. Pure. */
-import type { BothSides, Ellipsoid, Geometry, Region, RegionShapes } from "../../worker/protocol";
+import type { Ellipsoid, Geometry, Region, RegionShapes, Sides } from "../../worker/protocol";
 import { REGIONS, type ViewMode } from "../state/view";
 import type { Palette } from "../text/colormap";
 import { rimFade } from "./rim";
@@ -8,7 +8,7 @@ import { type DrawnEllipsoid, type Frame, frameOf, type PaneContent } from "./vi
 export interface Scene {
   geometry: { a: Geometry | null; b: Geometry | null };
   /** Geometry of the compared points, if they differ from those of `geometry`. */
-  compared: BothSides<Geometry> | null;
+  compared: Sides<Geometry> | null;
   shapes: Partial<Record<Region, RegionShapes>>;
   mode: ViewMode;
   dark: boolean;

@@ -1,5 +1,5 @@
 /** Maps the plane of two coefficients to a canvas and draws ellipses, point clouds, densities and shapes in it. */
-import type { LessonField, LessonLaw } from "../../../worker/lessons";
+import type { LessonField, Moments } from "../../../worker/protocol";
 import { viridis } from "../../text/colormap";
 import type { Size } from "./LessonCanvas";
 
@@ -59,7 +59,7 @@ export function traceOutline(
 export function traceGaussian(
   pen: CanvasRenderingContext2D,
   plane: Plane,
-  { mean, covariance }: LessonLaw,
+  { mean, covariance }: Moments,
   radius: number,
   modes: readonly [number, number] = [0, 1],
 ): void {

@@ -1,5 +1,5 @@
 /** Draws a density in one colour with increasing opacity, where the colour tells the model. */
-import type { LessonField } from "../../../worker/lessons";
+import type { LessonField } from "../../../worker/protocol";
 
 /** Image of a log density, size × size, the top row first. */
 export function tintedField(

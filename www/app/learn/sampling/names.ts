@@ -1,5 +1,5 @@
 /** Names of samplers, proposals and models in the scenes. */
-import type { LessonSampler } from "../../../worker/lessons";
+import type { LessonSampler } from "../../../worker/protocol";
 
 export const SAMPLER_NAMES: Record<LessonSampler, string> = {
   paper: "Paper’s walk, as published",

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { LaneFigures, LessonStep } from "../../../worker/lessons";
+import type { ChainGroupSummary, LessonStep } from "../../../worker/protocol";
 import { standardValues } from "../params";
 import { BREAKS, SCENE_PARAMS } from "../scenes";
 import { broken, RACERS, raceVerdict } from "../scenes/race/broken";
@@ -85,7 +85,7 @@ test("a difference is all, next to nothing, or has a hole", () => {
   assert.ok(differenceVerdict("a", 0.6, 0.001).calm);
 });
 
-const diagnostics = (changes: Partial<LaneFigures>): LaneFigures => ({
+const diagnostics = (changes: Partial<ChainGroupSummary>): ChainGroupSummary => ({
   chains: 4,
   draws: 2000,
   evaluations: 2800,

@@ -1,5 +1,5 @@
 /** Judges numbers of the lessons in a sentence: convergence, a step, the error of a model, a difference. Pure. */
-import type { LaneFigures, LessonSide, LessonStep } from "../../../worker/lessons";
+import type { ChainGroupSummary, LessonStep, Side } from "../../../worker/protocol";
 import { count, number, percent } from "../../text/format";
 
 export interface Verdict {
@@ -12,7 +12,7 @@ export interface Verdict {
 export const R_HAT_LIMIT = 1.01;
 export const ESS_EACH = 100;
 
-type Quality = Pick<LaneFigures, "chains" | "draws" | "rHatMax" | "essBulkMin">;
+type Quality = Pick<ChainGroupSummary, "chains" | "draws" | "rHatMax" | "essBulkMin">;
 
 /** Least number of draws per chain for diagnostics. */
 const TOO_EARLY = 20;
@@ -100,7 +100,7 @@ export function cloudVerdict(
 }
 
 /** Judges the share of a model that the other cannot make, and PCA of the difference. */
-export function differenceVerdict(side: LessonSide, share: number, misled: number): Verdict {
+export function differenceVerdict(side: Side, share: number, misled: number): Verdict {
   const [own, other] = side === "a" ? ["A", "B"] : ["B", "A"];
   if (share > 0.95) {
     return {

@@ -1,4 +1,4 @@
-import type { LessonAsk, LessonSide } from "../../../worker/lessons";
+import type { LessonAsk, Side } from "../../../worker/protocol";
 import { degrees } from "../../text/format";
 import { Segments } from "../../ui/Segments";
 import { useAsk, useAsked, useDone } from "../asked";
@@ -31,7 +31,7 @@ export function PlanesScene() {
   const ask = useAsk();
   const lesson = useAsked(ask, { ask: "open", pair: "planes", sigma, tilt, shift, lift });
   const models = lesson.answer;
-  const field = (of: LessonSide): Extract<LessonAsk, { ask: "field" }> | null =>
+  const field = (of: Side): Extract<LessonAsk, { ask: "field" }> | null =>
     models && {
       ask: "field",
       of: "intersection",

@@ -1,5 +1,5 @@
 /** Reads which models a run file or link expects, and compares them with the open ones. Pure. */
-import type { BothSides, ModelReport, Report, RunFile, Settings } from "../../../worker/protocol";
+import type { ModelReport, Report, RunFile, Settings, Sides } from "../../../worker/protocol";
 import { completed } from "../../state/preparation";
 import { DEFAULTS, settingsOf } from "../../state/settings";
 import type { LinkState } from "../link";
@@ -20,7 +20,7 @@ export interface ExpectedRun {
   file: string | null;
   /** The other keys of a link. */
   link: LinkState | null;
-  models: BothSides<ExpectedModel>;
+  models: Sides<ExpectedModel>;
   settings: Settings;
   /** Version of the engine that wrote it, if stated. */
   engine: string | null;

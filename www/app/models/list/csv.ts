@@ -1,10 +1,10 @@
 /** Writes the table of pairs as CSV, with unrounded numbers. Pure. */
-import type { Relation } from "../../../worker/protocol";
+import type { RelationReport } from "../../../worker/protocol";
 import { csvText } from "../../text/csv";
 import { MEASURE_NAMES, MEASURES, type MeasureName } from "./measures";
 
 /** `relation(i, j)` of the models called `names`; null if it is not computed. */
-type Relations = (row: number, column: number) => Relation | null;
+type Relations = (row: number, column: number) => RelationReport | null;
 
 /** One measure as a table with a row and a column for each model. */
 export function matrixCsv(names: string[], relation: Relations, measure: MeasureName): string {
@@ -37,8 +37,8 @@ export function pairsCsv(names: string[], units: string[], relation: Relations):
 }
 
 function numberText(
-  relation: Relation | null,
-  value: (relation: Relation) => number | null,
+  relation: RelationReport | null,
+  value: (relation: RelationReport) => number | null,
 ): string {
   const found = relation === null || relation.problem ? null : value(relation);
   return found === null || !Number.isFinite(found) ? "" : String(found);

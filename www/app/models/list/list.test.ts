@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { Relation } from "../../../worker/protocol";
+import type { RelationReport } from "../../../worker/protocol";
 import { patched } from "../../state/preparation";
 import { DEFAULTS } from "../../state/settings";
 import type { Slot } from "../../state/state";
@@ -124,7 +124,7 @@ test("arrow keys go from cell to cell and stop at the rim", () => {
   assert.equal(moved([2, 1], "Enter", false, 3), null);
 });
 
-const relation: Relation = {
+const relation: RelationReport = {
   ...ITSELF,
   varianceOfAInB: 0.1234567890123,
   grassmann: 2.5,

@@ -6,7 +6,7 @@ import {
   sentenceOf,
   wasAborted,
 } from "../../../worker/engine-errors";
-import type { Relation, Settings } from "../../../worker/protocol";
+import type { RelationReport, Settings } from "../../../worker/protocol";
 import { engineClient } from "../../state/engine";
 import { modelList, reopening, type Slot, settings, slotKey, tab } from "../../state/state";
 import { ITSELF, type MeasureName, pairSettings, relationKey } from "./measures";
@@ -18,7 +18,7 @@ export const measure = signal<MeasureName>("variance");
 export const paused = signal(false);
 
 interface Known {
-  relation: Relation;
+  relation: RelationReport;
   /** Keys of the settings on which it depends, without and with those that concern the Gaussians only. */
   base: string;
   gaussianKey: string;
@@ -27,7 +27,7 @@ interface Known {
 /** The last computed relation of each pair, by the keys of its models. */
 const known = signal<ReadonlyMap<string, Known>>(new Map());
 /** All computed relations, for settings that are chosen again. */
-const memory = new Map<string, Relation>();
+const memory = new Map<string, RelationReport>();
 const MOST_REMEMBERED = 5000;
 
 /** Milliseconds without a change after which the table is computed. */
@@ -44,7 +44,7 @@ function pairOf(row: Slot, column: Slot): string {
 }
 
 export interface Cell {
-  relation: Relation | null;
+  relation: RelationReport | null;
   /** Whether it was computed with other settings than the chosen ones. */
   stale: boolean;
 }
@@ -133,7 +133,7 @@ async function relate(
   row: Slot,
   column: Slot,
   chosen: Settings,
-): Promise<Relation> {
+): Promise<RelationReport> {
   try {
     return await engineClient().relate(signal, row.model, column.model, chosen);
   } catch (thrown) {
@@ -147,7 +147,7 @@ function isGone(thrown: unknown): boolean {
   return thrown instanceof EngineFailure && thrown.code === "engine-stopped";
 }
 
-const UNRELATED: Relation = {
+const UNRELATED: RelationReport = {
   ...ITSELF,
   varianceOfAInB: Number.NaN,
   varianceOfBInA: Number.NaN,
@@ -159,7 +159,7 @@ const UNRELATED: Relation = {
 };
 
 /** Stores a relation; the oldest ones are dropped first. */
-function remember(memoryKey: string, relation: Relation): void {
+function remember(memoryKey: string, relation: RelationReport): void {
   memory.delete(memoryKey);
   memory.set(memoryKey, relation);
   for (const oldest of memory.keys()) {

@@ -1,5 +1,5 @@
 /** The measures that the table of pairs can show, with their explanations and settings. Pure. */
-import type { Relation, Settings } from "../../../worker/protocol";
+import type { RelationReport, Settings } from "../../../worker/protocol";
 import { UNPREPARED } from "../../state/preparation";
 import { DEFAULTS, settingsKey } from "../../state/settings";
 import { degrees, length, number, percent } from "../../text/format";
@@ -18,7 +18,7 @@ export interface Measure {
   help: string;
   /** Sentence with the value of one pair. */
   sentence: (row: string, column: string, text: string, noise: string) => string;
-  value: (relation: Relation) => number | null;
+  value: (relation: RelationReport) => number | null;
   text: (value: number, unit: string) => string;
   /** Unit; lengths have that of the row's model. */
   unit: "" | "rad" | "°" | "length";
@@ -122,8 +122,8 @@ export function rangeOf(measure: Measure, values: readonly number[]): [number, n
   return [0, most > 0 ? most : 1];
 }
 
-/** Relation of a model with itself. */
-export const ITSELF: Relation = {
+/** RelationReport of a model with itself. */
+export const ITSELF: RelationReport = {
   problem: null,
   points: 0,
   varianceOfAInB: 1,

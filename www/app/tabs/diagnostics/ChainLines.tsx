@@ -1,5 +1,5 @@
 import type { ComponentChildren } from "preact";
-import type { ChainFigures } from "../../../worker/protocol";
+import type { ChainPlots } from "../../../worker/protocol";
 import { chainsOf, shownChains } from "../../comparison/diagnosing";
 import { count } from "../../text/format";
 import { linear, ticks } from "../../text/plots";
@@ -13,7 +13,7 @@ interface Props {
   title: string;
   about: ComponentChildren;
   label: string;
-  diagnostics: ChainFigures;
+  diagnostics: ChainPlots;
   /** Values of all chains, one chain after the other. */
   values: ArrayLike<number>;
   advice: Advice;

@@ -1,4 +1,4 @@
-import type { ChainFigures } from "../../../worker/protocol";
+import type { ChainPlots } from "../../../worker/protocol";
 import { drawsOf, insignificantLag, noiseBand } from "../../comparison/diagnosing";
 import { number } from "../../text/format";
 import { linear, ticks } from "../../text/plots";
@@ -8,7 +8,7 @@ import { DataTable } from "../../ui/DataTable";
 import { PlotAxes } from "../../ui/PlotAxes";
 
 interface Props {
-  diagnostics: ChainFigures;
+  diagnostics: ChainPlots;
   advice: Advice;
   which: string;
   file: string;

@@ -1,4 +1,4 @@
-import type { ChainFigures, PairFigures, Report } from "../../../worker/protocol";
+import type { ChainPlots, PairPlots, Report } from "../../../worker/protocol";
 import {
   autocorrelationAdvice,
   distanceAdvice,
@@ -25,8 +25,8 @@ import { SweepChart } from "../regions/Sweep";
 import { ChainLines } from "./ChainLines";
 import { CoefficientChooser } from "./CoefficientChooser";
 import { Correlation } from "./Correlation";
-import { PairPlots } from "./PairPlots";
 import { RankPlots } from "./RankPlots";
+import { ScatterPlots } from "./ScatterPlots";
 
 /** Modes in the triangle of pairs, and draws in each cell. */
 const PAIRED_MODES = 5;
@@ -113,7 +113,7 @@ function modesOf(report: Report, side: "a" | "b"): number {
   return report.intersection.coefficients?.[side].essBulk.length ?? report.models[side].modes;
 }
 
-type ChainAnswer = Answer<Coefficient & { found: Result }, ChainFigures>;
+type ChainAnswer = Answer<Coefficient & { found: Result }, ChainPlots>;
 
 function OfChains({ shown }: { shown: ChainAnswer }) {
   const { question, answer: diagnostics, problem } = shown;
@@ -194,7 +194,7 @@ function ordinal(value: number): string {
 interface PairProps {
   found: Result;
   side: "a" | "b";
-  diagnostics: PairFigures;
+  diagnostics: PairPlots;
 }
 
 function OfPairs({ found, side, diagnostics }: PairProps) {
@@ -204,7 +204,7 @@ function OfPairs({ found, side, diagnostics }: PairProps) {
   );
   const ess = own ? Math.min(...own) : found.report.intersection.sides[side].essBulkMin;
   return (
-    <PairPlots
+    <ScatterPlots
       diagnostics={diagnostics}
       advice={pairsAdvice(diagnostics, ess)}
       model={side.toUpperCase()}

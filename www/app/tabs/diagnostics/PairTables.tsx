@@ -1,10 +1,10 @@
-import type { PairFigures } from "../../../worker/protocol";
+import type { PairPlots } from "../../../worker/protocol";
 import { correlation, deviation } from "../../comparison/diagnosing";
 import { number, percent } from "../../text/format";
 import { DataTable } from "../../ui/DataTable";
 
 interface TablesProps {
-  diagnostics: PairFigures;
+  diagnostics: PairPlots;
   pairs: [number, number][];
   shares: number[];
   model: string;

@@ -1,4 +1,4 @@
-import type { ChainFigures } from "../../../worker/protocol";
+import type { ChainPlots } from "../../../worker/protocol";
 import { chainsOf, rankBand, shownChains } from "../../comparison/diagnosing";
 import { count } from "../../text/format";
 import type { Advice } from "../../ui/Chart";
@@ -6,7 +6,7 @@ import { Chart } from "../../ui/Chart";
 import { DataTable } from "../../ui/DataTable";
 
 interface Props {
-  diagnostics: ChainFigures;
+  diagnostics: ChainPlots;
   advice: Advice;
   /** “mode 3 of A” */
   which: string;

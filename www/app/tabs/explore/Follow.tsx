@@ -1,5 +1,5 @@
 /** Shows whether the other model can make the explored shape: in words, in numbers, and on a meter. */
-import type { BothSides, Nearest } from "../../../worker/protocol";
+import type { Nearest, Sides } from "../../../worker/protocol";
 import { answer, sigmaInUse } from "../../state/exploring";
 import { outOfDate, unit } from "../../state/state";
 import { length, number, percent } from "../../text/format";
@@ -18,7 +18,7 @@ import {
 /** The result for the explored shape. Its height is constant, so that the shapes do not move while sliders do. */
 export function Follow() {
   const found = answer.value;
-  const nearest = found?.explored.placed;
+  const nearest = found?.explored.nearest;
   if (!found || !nearest) return null;
   const { space } = found;
   const { norm, plausibility } = found.explored;
@@ -32,7 +32,9 @@ export function Follow() {
           </p>
         ))}
       </div>
-      <Meter ofA={nearest.a.likelihood} ofB={nearest.b.likelihood} />
+      {nearest.a.likelihood !== null && nearest.b.likelihood !== null && (
+        <Meter ofA={nearest.a.likelihood} ofB={nearest.b.likelihood} />
+      )}
       <NearestTable sides={followers(space)} nearest={nearest} />
       <p class="small">
         The shape itself is <Value name="norm" value={norm} text={number(norm)} /> SD from the mean
@@ -58,7 +60,7 @@ function Value({ name, value, text }: { name: string; value: number; text: strin
 
 interface NearestProps {
   sides: ("a" | "b")[];
-  nearest: BothSides<Nearest>;
+  nearest: Sides<Nearest>;
 }
 
 /** Distance, likelihood and plausibility of the nearest shape of each other model. */
@@ -89,7 +91,9 @@ function NearestTable({ sides, nearest }: NearestProps) {
                 )}
               </td>
               <td>
-                <Value name="likelihood" value={likelihood} text={percent(likelihood)} />
+                {likelihood !== null && (
+                  <Value name="likelihood" value={likelihood} text={percent(likelihood)} />
+                )}
               </td>
               <td>
                 <Value name="followed" value={plausibility} text={rarity(plausibility)} />

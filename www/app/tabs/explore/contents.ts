@@ -51,7 +51,7 @@ interface Layer {
 /** A shape of A or of B, and the nearest shape of the other model. */
 function ofOne({ state, explored }: ExploreScene, space: "a" | "b"): Layer[] {
   const other = otherOf(space);
-  const nearest = explored.placed?.[other];
+  const nearest = explored.nearest?.[other];
   const missed = heat(state, nearest?.residuals);
   const { shape } = explored;
   const x = { of: space, shape, outline: false };
@@ -71,7 +71,7 @@ function ofOne({ state, explored }: ExploreScene, space: "a" | "b"): Layer[] {
 
 /** A shape of A∩B and the nearest shapes of A and of B. */
 function ofBoth({ state, explored }: ExploreScene): Layer[] {
-  const { shape, placed: nearest } = explored;
+  const { shape, nearest } = explored;
   const overlaid = state.layout === "overlaid";
   const larger =
     nearest && overlaid ? largest(nearest.a.residuals, nearest.b.residuals) : undefined;
@@ -99,7 +99,7 @@ function ofBoth({ state, explored }: ExploreScene): Layer[] {
 /** The two shapes of a principal angle, and the interpolation between them. */
 function ofAngle({ state, space, explored, partner }: ExploreScene): Layer[] {
   const other = otherOf(space);
-  const missed = heat(state, explored.placed?.[other].residuals);
+  const missed = heat(state, explored.nearest?.[other].residuals);
   const driven: Layer = {
     pane: space as "a" | "b",
     of: space,

@@ -57,7 +57,7 @@ const contents = computed(() =>
 /** Upper end of the colours if it is not locked. */
 export const ownHeat = computed(() => {
   const found = answer.value;
-  return found?.explored.placed ? heatEnd(missedBy(found.space, found.explored.placed)) : null;
+  return found?.explored.nearest ? heatEnd(missedBy(found.space, found.explored.nearest)) : null;
 });
 
 export const heatRange = computed<[number, number] | null>(() => {
@@ -241,7 +241,7 @@ function meanAt(vertex: number, axis: number, dimension: number): number {
 /** Residual of a vertex in the pane that shows it. */
 function missedAt(hit: Hit): number | null {
   const found = answer.peek();
-  const nearest = found?.explored.placed;
+  const nearest = found?.explored.nearest;
   if (!found || !nearest) return null;
   if (found.space === "intersection") {
     const side = hit.region === "b" ? "b" : "a";

@@ -1,4 +1,4 @@
-import type { Relation, Report } from "../../../worker/protocol";
+import type { RelationReport, Report } from "../../../worker/protocol";
 import { divergence, noiseSentence } from "../../comparison/measured";
 import { length, number } from "../../text/format";
 import { DataTable } from "../../ui/DataTable";
@@ -19,7 +19,7 @@ export function GrassmannDistances({
   relation,
 }: {
   report: Report;
-  relation: Relation | null;
+  relation: RelationReport | null;
 }) {
   const { grassmann, grassmannAffine } = report.intersection;
   const direct = relation && relation.problem === null ? relation : null;

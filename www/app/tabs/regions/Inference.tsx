@@ -1,4 +1,4 @@
-import type { BothSides, ModeDiagnostics, Report } from "../../../worker/protocol";
+import type { ModeDiagnostics, Report, Sides } from "../../../worker/protocol";
 import { ESS, inferred, R_HAT, worstModes } from "../../comparison/words";
 import { count, number } from "../../text/format";
 import { linear, logarithmic, type Scale } from "../../text/plots";
@@ -64,7 +64,7 @@ const [WIDTH, HEIGHT] = [320, 72];
 const BOX = { left: 34, right: 8, top: 20, bottom: 6 };
 
 interface PlotProps {
-  both: BothSides<ModeDiagnostics>;
+  both: Sides<ModeDiagnostics>;
   statistic: Statistic;
   title: string;
   limit: number;
@@ -121,7 +121,7 @@ const COLUMNS: { name: keyof ModeDiagnostics; title: string; show: (value: numbe
   { name: "autocorrelation", title: "lag 1", show: (value) => value.toFixed(2).replace("-", "−") },
 ];
 
-function ModeTable({ both }: { both: BothSides<ModeDiagnostics> }) {
+function ModeTable({ both }: { both: Sides<ModeDiagnostics> }) {
   return (
     <SaveTable file="coefficients" of="every mode’s numbers">
       {/* biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls must be reached by keys */}

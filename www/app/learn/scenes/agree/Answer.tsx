@@ -1,4 +1,4 @@
-import type { LessonModels } from "../../../../worker/lessons";
+import type { LessonModels } from "../../../../worker/protocol";
 import { number } from "../../../text/format";
 import { Slider } from "../../parts/controls";
 import { setParams } from "../../state";

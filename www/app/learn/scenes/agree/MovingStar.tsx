@@ -1,5 +1,5 @@
 import { useMemo } from "preact/hooks";
-import type { LessonModel } from "../../../../worker/lessons";
+import type { LessonModel } from "../../../../worker/protocol";
 import { LessonCanvas, type Size } from "../../canvas/LessonCanvas";
 import { faded, type Palette } from "../../canvas/palette";
 import { drawOverMean, planeOf, traceOutline } from "../../canvas/plane";

@@ -1,4 +1,4 @@
-import type { LessonModels } from "../../../../worker/lessons";
+import type { LessonModels } from "../../../../worker/protocol";
 import { number, withoutRoundingError } from "../../../text/format";
 import { TIPS } from "../../shape";
 import { TIP_NAMES } from "./tips";

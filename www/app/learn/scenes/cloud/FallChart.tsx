@@ -1,4 +1,4 @@
-import type { LessonIntersection } from "../../../../worker/lessons";
+import type { LessonIntersection } from "../../../../worker/protocol";
 import { count, number } from "../../../text/format";
 import { logarithmic } from "../../../text/plots";
 import { Chart } from "../../../ui/Chart";

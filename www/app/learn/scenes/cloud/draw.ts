@@ -1,9 +1,9 @@
 /** Draws the sampled stars, and the model of the draws with the true intersection. */
-import type { LessonModel } from "../../../../worker/lessons";
+import type { LessonModel } from "../../../../worker/protocol";
 import type { Size } from "../../canvas/LessonCanvas";
 import { faded, type Palette } from "../../canvas/palette";
 import { type Plane, planeOf, traceShape } from "../../canvas/plane";
-import type { BothSides } from "./run";
+import type { Sides } from "./run";
 
 type Pen = CanvasRenderingContext2D;
 type Segments = readonly (readonly [number, number])[];
@@ -18,7 +18,7 @@ export function drawStars(
   pen: Pen,
   size: Size,
   palette: Palette,
-  stars: BothSides<Float32Array>,
+  stars: Sides<Float32Array>,
   segments: Segments,
   length: number,
 ): void {

@@ -2,7 +2,7 @@
 import type { Size } from "../../canvas/LessonCanvas";
 import { faded, type Palette } from "../../canvas/palette";
 import { polarHistogram, restAngle } from "../../sampling/polar";
-import type { BothSides } from "./run";
+import type { Sides } from "./run";
 
 type Pen = CanvasRenderingContext2D;
 
@@ -18,7 +18,7 @@ export function drawPolar(
   pen: Pen,
   size: Size,
   palette: Palette,
-  stars: BothSides<Float32Array>,
+  stars: Sides<Float32Array>,
   length: number,
   bound: number | null,
 ): void {

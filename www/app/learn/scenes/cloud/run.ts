@@ -1,11 +1,11 @@
 /** Runs the scene: samples the intersection from both models and computes the model of the draws. */
 import { batch, computed, signal } from "@preact/signals";
 import type {
-  LaneFigures,
+  ChainGroupSummary,
   LessonIntersection,
   LessonModels,
-  LessonSide,
-} from "../../../../worker/lessons";
+  Side,
+} from "../../../../worker/protocol";
 import { still } from "../../clock";
 import type { Ask } from "../../engine";
 import { countsUpTo, stagesOf } from "../../sampling/pacing";
@@ -28,13 +28,13 @@ const SIDES = ["a", "b"] as const;
 /** Milliseconds of an oscillation of the model along its first mode. */
 const SWAY_MS = 4200;
 
-export type BothSides<T> = Record<LessonSide, T>;
+export type Sides<T> = Record<Side, T>;
 
 export class CloudRun {
   readonly models = signal<LessonModels | null>(null);
-  readonly stars = signal<BothSides<Float32Array> | null>(null);
+  readonly stars = signal<Sides<Float32Array> | null>(null);
   readonly found = signal<LessonIntersection | null>(null);
-  readonly diagnostics = signal<BothSides<LaneFigures> | null>(null);
+  readonly diagnostics = signal<Sides<ChainGroupSummary> | null>(null);
   /** Draws of each model so far. */
   readonly draws = signal(0);
   readonly playing = signal(false);
@@ -60,8 +60,8 @@ export class CloudRun {
     const burnIn = this.#isWalk(sampler) ? BURN_IN.walks : BURN_IN.others;
     for (const [group, side] of SIDES.entries()) {
       const target = "intersection" as const;
-      await ask({ ask: "begin", lane: group, target, side, sampler, chains, seed, burnIn });
-      await ask({ ask: "advance", lane: group, steps: burnIn, watch: false });
+      await ask({ ask: "begin", group, target, side, sampler, chains, seed, burnIn });
+      await ask({ ask: "advance", group, steps: burnIn, watch: false });
     }
     this.#ask = ask;
     this.#values = values;
@@ -124,7 +124,7 @@ export class CloudRun {
       for (let left = steps; left > 0; left -= MOST_AT_ONCE) {
         await ask({
           ask: "advance",
-          lane: group,
+          group,
           steps: Math.min(left, MOST_AT_ONCE),
           watch: false,
         });
@@ -134,13 +134,11 @@ export class CloudRun {
     const isLast = this.#stages.length === 0;
     const said = isLast && Math.ceil(values.draws / values.chains) * values.chains === count;
     const counts = countsUpTo(said ? values.draws : count);
-    const found = await ask({ ask: "intersection", lanes: [0, 1], counts });
+    const found = await ask({ ask: "intersection", groups: [0, 1], counts });
     const stars = await Promise.all(
-      SIDES.map((side, group) => ask({ ask: "shapes", lane: group, side, most: STARS_SHOWN })),
+      SIDES.map((side, group) => ask({ ask: "shapes", group, side, most: STARS_SHOWN })),
     );
-    const diagnostics = await Promise.all(
-      SIDES.map((_, group) => ask({ ask: "figures", lane: group })),
-    );
+    const diagnostics = await Promise.all(SIDES.map((_, group) => ask({ ask: "summary", group })));
     const [a, b] = stars;
     const [ofA, ofB] = diagnostics;
     batch(() => {

@@ -1,12 +1,12 @@
 /** Requests the data of the scene: densities, exact draws of the difference, and their PCA. */
 import type {
-  LaneFigures,
+  ChainGroupSummary,
   LessonField,
-  LessonLaw,
   LessonModels,
   LessonPrincipal,
-  LessonSide,
-} from "../../../../worker/lessons";
+  Moments,
+  Side,
+} from "../../../../worker/protocol";
 import type { Ask } from "../../engine";
 import type { SceneValues } from "../../scenes";
 
@@ -27,7 +27,7 @@ const SHARE_DRAWS = 1500;
 export interface Cloud {
   /** Two coefficients of each draw. */
   values: Float32Array;
-  gaussian: LessonLaw;
+  gaussian: Moments;
 }
 
 export interface Found {
@@ -37,7 +37,7 @@ export interface Found {
   likelihood: LessonField;
   common: Cloud;
   exclusive: Cloud;
-  diagnostics: LaneFigures;
+  diagnostics: ChainGroupSummary;
   principal: LessonPrincipal;
 }
 
@@ -56,7 +56,7 @@ export async function findDifference(ask: Ask, values: DifferenceValues): Promis
   const group = GROUPS.difference;
   await ask({
     ask: "begin",
-    lane: group,
+    group,
     target: "difference",
     side,
     sampler: "rejection",
@@ -64,10 +64,10 @@ export async function findDifference(ask: Ask, values: DifferenceValues): Promis
     seed,
     burnIn: 0,
   });
-  await ask({ ask: "advance", lane: group, steps: draws, watch: false });
-  const diagnostics = await ask({ ask: "figures", lane: group });
-  const principal = await ask({ ask: "principal", lane: group });
-  const { values: exclusive } = await ask({ ask: "draws", lane: group, most: draws });
+  await ask({ ask: "advance", group, steps: draws, watch: false });
+  const diagnostics = await ask({ ask: "summary", group });
+  const principal = await ask({ ask: "principal", group });
+  const { values: exclusive } = await ask({ ask: "draws", group, most: draws });
   const common = await commonDraws(ask, values);
   return {
     models,
@@ -95,12 +95,12 @@ export async function sharesOver(
   return shares;
 }
 
-async function exclusiveShare(ask: Ask, side: LessonSide, seed: string): Promise<number | null> {
+async function exclusiveShare(ask: Ask, side: Side, seed: string): Promise<number | null> {
   const group = GROUPS.difference;
   const sampler = "rejection" as const;
   await ask({
     ask: "begin",
-    lane: group,
+    group,
     target: "difference",
     side,
     sampler,
@@ -108,8 +108,8 @@ async function exclusiveShare(ask: Ask, side: LessonSide, seed: string): Promise
     seed,
     burnIn: 0,
   });
-  await ask({ ask: "advance", lane: group, steps: SHARE_DRAWS, watch: false });
-  return (await ask({ ask: "figures", lane: group })).probability;
+  await ask({ ask: "advance", group, steps: SHARE_DRAWS, watch: false });
+  return (await ask({ ask: "summary", group })).probability;
 }
 
 async function commonDraws(ask: Ask, { side, seed }: DifferenceValues): Promise<Cloud> {
@@ -118,7 +118,7 @@ async function commonDraws(ask: Ask, { side, seed }: DifferenceValues): Promise<
   const sampler = "independence" as const;
   await ask({
     ask: "begin",
-    lane: group,
+    group,
     target: "intersection",
     side,
     sampler,
@@ -126,9 +126,9 @@ async function commonDraws(ask: Ask, { side, seed }: DifferenceValues): Promise<
     seed,
     burnIn,
   });
-  await ask({ ask: "advance", lane: group, steps: burnIn + steps, watch: false });
-  const { values } = await ask({ ask: "draws", lane: group, most: chains * steps });
-  const gaussian = await ask({ ask: "figures", lane: group });
+  await ask({ ask: "advance", group, steps: burnIn + steps, watch: false });
+  const { values } = await ask({ ask: "draws", group, most: chains * steps });
+  const gaussian = await ask({ ask: "summary", group });
   // Interleaves the chains, so that the dots appear everywhere at once.
   const mixed = new Float32Array(values.length);
   const count = values.length / MODES;

@@ -1,5 +1,5 @@
 /** Draws the likelihood along a line across the ridge. */
-import type { LessonField } from "../../../../worker/lessons";
+import type { LessonField } from "../../../../worker/protocol";
 import type { Size } from "../../canvas/LessonCanvas";
 import type { Palette } from "../../canvas/palette";
 import { eased } from "../../sampling/pacing";

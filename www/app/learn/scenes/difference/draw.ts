@@ -1,5 +1,5 @@
 /** Draws the plane of the difference: the density, the draws as falling dots, and the ellipse of their PCA. */
-import type { LessonField, LessonSide } from "../../../../worker/lessons";
+import type { LessonField, Side } from "../../../../worker/protocol";
 import { viridis } from "../../../text/colormap";
 import { drawPrior } from "../../canvas/chains";
 import type { Size } from "../../canvas/LessonCanvas";
@@ -48,7 +48,7 @@ interface Shown {
   found: Found;
   morph: Morph;
   flip: number;
-  side: LessonSide;
+  side: Side;
   /** Number of draws that have fallen, of the present distribution. */
   fallen: (count: number) => number;
 }

@@ -1,5 +1,5 @@
 import { useMemo, useRef } from "preact/hooks";
-import type { LessonField, LessonSide } from "../../../../worker/lessons";
+import type { LessonField, Side } from "../../../../worker/protocol";
 import { isDark } from "../../../state/theme";
 import { nudge } from "../../autoplay";
 import { LessonCanvas, type Pointer, type Size } from "../../canvas/LessonCanvas";
@@ -16,7 +16,7 @@ const TAIL = 70;
 interface Props {
   field: LessonField | null;
   coefficients: readonly [number, number];
-  side: LessonSide;
+  side: Side;
   moving: boolean;
   onMove: (by: readonly [number, number]) => void;
   onPoint: (coefficients: readonly [number, number]) => void;

@@ -1,5 +1,5 @@
 import type { ComponentChildren } from "preact";
-import type { LessonModel, LessonSide } from "../../../../worker/lessons";
+import type { LessonModel, Side } from "../../../../worker/protocol";
 import { modeOf, pointOf } from "../../shape";
 import { pathOf } from "../../star";
 import { STAR_EXTENT } from "./StarCanvas";
@@ -8,7 +8,7 @@ interface Props {
   model: LessonModel;
   coefficients: readonly number[];
   shape: readonly number[];
-  side: LessonSide;
+  side: Side;
 }
 
 /** The formula of a shape as a row of small stars, with the present coefficients. */

@@ -1,4 +1,4 @@
-import type { LessonPoint, LessonSide } from "../../../../worker/lessons";
+import type { LessonPoint, Side } from "../../../../worker/protocol";
 import { percent } from "../../../text/format";
 import { Segments } from "../../../ui/Segments";
 import { LessonNumber, LessonNumbers, PlayBar } from "../../parts/controls";
@@ -11,7 +11,7 @@ interface Props {
   playing: boolean;
   onToggle: () => void;
   pair: SceneValues<"model">["pair"];
-  side: LessonSide;
+  side: Side;
 }
 
 /** Panel of the scene: plausibility of the shape, and the choice of the model. */

@@ -1,4 +1,4 @@
-import type { LessonModel, LessonSide } from "../../../../worker/lessons";
+import type { LessonModel, Side } from "../../../../worker/protocol";
 import { LessonCanvas, type Size } from "../../canvas/LessonCanvas";
 import { arrow, write } from "../../canvas/marks";
 import { faded, type Palette } from "../../canvas/palette";
@@ -11,7 +11,7 @@ export const STAR_EXTENT = 13.5;
 interface Props {
   model: LessonModel | null;
   coefficients: readonly number[];
-  side: LessonSide;
+  side: Side;
   /** Random shapes of the model, one after the other. */
   cloud: Float32Array | null;
 }
@@ -85,7 +85,7 @@ function name(
   palette: Palette,
   mean: readonly number[],
   shape: readonly number[],
-  side: LessonSide,
+  side: Side,
 ): void {
   const [x, y] = pointOf(shape, 0);
   const out = 1 + 1.4 / Math.max(1, Math.hypot(x, y));

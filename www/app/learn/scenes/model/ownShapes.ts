@@ -1,4 +1,4 @@
-import type { LaneShapes, LessonModels, LessonSide } from "../../../../worker/lessons";
+import type { ChainGroupShapes, LessonModels, Side } from "../../../../worker/protocol";
 import { type Asked, useAsked } from "../../asked";
 import type { Ask } from "../../engine";
 
@@ -9,13 +9,13 @@ const GROUP = 0;
 export function useOwnShapes(
   ask: Ask,
   models: LessonModels | null,
-  side: LessonSide,
-): Asked<LaneShapes> {
+  side: Side,
+): Asked<ChainGroupShapes> {
   const group = useAsked(
     ask,
     models && {
       ask: "begin",
-      lane: GROUP,
+      group: GROUP,
       target: "prior",
       side,
       sampler: "rejection",
@@ -27,12 +27,12 @@ export function useOwnShapes(
   );
   const drawn = useAsked(
     ask,
-    group.current ? { ask: "advance", lane: GROUP, steps: OWN_SHAPES, watch: false } : null,
+    group.current ? { ask: "advance", group: GROUP, steps: OWN_SHAPES, watch: false } : null,
     group.answer,
   );
   return useAsked(
     ask,
-    drawn.current ? { ask: "shapes", lane: GROUP, side, most: OWN_SHAPES } : null,
+    drawn.current ? { ask: "shapes", group: GROUP, side, most: OWN_SHAPES } : null,
     drawn.answer,
   );
 }

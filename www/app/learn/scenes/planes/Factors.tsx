@@ -1,10 +1,10 @@
 import type { ComponentChildren } from "preact";
-import type { LessonPoint, LessonSide } from "../../../../worker/lessons";
+import type { LessonPoint, Side } from "../../../../worker/protocol";
 import { number } from "../../../text/format";
 
 interface Props {
   point: LessonPoint | null;
-  side: LessonSide;
+  side: Side;
 }
 
 /** The factors of the density of A∩B at the point, as bars from 0 to 1: nearness, plausibility in both models. */

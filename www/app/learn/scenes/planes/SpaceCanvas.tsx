@@ -1,5 +1,5 @@
 import { useMemo, useRef } from "preact/hooks";
-import type { LessonField, LessonModel, LessonPoint, LessonSide } from "../../../../worker/lessons";
+import type { LessonField, LessonModel, LessonPoint, Side } from "../../../../worker/protocol";
 import { isDark } from "../../../state/theme";
 import { nudge } from "../../autoplay";
 import { LessonCanvas, type Pointer, type Size } from "../../canvas/LessonCanvas";
@@ -20,10 +20,10 @@ import {
 } from "./space";
 
 interface Props {
-  models: Record<LessonSide, LessonModel>;
+  models: Record<Side, LessonModel>;
   /** The density of A∩B over the coefficients of each. */
-  fields: Record<LessonSide, LessonField | null>;
-  side: LessonSide;
+  fields: Record<Side, LessonField | null>;
+  side: Side;
   coefficients: Flat;
   point: LessonPoint | null;
   turn: Flat;
@@ -64,7 +64,7 @@ export function SpaceCanvas(props: Props) {
   const held = useRef<{ apart: Flat } | { at: Flat; turn: Flat } | null>(null);
   const draw = (pen: CanvasRenderingContext2D, size: Size, palette: Palette) => {
     const { to } = projectionOf(view, size, sheets);
-    const one = (which: LessonSide) => ({
+    const one = (which: Side) => ({
       sheet: sheets[which],
       colour: palette[which],
       picture: pictures(which, palette),
@@ -131,7 +131,7 @@ const upright = ([yaw, pitch]: Flat): Flat => [
 const scaleOf = ({ width, height }: Size) => Math.min(width / 1.25, height) / (2 * FILLED);
 
 /** Projection from space to pixels and back, with the middle of both sheets in the middle of the canvas. */
-function projectionOf(view: View, size: Size, { a, b }: Record<LessonSide, Sheet>) {
+function projectionOf(view: View, size: Size, { a, b }: Record<Side, Sheet>) {
   const scale = scaleOf(size);
   const [[ax, ay], [bx, by]] = [seen(view, a.middle), seen(view, b.middle)];
   const left = size.width / 2 - (scale * (ax + bx)) / 2;
@@ -148,10 +148,10 @@ function projectionOf(view: View, size: Size, { a, b }: Record<LessonSide, Sheet
 function usePictures(fields: Props["fields"], dark: boolean) {
   const { a, b } = fields;
   const kept = useMemo(
-    () => ({ dark, fields: { a, b }, made: new Map<LessonSide, HTMLCanvasElement>() }),
+    () => ({ dark, fields: { a, b }, made: new Map<Side, HTMLCanvasElement>() }),
     [a, b, dark],
   );
-  return (side: LessonSide, palette: Palette) => {
+  return (side: Side, palette: Palette) => {
     const field = kept.fields[side];
     const made = kept.made.get(side) ?? (field ? tintedField(field, palette.ab, 0.95) : null);
     if (made) kept.made.set(side, made);

@@ -1,5 +1,5 @@
 /** Draws the common line of the sheets, the point, and the nearest point of the other sheet. */
-import type { LessonPoint, LessonSide } from "../../../../worker/lessons";
+import type { LessonPoint, Side } from "../../../../worker/protocol";
 import { arrow, handle, write } from "../../canvas/marks";
 import type { Palette } from "../../canvas/palette";
 import { ALLOWABLE, EXTENT, type ToCanvas } from "./draw";
@@ -20,7 +20,7 @@ export function drawCommon(
   pen: CanvasRenderingContext2D,
   palette: Palette,
   to: ToCanvas,
-  { a, b }: Record<LessonSide, Sheet>,
+  { a, b }: Record<Side, Sheet>,
 ): void {
   const line = meeting(a, b);
   if (!line) return;
@@ -54,8 +54,8 @@ export function drawPoint(
   pen: CanvasRenderingContext2D,
   palette: Palette,
   to: ToCanvas,
-  sheets: Record<LessonSide, Sheet>,
-  side: LessonSide,
+  sheets: Record<Side, Sheet>,
+  side: Side,
   coefficients: Flat,
   point: LessonPoint | null,
 ): void {

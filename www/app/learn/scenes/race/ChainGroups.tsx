@@ -13,7 +13,7 @@ export function ChainGroups({ run }: { run: RaceRun }) {
   const fit = models && what !== "scaling" ? models.fits[side] : null;
   const scenery = image && view && { image, view, fit };
   return (
-    <div class="race-lanes" data-count={run.runners.value.length}>
+    <div class="race-groups" data-count={run.runners.value.length}>
       {run.runners.value.map((runner) => (
         <ChainGroup key={runner.sampler} runner={runner} scenery={scenery} />
       ))}

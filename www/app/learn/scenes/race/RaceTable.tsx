@@ -1,4 +1,4 @@
-import type { LaneFigures } from "../../../../worker/lessons";
+import type { ChainGroupSummary } from "../../../../worker/protocol";
 import { number, percent } from "../../../text/format";
 import { logShare, logTicks } from "../../sampling/axes";
 import { SAMPLER_NAMES } from "../../sampling/names";
@@ -12,7 +12,7 @@ const INSIDE = 0.62;
 
 interface Props {
   runners: readonly Runner[];
-  diagnostics: readonly LaneFigures[];
+  diagnostics: readonly ChainGroupSummary[];
 }
 
 /** Table of effective draws per 1,000 evaluations, R-hat and acceptance of each sampler. */
@@ -55,7 +55,7 @@ function Row({
   index,
 }: {
   name: string;
-  diagnostics: LaneFigures | undefined;
+  diagnostics: ChainGroupSummary | undefined;
   index: number;
 }) {
   const { essPerThousand = null, rHatMax = null, acceptance = null } = diagnostics ?? {};

@@ -1,5 +1,10 @@
 /** The four failures of the scene: their settings, names and explanations, and the drawn range. Pure. */
-import type { LaneFigures, LessonAsk, LessonLaw, LessonSampler } from "../../../../worker/lessons";
+import type {
+  ChainGroupSummary,
+  LessonAsk,
+  LessonSampler,
+  Moments,
+} from "../../../../worker/protocol";
 import { count, number, percent } from "../../../text/format";
 import { R_HAT_LIMIT, type Verdict } from "../../sampling/verdicts";
 import type { BREAKS, SceneValues } from "../../scenes";
@@ -49,7 +54,7 @@ export interface View {
 
 const REACH_SD = 3.4;
 
-export function viewOf({ mean, covariance }: LessonLaw, target: string): View {
+export function viewOf({ mean, covariance }: Moments, target: string): View {
   if (target === "normal") return { centre: [0, 0], extent: REACH_SD, fieldExtent: REACH_SD };
   const q = mean.length;
   const [x = 0, y = 0] = mean;
@@ -82,7 +87,7 @@ export const BREAK_WORDS: Record<Break, BreakWords> = {
 /** Explains a failure with its numbers, and how it can be detected. */
 export function raceVerdict(
   what: Break,
-  diagnostics: readonly LaneFigures[],
+  diagnostics: readonly ChainGroupSummary[],
   sigma: number,
 ): Verdict {
   const [published, corrected] = diagnostics;
@@ -112,14 +117,14 @@ export function raceVerdict(
   }
 }
 
-function scalingVerdict(published: LaneFigures, corrected: LaneFigures): Verdict {
+function scalingVerdict(published: ChainGroupSummary, corrected: ChainGroupSummary): Verdict {
   return {
     calm: false,
     text: `As published the random walk has too little variance: E‖α‖²/q is ${number(published.meanSquare)} instead of 1; with the Hastings factor it is ${number(corrected.meanSquare)}. R-hat does not detect this (${rHat(corrected)} and ${rHat(published)}): chains can agree on the wrong distribution. A test on a known distribution, like this one, does.`,
   };
 }
 
-function wholeVerdict(walk: LaneFigures, best: LaneFigures): Verdict {
+function wholeVerdict(walk: ChainGroupSummary, best: ChainGroupSummary): Verdict {
   const [slow, fast] = [walk.essPerThousand, best.essPerThousand];
   if (slow === null || fast === null)
     return { calm: true, text: "Waiting for the first diagnostics." };
@@ -139,6 +144,7 @@ function wholeVerdict(walk: LaneFigures, best: LaneFigures): Verdict {
       };
 }
 
-const rHat = ({ rHatMax }: LaneFigures) => (rHatMax === null ? "unknown" : number(rHatMax, 3));
-const draws = ({ essPerThousand }: LaneFigures) =>
+const rHat = ({ rHatMax }: ChainGroupSummary) =>
+  rHatMax === null ? "unknown" : number(rHatMax, 3);
+const draws = ({ essPerThousand }: ChainGroupSummary) =>
   essPerThousand === null ? "no" : number(essPerThousand, 2);

@@ -1,5 +1,5 @@
 /** Draws the picture of a sampler: the target, and the recent and present states of its chains. */
-import type { LessonLaw } from "../../../../worker/lessons";
+import type { Moments } from "../../../../worker/protocol";
 import { chainColour, drawDot } from "../../canvas/chains";
 import type { Size } from "../../canvas/LessonCanvas";
 import { faded, type Palette } from "../../canvas/palette";
@@ -13,7 +13,7 @@ export interface Scenery {
   view: View;
   image: HTMLCanvasElement;
   /** The Gaussian fit, drawn since the target may be too narrow to be visible. */
-  fit: LessonLaw | null;
+  fit: Moments | null;
 }
 
 export function drawRunner(

@@ -1,6 +1,6 @@
 /** Runs the scene: several samplers on one target, with or without a failure. */
 import { batch, signal } from "@preact/signals";
-import type { LaneFigures, LessonModels, LessonSampler } from "../../../../worker/lessons";
+import type { ChainGroupSummary, LessonModels, LessonSampler } from "../../../../worker/protocol";
 import { fieldImage } from "../../canvas/plane";
 import type { Ask } from "../../engine";
 import { due } from "../../sampling/pacing";
@@ -48,7 +48,7 @@ export class RaceRun {
   readonly image = signal<HTMLCanvasElement | null>(null);
   readonly view = signal<View | null>(null);
   readonly runners = signal<readonly Runner[]>([]);
-  readonly diagnostics = signal<readonly LaneFigures[]>([]);
+  readonly diagnostics = signal<readonly ChainGroupSummary[]>([]);
   readonly curve = signal<readonly Moment[]>([]);
   readonly playing = signal(false);
   /** Steps after the burn-in. */
@@ -81,7 +81,7 @@ export class RaceRun {
     for (const [group, sampler] of samplers.entries()) {
       const begun = await ask({
         ask: "begin",
-        lane: group,
+        group,
         target,
         side,
         sampler,
@@ -90,7 +90,7 @@ export class RaceRun {
         burnIn: BURN_IN,
         ...(dimension === null ? {} : { dimension }),
       });
-      const { states } = await ask({ ask: "advance", lane: group, steps: BURN_IN, watch: false });
+      const { states } = await ask({ ask: "advance", group, steps: BURN_IN, watch: false });
       const trail = new Trail(TRAIL);
       trail.clear(states.length);
       trail.push(states);
@@ -191,9 +191,7 @@ export class RaceRun {
     const ask = this.#ask;
     if (steps <= 0 || !ask) return;
     const answers = await Promise.all(
-      this.runners
-        .peek()
-        .map(({ group }) => ask({ ask: "advance", lane: group, steps, watch: false })),
+      this.runners.peek().map(({ group }) => ask({ ask: "advance", group, steps, watch: false })),
     );
     this.runners.peek().forEach(({ trail }, i) => {
       const states = answers[i]?.states;
@@ -206,7 +204,7 @@ export class RaceRun {
     if (!ask || this.step.peek() === 0) return;
     const runners = this.runners.peek();
     this.diagnostics.value = await Promise.all(
-      runners.map(({ group }) => ask({ ask: "figures", lane: group })),
+      runners.map(({ group }) => ask({ ask: "summary", group })),
     );
     this.#note();
   }
@@ -218,7 +216,7 @@ export class RaceRun {
     if (!ask) return;
     if (this.diagnostics.peek().length < runners.length) return this.#look();
     this.#next = (this.#next + 1) % runners.length;
-    const diagnostics = await ask({ ask: "figures", lane: this.#next });
+    const diagnostics = await ask({ ask: "summary", group: this.#next });
     this.diagnostics.value = this.diagnostics
       .peek()
       .map((old, i) => (i === this.#next ? diagnostics : old));

@@ -1,4 +1,4 @@
-import type { LessonStep } from "../../../../worker/lessons";
+import type { LessonStep } from "../../../../worker/protocol";
 import { number, signed } from "../../../text/format";
 import { isSaid } from "../../sampling/pacing";
 import { stepVerdict } from "../../sampling/verdicts";

@@ -1,5 +1,5 @@
 /** Draws the plane of the scene: the density, recent and present states of the chains, proposals. */
-import type { LessonStep } from "../../../../worker/lessons";
+import type { LessonStep } from "../../../../worker/protocol";
 import { chainColour, drawDot, drawOutcome, drawPrior, drawTrail } from "../../canvas/chains";
 import type { Size } from "../../canvas/LessonCanvas";
 import type { Palette } from "../../canvas/palette";

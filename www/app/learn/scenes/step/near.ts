@@ -1,5 +1,5 @@
 /** Draws the magnified picture of one chain. */
-import type { LessonStep } from "../../../../worker/lessons";
+import type { LessonStep } from "../../../../worker/protocol";
 import { chainColour, drawDot, drawTrail } from "../../canvas/chains";
 import type { Size } from "../../canvas/LessonCanvas";
 import { faded, type Palette } from "../../canvas/palette";

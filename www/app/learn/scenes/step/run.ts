@@ -1,11 +1,11 @@
 /** Runs the scene: makes steps of the chains in the engine and keeps what is shown of them. */
 import { batch, computed, signal } from "@preact/signals";
 import type {
-  LaneFigures,
-  LaneProgress,
+  ChainGroupProgress,
+  ChainGroupSummary,
   LessonModels,
   LessonStep,
-} from "../../../../worker/lessons";
+} from "../../../../worker/protocol";
 import { fieldImage } from "../../canvas/plane";
 import { still } from "../../clock";
 import type { Ask } from "../../engine";
@@ -37,8 +37,8 @@ const FIRST_TWO: [number, number] = [0, 1];
 export class StepRun {
   readonly models = signal<LessonModels | null>(null);
   readonly image = signal<HTMLCanvasElement | null>(null);
-  readonly progress = signal<LaneProgress | null>(null);
-  readonly diagnostics = signal<LaneFigures | null>(null);
+  readonly progress = signal<ChainGroupProgress | null>(null);
+  readonly diagnostics = signal<ChainGroupSummary | null>(null);
   /** The last decision of every chain. */
   readonly decisions = signal<readonly LessonStep[]>([]);
   readonly playing = signal(false);
@@ -60,7 +60,7 @@ export class StepRun {
     const grid = { side, modes: FIRST_TWO, at: [], extent: EXTENT, size: FIELD_SIZE };
     const field = await ask({ ask: "field", of: "intersection", ...grid });
     const target = "intersection" as const;
-    const group = { lane: GROUP, target, side, sampler, chains, seed, burnIn: 0 };
+    const group = { group: GROUP, target, side, sampler, chains, seed, burnIn: 0 };
     const { states } = await ask({ ask: "begin", ...group });
     this.trail.clear(states.length);
     this.trail.push(states);
@@ -153,7 +153,7 @@ export class StepRun {
     for (let left = step - watched; left > 0; left -= MOST_AT_ONCE) {
       await this.#ask?.({
         ask: "advance",
-        lane: GROUP,
+        group: GROUP,
         steps: Math.min(left, MOST_AT_ONCE),
         watch: false,
       });
@@ -164,7 +164,12 @@ export class StepRun {
 
   async #advance(steps: number): Promise<void> {
     const wanted = Math.min(steps, MOST_STEPS - this.step);
-    const progress = await this.#ask?.({ ask: "advance", lane: GROUP, steps: wanted, watch: true });
+    const progress = await this.#ask?.({
+      ask: "advance",
+      group: GROUP,
+      steps: wanted,
+      watch: true,
+    });
     if (!progress) return;
     const chains = progress.states.length / MODES;
     const decided = progress.steps;
@@ -187,7 +192,7 @@ export class StepRun {
   async #look(): Promise<void> {
     this.#sinceDiagnostics = 0;
     if (this.step === 0) return;
-    const diagnostics = await this.#ask?.({ ask: "figures", lane: GROUP });
+    const diagnostics = await this.#ask?.({ ask: "summary", group: GROUP });
     if (diagnostics) this.diagnostics.value = diagnostics;
   }
 }

@@ -1,4 +1,4 @@
-import type { PairFigures } from "../../../worker/protocol";
+import type { PairPlots } from "../../../worker/protocol";
 import {
   deviation,
   ellipseOf,
@@ -14,7 +14,7 @@ import { Chart } from "../../ui/Chart";
 import { PairTables } from "./PairTables";
 
 interface Props {
-  diagnostics: PairFigures;
+  diagnostics: PairPlots;
   advice: Advice;
   /** “A” */
   model: string;
@@ -22,7 +22,7 @@ interface Props {
 }
 
 /** Scatter plots of all pairs of the first coefficients, with the ellipses of their moments and of the Gaussian fit. */
-export function PairPlots({ diagnostics, advice, model, file }: Props) {
+export function ScatterPlots({ diagnostics, advice, model, file }: Props) {
   const { modes, count: drawn, fit } = diagnostics;
   const pairs = pairsOf(modes.length);
   if (pairs.length === 0) return null;
@@ -61,7 +61,7 @@ function cellOf(modes: number, width: number) {
   return { size, height: cells * size + (cells - 1) * GAP + FOOT };
 }
 
-function Triangle({ diagnostics, width }: { diagnostics: PairFigures; width: number }) {
+function Triangle({ diagnostics, width }: { diagnostics: PairPlots; width: number }) {
   const { modes, count: drawn, draws, fit } = diagnostics;
   const { size } = cellOf(modes.length, width);
   const column = (mode: number) =>

@@ -1,25 +1,19 @@
-/** Development only: a report with plausible numbers. */
-
-import { DEFAULTS } from "../app/state/settings";
-import type { MockModel } from "./mock-models";
+/** A made-up report for tests of sentences and tables. */
 import type {
   Diagnostics,
   DifferenceReport,
   ModeDiagnostics,
   ModelReport,
-  Prediction,
   Report,
   Settings,
-  SweepPoint,
-} from "./protocol";
+} from "../../worker/protocol";
+import { DEFAULTS } from "../state/settings";
 
-export function mockReport(
-  a: MockModel,
-  b: MockModel,
-  settings: Partial<Settings>,
-  seconds: Report["seconds"],
-): Report {
-  const models = { a: mockReportOf(a), b: mockReportOf(b) };
+const RECOMMENDED = 0.6134;
+
+/** Of two models with these names, with some settings other than the default. */
+export function madeUpReport(settings: Partial<Settings> = {}, names = { a: "a", b: "b" }): Report {
+  const models = { a: modelReport(names.a), b: modelReport(names.b) };
   const side = diagnostics(1.0021, 0.831);
   const count = models.a.standardDeviations.length;
   const sigma = settings.sigma ?? RECOMMENDED;
@@ -40,7 +34,7 @@ export function mockReport(
   };
   return {
     schema: 1,
-    engine: "mock",
+    engine: "of a test",
     models,
     settings: {
       ...DEFAULTS,
@@ -52,6 +46,7 @@ export function mockReport(
       modes: 31,
       standardDeviations: deviations,
       totalVariance: models.a.totalVariance * share[settings.pooling ?? "both"],
+      varianceKept: 0.98,
       meanDistance: { mean: 0.5873, sd: 0.0712 },
       grassmann: { toA: 2.8132, toB: 2.9011, toUnion: 2.7756 },
       grassmannAffine: { toA: 2.9132, toB: 2.9411, toUnion: 2.8756 },
@@ -98,8 +93,8 @@ export function mockReport(
         relative: sigma / models.a.size,
         nearest: 0.25,
         farthest: 0.474,
-        predicted: mockPrediction(sigma).distance,
-        effectiveDimensions: mockPrediction(sigma).effectiveDimensions,
+        predicted: 0.475,
+        effectiveDimensions: 15.5,
         meeting: 0.2504,
         noise: null,
       },
@@ -117,6 +112,7 @@ export function mockReport(
       varianceOfBInA: 0.7964,
       bhattacharyya: 41.2,
       bhattacharyyaNoise: sigma,
+      kullbackLeibler: { aFromB: 512.3, bFromA: 498.7 },
       meanToMean: 8.213,
     },
     warnings: [
@@ -126,26 +122,26 @@ export function mockReport(
         hint: "Look at each side alone.",
       },
     ],
-    seconds,
+    compactness: null,
+    seconds: { load: 0, prepare: 0, sample: 0, total: 0 },
   };
 }
 
-export function mockReportOf(model: MockModel): ModelReport {
-  const sds = model.modes.map((mode) => Math.hypot(...mode));
-  const points = model.mean.length / model.dimension;
+function modelReport(name: string): ModelReport {
+  const standardDeviations = [4.2, 3.1, 1.7];
   return {
-    name: model.name,
-    format: model.format,
+    name,
+    format: "made up",
     kind: "shape",
-    points,
-    dimension: model.dimension,
-    modes: model.modes.length,
-    unit: model.unit,
-    totalVariance: sds.reduce((sum, sd) => sum + sd * sd, 0),
-    standardDeviations: sds,
-    size: Math.hypot(...model.mean) / Math.sqrt(points),
+    points: 120,
+    dimension: 2,
+    modes: standardDeviations.length,
+    unit: "units",
+    totalVariance: standardDeviations.reduce((sum, sd) => sum + sd * sd, 0),
+    standardDeviations,
+    size: 52.1,
     vertexSd: { min: 0.8, mean: 2.6, max: 6.4 },
-    cells: (model.triangles?.length ?? 0) / 3,
+    cells: 0,
     notes: [],
   };
 }
@@ -188,30 +184,6 @@ function difference(probability: number, settings: Partial<Settings>): Differenc
     overlapStandardError: 0.006,
     overlapWithPrior: soft ? 0.972 : 1 - quantile,
     exclusive: { residualSd: [0.65, 0.27, 0.22, 0.15], unexplained: 0.043 },
-  };
-}
-
-const RECOMMENDED = 0.6134;
-
-/** As the real one falls: distances from near to far, dimensions from many to none. */
-export function mockPrediction(sigma: number): Prediction {
-  const t = Math.log10(sigma / RECOMMENDED);
-  const share = 1 / (1 + 10 ** (-1.5 * t));
-  return {
-    sigma,
-    distance: 0.25 + 0.45 * share,
-    nearest: 0.24 + 0.12 * share,
-    effectiveDimensions: 31 * (1 - share),
-    meanNorm: 6.4 - 4 * share,
-  };
-}
-
-export function mockSweepPoint(sigma: number): SweepPoint {
-  const prediction = mockPrediction(sigma);
-  const share = (prediction.distance - 0.25) / 0.45;
-  return {
-    ...prediction,
-    vertexSd: 0.08 + 1.4 * share,
-    grassmann: { toA: 2.2 - share, toB: 2.4 - share, toUnion: 2.1 - share },
+    linearSplit: null,
   };
 }

@@ -1,5 +1,7 @@
 //! Settings of a run: everything that, with the two models, decides every draw.
 
+mod fields;
+
 use core::fmt;
 
 use serde::{Deserialize, Serialize};
@@ -7,8 +9,11 @@ use serde::{Deserialize, Serialize};
 use crate::model::{Alignment, Side};
 use crate::pair::{DifferenceDefinition, Preparation};
 
+pub use fields::{FIELDS, Field, FieldValue, LEAST_DRAWS_OF_A_CHAIN};
+
 /// How the intersection is sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum Sampler {
     /// Independence where the Gaussian fit is good, else split Hamiltonian Monte Carlo.
@@ -46,6 +51,7 @@ impl Sampler {
 
 /// Which Gaussian fit the samplers build on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum FitChoice {
     /// The variational one, unless a pilot finds another to be better.
@@ -63,6 +69,7 @@ pub enum FitChoice {
 
 /// Which of the two sides make the intersection model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum Pooling {
     /// Both, in equal shares.
@@ -87,6 +94,7 @@ impl Pooling {
 
 /// How the plausibility under A and that under B are put together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "kebab-case")]
 pub enum Plausibility {
     /// L_P·p = exp(−½‖a′‖² − ½‖a‖²), a product of experts: the paper's. A model with itself gives half its
@@ -109,6 +117,7 @@ impl Plausibility {
 
 /// Settings as a user writes them; [`Settings::check`] makes them fit to run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase", default, deny_unknown_fields)]
 pub struct Settings {
     /// Tolerance σ of the distance likelihood, in the unit of model A; `null` asks for the
@@ -121,6 +130,7 @@ pub struct Settings {
     pub noise: Option<f64>,
     /// Seed of every random number, a decimal string (a JSON number cannot hold 64 bits).
     #[serde(with = "decimal")]
+    #[cfg_attr(test, ts(type = "string"))]
     pub seed: u64,
     /// How the intersection is sampled.
     pub sampler: Sampler,
@@ -359,19 +369,10 @@ impl Settings {
         {
             return Err(SettingsError::Sigma { found: sigma });
         }
-        let positive = |value: f64| value.is_finite() && value > 0.0;
-        let lengths = [("noise", self.noise), ("differenceThreshold", self.difference_threshold)];
-        for (setting, given) in lengths {
-            if let Some(found) = given.filter(|&found| !positive(found)) {
-                let expected = "a positive number";
-                return Err(SettingsError::Number { setting, expected, found });
-            }
-        }
-        if !(0.0..1.0).contains(&self.difference_quantile) {
-            let (setting, expected) = ("differenceQuantile", "0 or more, and less than 1,");
-            let found = self.difference_quantile;
-            return Err(SettingsError::Number { setting, expected, found });
-        }
+        FIELDS
+            .iter()
+            .filter(|field| field.name != "draws")
+            .try_for_each(|field| field.check(self))?;
         for (setting, side) in [("prepare.a", &self.prepare.a), ("prepare.b", &self.prepare.b)] {
             if let Some(found) = side.variance.filter(|share| !(*share > 0.0 && *share <= 1.0)) {
                 let expected = "a share of the variance, more than 0 and at most 1,";
@@ -382,13 +383,8 @@ impl Settings {
             ("prepare.a.modes", self.prepare.a.modes.unwrap_or(1), 1, 100_000),
             ("prepare.b.modes", self.prepare.b.modes.unwrap_or(1), 1, 100_000),
             ("prepare.subsample", self.prepare.subsample.unwrap_or(3), 3, 10_000_000),
-            ("chains", self.chains, 2, 1024),
-            ("draws", self.draws, 8 * self.chains, 10_000_000),
-            ("burnIn", self.burn_in, 0, 10_000_000),
-            ("thin", self.thin, 1, 100_000),
-            ("weighted", self.weighted, 1024, 10_000_000),
-            ("differenceDraws", self.difference_draws, 32, 10_000_000),
-            ("modes", self.modes.unwrap_or(1), 1, 100_000),
+            // More chains need more draws.
+            ("draws", self.draws, LEAST_DRAWS_OF_A_CHAIN * self.chains, 10_000_000),
         ];
         for (setting, found, least, most) in counts {
             if found < least || found > most {
