@@ -2,6 +2,7 @@
 import { computed, effect, signal } from "@preact/signals";
 import type { Region } from "../../worker/protocol";
 import { beginStroke, brushRadius, paintAt, undoStroke } from "../models/painting";
+import { HOME } from "../state/camera";
 import {
   alone,
   camera,
@@ -238,5 +239,13 @@ export function cardPicture(side: Side, size: number): HTMLCanvasElement | null 
     mode: "mean",
     geometry: { a: geometry, b: null },
   };
-  return made.thumbnail(content, sceneFrame(one), size);
+  return made.capture(Math.min(devicePixelRatio, 2), {
+    width: size,
+    height: size,
+    layout: new Map([[content.region, { x: 0, y: 0, width: size, height: size }]]),
+    panes: [content],
+    frame: sceneFrame(one),
+    camera: HOME,
+    range: null,
+  });
 }

@@ -1,9 +1,10 @@
 /** Draws 2-D shapes on a canvas: outlines, overlaid if there are several. */
 import type { Region } from "../../worker/protocol";
-import { type Camera, HOME } from "../state/camera";
+import type { Camera } from "../state/camera";
 import { colourOf, shareIn } from "../text/colormap";
 import { pickVertex } from "./pick";
 import {
+  BLANK,
   cellsOf,
   type DrawnEllipsoid,
   type Frame,
@@ -26,65 +27,54 @@ const RIM = { width: MAP_PX + 1.5, colour: "rgb(110 110 116)" };
 
 export class FlatViewer implements Viewer {
   #canvas: HTMLCanvasElement;
-  #panes: PaneContent[] = [];
-  #frame: Frame = { centre: [0, 0, 0], halfWidth: 1, halfHeight: 1 };
-  #layout: ReadonlyMap<Region, Rect> = new Map();
-  #size = { width: 1, height: 1 };
-  #range: readonly [number, number] | null = null;
-  #camera: Camera = HOME;
+  #shot: Shot = BLANK;
   #scheduled = 0;
 
   constructor(canvas: HTMLCanvasElement) {
     this.#canvas = canvas;
   }
 
-  setLayout(width: number, height: number, panes: ReadonlyMap<Region, Rect>): void {
-    this.#layout = panes;
-    this.#size = { width, height };
-    this.#request();
+  setLayout(width: number, height: number, layout: ReadonlyMap<Region, Rect>): void {
+    this.#change({ width, height, layout });
   }
 
   setMesh(panes: PaneContent[], frame: Frame): void {
-    this.#panes = panes;
-    this.#frame = frame;
-    this.#request();
+    this.#change({ panes, frame });
   }
 
   morph(moved: readonly (Moved | null)[]): void {
-    this.#panes = this.#panes.map((pane, i) => {
+    const panes = this.#shot.panes.map((pane, i) => {
       const change = moved[i];
       return change ? { ...pane, shapes: [change.shape], values: change.values } : pane;
     });
-    this.#request();
+    this.#change({ panes });
   }
 
   setColors(range: readonly [number, number] | null): void {
-    this.#range = range;
-    this.#request();
+    this.#change({ range });
   }
 
   setCamera(camera: Camera): void {
-    this.#camera = camera;
-    this.#request();
+    this.#change({ camera });
   }
 
   pick(x: number, y: number): Hit | null {
-    for (const pane of this.#panes) {
-      const rect = this.#layout.get(pane.region);
+    for (const pane of this.#shot.panes) {
+      const rect = this.#shot.layout.get(pane.region);
       const shape = pane.shapes[0];
       if (!rect || !shape) continue;
       const at = { x: x - rect.x, y: y - rect.y, width: rect.width, height: rect.height };
       if (at.x < 0 || at.y < 0 || at.x >= at.width || at.y >= at.height) continue;
-      const hit = pickVertex(shape, 2, this.#matrix(rect, this.#frame, this.#camera), at);
+      const hit = pickVertex(shape, 2, matrixOf(rect, this.#shot), at);
       return hit && { region: pane.region, vertex: hit.vertex, shape: 0 };
     }
     return null;
   }
 
   positionOf(region: Region, point: readonly number[]): { x: number; y: number } | null {
-    const rect = this.#layout.get(region);
+    const rect = this.#shot.layout.get(region);
     if (!rect) return null;
-    const [sx, , , , , sy, , , , , , , tx, ty] = this.#matrix(rect, this.#frame, this.#camera);
+    const [sx, , , , , sy, , , , , , , tx, ty] = matrixOf(rect, this.#shot);
     const [x = 0, y = 0] = point;
     return {
       x: rect.x + ((sx * x + tx + 1) * rect.width) / 2,
@@ -93,45 +83,18 @@ export class FlatViewer implements Viewer {
   }
 
   pointAt(region: Region, _through: readonly number[], x: number, y: number): number[] | null {
-    const rect = this.#layout.get(region);
+    const rect = this.#shot.layout.get(region);
     if (!rect) return null;
-    const [sx, , , , , sy, , , , , , , tx, ty] = this.#matrix(rect, this.#frame, this.#camera);
+    const [sx, , , , , sy, , , , , , , tx, ty] = matrixOf(rect, this.#shot);
     return [
       ((2 * (x - rect.x)) / rect.width - 1 - tx) / sx,
       (1 - (2 * (y - rect.y)) / rect.height - ty) / sy,
     ];
   }
 
-  capture(scale: number, shot: Shot = this.#shot()): HTMLCanvasElement {
+  capture(scale: number, shot: Shot = this.#shot): HTMLCanvasElement {
     const copy = document.createElement("canvas");
-    this.#render(copy, scale, shot);
-    return copy;
-  }
-
-  /** The panes on the canvas. */
-  #shot(): Shot {
-    const { width, height } = this.#size;
-    return {
-      width,
-      height,
-      layout: this.#layout,
-      panes: this.#panes,
-      frame: this.#frame,
-      camera: this.#camera,
-      range: this.#range,
-    };
-  }
-
-  thumbnail(content: PaneContent, frame: Frame, size: number): HTMLCanvasElement {
-    const copy = document.createElement("canvas");
-    const scale = Math.min(devicePixelRatio, 2);
-    copy.width = copy.height = Math.round(size * scale);
-    const pen = copy.getContext("2d");
-    if (pen) {
-      pen.scale(scale, scale);
-      const whole = { x: 0, y: 0, width: size, height: size };
-      this.#pane(pen, content, whole, { frame, camera: HOME, range: null });
-    }
+    render(copy, scale, shot);
     return copy;
   }
 
@@ -139,57 +102,51 @@ export class FlatViewer implements Viewer {
     cancelAnimationFrame(this.#scheduled);
   }
 
-  #request(): void {
+  #change(part: Partial<Shot>): void {
+    this.#shot = { ...this.#shot, ...part };
     if (this.#scheduled !== 0) return;
     this.#scheduled = requestAnimationFrame(() => {
       this.#scheduled = 0;
-      this.#render(this.#canvas, Math.min(devicePixelRatio, 2), this.#shot());
+      render(this.#canvas, Math.min(devicePixelRatio, 2), this.#shot);
     });
   }
+}
 
-  #render(canvas: HTMLCanvasElement, scale: number, shot: Shot): void {
-    const width = Math.round(shot.width * scale);
-    const height = Math.round(shot.height * scale);
-    // Setting the size of a canvas clears it.
-    if (canvas.width !== width) canvas.width = width;
-    if (canvas.height !== height) canvas.height = height;
-    const pen = canvas.getContext("2d");
-    if (!pen) return;
-    pen.setTransform(scale, 0, 0, scale, 0, 0);
-    pen.clearRect(0, 0, shot.width, shot.height);
-    for (const pane of shot.panes) {
-      const rect = shot.layout.get(pane.region);
-      if (!rect || rect.width < 2) continue;
-      const cells = cellsOf(rect, pane.overlaid ? 1 : pane.shapes.length, shot.frame);
-      cells.forEach((cell, i) => {
-        const shapes = pane.overlaid ? pane.shapes : pane.shapes.slice(i, i + 1);
-        this.#pane(pen, { ...pane, shapes }, cell, shot);
-      });
-    }
+function render(canvas: HTMLCanvasElement, scale: number, shot: Shot): void {
+  const width = Math.round(shot.width * scale);
+  const height = Math.round(shot.height * scale);
+  // Setting the size of a canvas clears it.
+  if (canvas.width !== width) canvas.width = width;
+  if (canvas.height !== height) canvas.height = height;
+  const pen = canvas.getContext("2d");
+  if (!pen) return;
+  pen.setTransform(scale, 0, 0, scale, 0, 0);
+  pen.clearRect(0, 0, shot.width, shot.height);
+  for (const pane of shot.panes) {
+    const rect = shot.layout.get(pane.region);
+    if (!rect || rect.width < 2) continue;
+    const cells = cellsOf(rect, pane.overlaid ? 1 : pane.shapes.length, shot.frame);
+    cells.forEach((cell, i) => {
+      const shapes = pane.overlaid ? pane.shapes : pane.shapes.slice(i, i + 1);
+      drawPane(pen, { ...pane, shapes }, cell, shot);
+    });
   }
+}
 
-  #pane(
-    pen: CanvasRenderingContext2D,
-    pane: PaneContent,
-    rect: Rect,
-    { frame, camera, range }: Pick<Shot, "frame" | "camera" | "range">,
-  ): void {
-    const matrix = this.#matrix(rect, frame, camera);
-    const toPixels = (shape: Float32Array, point: number): [number, number] => [
-      rect.x + ((matrix[0] * (shape[2 * point] ?? 0) + matrix[12] + 1) * rect.width) / 2,
-      rect.y + ((1 - matrix[5] * (shape[2 * point + 1] ?? 0) - matrix[13]) * rect.height) / 2,
-    ];
-    pen.save();
-    pen.beginPath();
-    pen.rect(rect.x, rect.y, rect.width, rect.height);
-    pen.clip();
+function drawPane(pen: CanvasRenderingContext2D, pane: PaneContent, rect: Rect, shot: Shot): void {
+  const matrix = matrixOf(rect, shot);
+  const toPixels = (shape: Float32Array, point: number): [number, number] => [
+    rect.x + ((matrix[0] * (shape[2 * point] ?? 0) + matrix[12] + 1) * rect.width) / 2,
+    rect.y + ((1 - matrix[5] * (shape[2 * point + 1] ?? 0) - matrix[13]) * rect.height) / 2,
+  ];
+  inside(pen, rect, () => {
     pen.lineJoin = pen.lineCap = "round";
     const many = pane.shapes.length > 1;
     pen.setLineDash(pane.outline ? DASH_PX : []);
     for (const shape of pane.shapes) {
       const colour = `rgb(${pane.tint.join(" ")} / ${many ? 0.22 : 1})`;
       const width = many ? 1 : pane.outline ? 1.5 : 2.25;
-      this.#outline(pen, pane, shape, toPixels, colour, width, range);
+      drawOutline(pen, pane, shape, toPixels, colour, width, shot.range);
     }
     if (pane.ellipsoid) drawEllipse(pen, pane.ellipsoid, toPixels);
     const { marks } = pane;
@@ -198,74 +155,86 @@ export class FlatViewer implements Viewer {
       const [x, y] = toPixels(pane.shapes[0] ?? new Float32Array(0), point);
       if (marked === 1) pen.fillRect(x - MARK_PX / 2, y - MARK_PX / 2, MARK_PX, MARK_PX);
     });
+  });
+}
+
+/** Draws only inside a rectangle; the settings of the pen stay as they are, even if `draw` throws. */
+function inside(pen: CanvasRenderingContext2D, rect: Rect, draw: () => void): void {
+  pen.save();
+  try {
+    pen.beginPath();
+    pen.rect(rect.x, rect.y, rect.width, rect.height);
+    pen.clip();
+    draw();
+  } finally {
     pen.restore();
   }
+}
 
-  #outline(
-    pen: CanvasRenderingContext2D,
-    pane: PaneContent,
-    shape: Float32Array,
-    toPixels: (shape: Float32Array, point: number) => [number, number],
-    colour: string,
-    width: number,
-    range: Shot["range"],
-  ): void {
-    const values = range ? pane.values : null;
-    const share = (point: number) => shareIn(range ?? [0, 1], values?.[point] ?? 0);
-    const colourAt = (at: number) =>
-      `rgb(${colourOf(pane.palette ?? "viridis", at)
-        .map(Math.round)
-        .join(" ")})`;
-    const segments = pane.segments;
-    if (!segments) {
-      for (let point = 0; point < shape.length / 2; point += 1) {
-        pen.fillStyle = values ? colourAt(share(point)) : colour;
-        const [x, y] = toPixels(shape, point);
-        pen.fillRect(x - width, y - width, 2 * width, 2 * width);
-      }
-      return;
+function drawOutline(
+  pen: CanvasRenderingContext2D,
+  pane: PaneContent,
+  shape: Float32Array,
+  toPixels: (shape: Float32Array, point: number) => [number, number],
+  colour: string,
+  width: number,
+  range: Shot["range"],
+): void {
+  const values = range ? pane.values : null;
+  const share = (point: number) => shareIn(range ?? [0, 1], values?.[point] ?? 0);
+  const colourAt = (at: number) =>
+    `rgb(${colourOf(pane.palette ?? "viridis", at)
+      .map(Math.round)
+      .join(" ")})`;
+  const segments = pane.segments;
+  if (!segments) {
+    for (let point = 0; point < shape.length / 2; point += 1) {
+      pen.fillStyle = values ? colourAt(share(point)) : colour;
+      const [x, y] = toPixels(shape, point);
+      pen.fillRect(x - width, y - width, 2 * width, 2 * width);
     }
-    pen.lineWidth = values ? RIM.width : width;
-    pen.strokeStyle = values ? RIM.colour : colour;
-    pen.beginPath();
-    for (let i = 0; i + 1 < segments.length; i += 2) {
-      const [from = 0, to = 0] = [segments[i], segments[i + 1]];
-      // A segment that starts where the last one ended continues the path.
-      if (i === 0 || segments[i - 1] !== from) pen.moveTo(...toPixels(shape, from));
-      pen.lineTo(...toPixels(shape, to));
-    }
-    pen.stroke();
-    if (!values) return;
-    pen.lineWidth = MAP_PX;
-    for (let i = 0; i + 1 < segments.length; i += 2) {
-      const [from = 0, to = 0] = [segments[i], segments[i + 1]];
-      const [start, end] = [toPixels(shape, from), toPixels(shape, to)];
-      const [low, high] = [share(from), share(to)];
-      const steps = Math.max(
-        1,
-        Math.ceil(Math.hypot(end[0] - start[0], end[1] - start[1]) / STEP_PX),
-      );
-      const between = (one: number, other: number, step: number) =>
-        one + ((other - one) * step) / steps;
-      for (let step = 0; step < steps; step += 1) {
-        pen.strokeStyle = colourAt(between(low, high, step + 0.5));
-        pen.beginPath();
-        pen.moveTo(between(start[0], end[0], step), between(start[1], end[1], step));
-        pen.lineTo(between(start[0], end[0], step + 1), between(start[1], end[1], step + 1));
-        pen.stroke();
-      }
+    return;
+  }
+  pen.lineWidth = values ? RIM.width : width;
+  pen.strokeStyle = values ? RIM.colour : colour;
+  pen.beginPath();
+  for (let i = 0; i + 1 < segments.length; i += 2) {
+    const [from = 0, to = 0] = [segments[i], segments[i + 1]];
+    // A segment that starts where the last one ended continues the path.
+    if (i === 0 || segments[i - 1] !== from) pen.moveTo(...toPixels(shape, from));
+    pen.lineTo(...toPixels(shape, to));
+  }
+  pen.stroke();
+  if (!values) return;
+  pen.lineWidth = MAP_PX;
+  for (let i = 0; i + 1 < segments.length; i += 2) {
+    const [from = 0, to = 0] = [segments[i], segments[i + 1]];
+    const [start, end] = [toPixels(shape, from), toPixels(shape, to)];
+    const [low, high] = [share(from), share(to)];
+    const steps = Math.max(
+      1,
+      Math.ceil(Math.hypot(end[0] - start[0], end[1] - start[1]) / STEP_PX),
+    );
+    const between = (one: number, other: number, step: number) =>
+      one + ((other - one) * step) / steps;
+    for (let step = 0; step < steps; step += 1) {
+      pen.strokeStyle = colourAt(between(low, high, step + 0.5));
+      pen.beginPath();
+      pen.moveTo(between(start[0], end[0], step), between(start[1], end[1], step));
+      pen.lineTo(between(start[0], end[0], step + 1), between(start[1], end[1], step + 1));
+      pen.stroke();
     }
   }
+}
 
-  /** Matrix to clip space, column major: scale and translation. */
-  #matrix(rect: Rect, frame: Frame, camera: Camera) {
-    const halfHeight = halfHeightIn(rect, frame) / camera.zoom;
-    const halfWidth = (halfHeight * rect.width) / rect.height;
-    const x = frame.centre[0] + camera.x * frame.halfHeight;
-    const y = frame.centre[1] + camera.y * frame.halfHeight;
-    const [sx, sy] = [1 / halfWidth, 1 / halfHeight];
-    return [sx, 0, 0, 0, 0, sy, 0, 0, 0, 0, 1, 0, -x * sx, -y * sy, 0, 1] as const;
-  }
+/** Matrix to clip space, column major: scale and translation. */
+function matrixOf(rect: Rect, { frame, camera }: Shot) {
+  const halfHeight = halfHeightIn(rect, frame) / camera.zoom;
+  const halfWidth = (halfHeight * rect.width) / rect.height;
+  const x = frame.centre[0] + camera.x * frame.halfHeight;
+  const y = frame.centre[1] + camera.y * frame.halfHeight;
+  const [sx, sy] = [1 / halfWidth, 1 / halfHeight];
+  return [sx, 0, 0, 0, 0, sy, 0, 0, 0, 0, 1, 0, -x * sx, -y * sy, 0, 1] as const;
 }
 
 const ELLIPSE_STEPS = 64;

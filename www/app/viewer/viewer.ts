@@ -3,7 +3,7 @@
  * separately), 2-D outlines on a canvas.
  */
 import type { Region } from "../../worker/protocol";
-import type { Camera } from "../state/camera";
+import { type Camera, HOME } from "../state/camera";
 import type { SurfaceStyle } from "../state/explorer";
 import type { Palette, Rgb } from "../text/colormap";
 
@@ -70,7 +70,7 @@ export interface Hit {
   shape: number;
 }
 
-/** Request of a picture of any size and content. */
+/** A picture of any size and content. */
 export interface Shot {
   width: number;
   height: number;
@@ -80,6 +80,16 @@ export interface Shot {
   camera: Camera;
   range: readonly [number, number] | null;
 }
+
+export const BLANK: Shot = {
+  width: 1,
+  height: 1,
+  layout: new Map(),
+  panes: [],
+  frame: { centre: [0, 0, 0], halfWidth: 1, halfHeight: 1 },
+  camera: HOME,
+  range: null,
+};
 
 export interface Viewer {
   /** Sets the rectangles of the panes on the canvas, in CSS pixels. */
@@ -97,8 +107,6 @@ export interface Viewer {
   pointAt(region: Region, through: readonly number[], x: number, y: number): number[] | null;
   /** Draws the canvas or another picture with `scale` pixels per CSS pixel, and copies it in the same task. */
   capture(scale: number, shot?: Shot): HTMLCanvasElement;
-  /** Draws a single shape, for a model card. */
-  thumbnail(content: PaneContent, frame: Frame, size: number): HTMLCanvasElement;
   dispose(): void;
 }
 
