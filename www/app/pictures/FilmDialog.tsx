@@ -7,6 +7,7 @@ import { saveBlob } from "../ui/download";
 import { Modal } from "../ui/Modal";
 import { NumberField } from "../ui/NumberField";
 import { Segments } from "../ui/Segments";
+import { Slider } from "../ui/Slider";
 import { canRecord, encodeGif, recordWebm } from "./encode";
 import {
   FIRST_FILM,
@@ -204,21 +205,18 @@ function Still({ options }: { options: FilmOptions }) {
     <div class="film-preview">
       <div ref={place} role="img" aria-label="One moment of the animation" />
       {problem.value && <p class="small">{problem.value}</p>}
-      <label class="slider">
-        <span>Moment</span>
-        <input
-          type="range"
-          min={0}
-          max={1}
-          step={0.01}
-          value={at}
-          aria-valuetext={`${Math.round(100 * at)} % of its time`}
-          onInput={(event) => {
-            moment.value = Number(event.currentTarget.value);
-          }}
-        />
-        <span class="num">{Math.round(100 * at)}&#8239;%</span>
-      </label>
+      <Slider
+        label="Moment"
+        value={at}
+        least={0}
+        most={1}
+        step={0.01}
+        words={`${Math.round(100 * at)} % of its time`}
+        shown={`${Math.round(100 * at)}\u202f%`}
+        onMove={(share) => {
+          moment.value = share;
+        }}
+      />
     </div>
   );
 }

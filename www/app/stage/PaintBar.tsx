@@ -14,6 +14,8 @@ import {
 import { type PaintTool, painting } from "../state/state";
 import { count } from "../text/format";
 import { maskOf, parseRanges, rangesOf } from "../text/ranges";
+import { Segments } from "../ui/Segments";
+import { Slider } from "../ui/Slider";
 
 const TOOLS: Record<PaintTool, { label: string; key: string }> = {
   add: { label: "Add", key: "a" },
@@ -36,32 +38,26 @@ export function PaintBar() {
   return (
     <section ref={bar} class="paint-bar" aria-label="Painting a region of A">
       <div class="toolbar">
-        <fieldset class="segments">
-          <legend class="unseen">What dragging does</legend>
-          {(Object.keys(TOOLS) as PaintTool[]).map((tool) => (
-            <label key={tool} data-on={found.tool === tool} title={`Key ${TOOLS[tool].key}`}>
-              <input
-                type="radio"
-                name="paint-tool"
-                checked={found.tool === tool}
-                onChange={() => choosePaintTool(tool)}
-              />
-              {TOOLS[tool].label}
-            </label>
-          ))}
-        </fieldset>
-        <label class="slider">
-          <span>Brush</span>
-          <input
-            type="range"
-            min={BRUSHES.least}
-            max={BRUSHES.most}
-            step={0.01}
-            value={found.size}
-            aria-valuetext={`${Math.round(100 * found.size)} per cent of the size of A`}
-            onInput={(event) => chooseBrush(Number(event.currentTarget.value))}
-          />
-        </label>
+        <Segments
+          legend="What dragging does"
+          name="paint-tool"
+          value={found.tool}
+          options={(Object.keys(TOOLS) as PaintTool[]).map((tool) => [
+            tool,
+            TOOLS[tool].label,
+            `Key ${TOOLS[tool].key}`,
+          ])}
+          onChoose={choosePaintTool}
+        />
+        <Slider
+          label="Brush"
+          value={found.size}
+          least={BRUSHES.least}
+          most={BRUSHES.most}
+          step={0.01}
+          words={`${Math.round(100 * found.size)} per cent of the size of A`}
+          onMove={chooseBrush}
+        />
         <span class="grow" />
         <button type="button" class="quiet" onClick={cancelPainting}>
           Cancel

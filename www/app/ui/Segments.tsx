@@ -2,7 +2,8 @@ interface Props<T extends string> {
   legend: string;
   name: string;
   value: T;
-  options: readonly (readonly [T, string])[];
+  /** Values with their labels, and the title of a label if it has one. */
+  options: readonly (readonly [T, string, string?])[];
   onChoose: (value: T) => void;
 }
 
@@ -12,8 +13,8 @@ export function Segments<T extends string>(props: Props<T>) {
   return (
     <fieldset class="segments">
       <legend class="unseen">{legend}</legend>
-      {options.map(([option, label]) => (
-        <label key={option} data-on={value === option}>
+      {options.map(([option, label, title]) => (
+        <label key={option} data-on={value === option} title={title}>
           <input
             type="radio"
             name={name}

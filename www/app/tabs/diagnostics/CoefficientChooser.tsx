@@ -4,6 +4,7 @@ import { type Coefficient, worstCoefficient } from "../../comparison/diagnosing"
 import { R_HAT } from "../../comparison/words";
 import { diagnosedMode, diagnosedSide, SIDES } from "../../state/state";
 import { count } from "../../text/format";
+import { Segments } from "../../ui/Segments";
 
 interface Props {
   report: Report;
@@ -19,27 +20,19 @@ export function CoefficientChooser({ report, chosen }: Props) {
   const why = apart ? "the largest R-hat" : "the lowest ESS";
   return (
     <div class="toolbar coefficient-chooser">
-      <fieldset class="segments">
-        <legend class="unseen">Draws of which model</legend>
-        {SIDES.map((side) => (
-          <label key={side} data-on={chosen.side === side}>
-            <input
-              type="radio"
-              name="diagnosed-side"
-              value={side}
-              checked={chosen.side === side}
-              onChange={() =>
-                // The modes of the two models do not correspond: the choice of the coefficient is reset.
-                batch(() => {
-                  diagnosedSide.value = side;
-                  diagnosedMode.value = null;
-                })
-              }
-            />
-            Draws from {side.toUpperCase()}
-          </label>
-        ))}
-      </fieldset>
+      <Segments
+        legend="Draws of which model"
+        name="diagnosed-side"
+        value={chosen.side}
+        options={SIDES.map((side) => [side, `Draws from ${side.toUpperCase()}`])}
+        onChoose={(side) =>
+          // The modes of the two models do not correspond: the choice of the coefficient is reset.
+          batch(() => {
+            diagnosedSide.value = side;
+            diagnosedMode.value = null;
+          })
+        }
+      />
       <label class="coefficient">
         <span>Coefficient</span>
         <select

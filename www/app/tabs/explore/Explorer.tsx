@@ -15,6 +15,8 @@ import {
 } from "../../state/exploring";
 import { outOfDate } from "../../state/state";
 import { number } from "../../text/format";
+import { Segments } from "../../ui/Segments";
+import { Slider } from "../../ui/Slider";
 import { play, playing, stopPlaying } from "./playing";
 import { Sliders } from "./Sliders";
 import { VertexFields } from "./VertexFields";
@@ -25,21 +27,13 @@ export function Explorer() {
   const swings = playing.value;
   return (
     <section class="explorer" aria-label="Explorer" data-stale={outOfDate.value}>
-      <fieldset class="segments">
-        <legend class="unseen">Model whose shape is set</legend>
-        {SPACES.map((name) => (
-          <label key={name} data-on={space === name} data-space={name}>
-            <input
-              type="radio"
-              name="driven"
-              value={name}
-              checked={space === name}
-              onChange={() => chooseSpace(name)}
-            />
-            Drive {SIGNS[name]}
-          </label>
-        ))}
-      </fieldset>
+      <Segments
+        legend="Model whose shape is set"
+        name="driven"
+        value={space}
+        options={SPACES.map((name) => [name, `Drive ${SIGNS[name]}`])}
+        onChoose={chooseSpace}
+      />
       <select
         aria-label="Along which directions"
         value={kind}
@@ -88,21 +82,18 @@ function calmly(action: () => void): () => void {
 function Magnify() {
   const { magnify } = explorer.value;
   return (
-    <label class="slider">
-      <span>Magnify</span>
-      <input
-        type="range"
-        min={1}
-        max={MOST_MAGNIFY}
-        step={0.5}
-        value={magnify}
-        aria-valuetext={`deviations from the mean ${number(magnify, 2)} times as large`}
-        onInput={(event) => explore({ magnify: Number(event.currentTarget.value) })}
-        onChange={settle}
-        onDblClick={() => choose({ magnify: 1 })}
-      />
-      <span class="num">{magnify}×</span>
-    </label>
+    <Slider
+      label="Magnify"
+      value={magnify}
+      least={1}
+      most={MOST_MAGNIFY}
+      step={0.5}
+      words={`deviations from the mean ${number(magnify, 2)} times as large`}
+      shown={`${magnify}×`}
+      onMove={(times) => explore({ magnify: times })}
+      onSettle={settle}
+      onReset={() => choose({ magnify: 1 })}
+    />
   );
 }
 
@@ -110,20 +101,17 @@ function Magnify() {
 function Morph() {
   const { morph } = explorer.value;
   return (
-    <label class="slider">
-      <span>Morph</span>
-      <input
-        type="range"
-        min={0}
-        max={1}
-        step={0.01}
-        value={morph}
-        aria-label="From A’s shape to B’s"
-        aria-valuetext={`${Math.round(100 * morph)} % of the way from A to B`}
-        onInput={(event) => explore({ morph: Number(event.currentTarget.value) })}
-        onChange={settle}
-      />
-      <span class="num">{Math.round(100 * morph)} % B</span>
-    </label>
+    <Slider
+      label="Morph"
+      name="From A’s shape to B’s"
+      value={morph}
+      least={0}
+      most={1}
+      step={0.01}
+      words={`${Math.round(100 * morph)} % of the way from A to B`}
+      shown={`${Math.round(100 * morph)} % B`}
+      onMove={(share) => explore({ morph: share })}
+      onSettle={settle}
+    />
   );
 }

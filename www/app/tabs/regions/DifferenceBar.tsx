@@ -18,6 +18,8 @@ import {
 import { MOST_EXAGGERATION } from "../../state/view";
 import { number, percent } from "../../text/format";
 import { Phrase } from "../../ui/Phrase";
+import { Segments } from "../../ui/Segments";
+import { Slider } from "../../ui/Slider";
 
 const PICTURES: DifferencePicture[] = [...DIFFERENCES, "exclusiveModes"];
 
@@ -63,21 +65,13 @@ export function DifferenceBar() {
             {exaggeration.value > 0 && ` · exaggerated, γ ${exaggeration.value.toFixed(1)}`}
           </span>
         </summary>
-        <fieldset class="segments">
-          <legend class="unseen">Definition of the difference</legend>
-          {PICTURES.map((name) => (
-            <label key={name} data-on={shown === name} title={DEFINITIONS[name].help}>
-              <input
-                type="radio"
-                name="difference"
-                value={name}
-                checked={shown === name}
-                onChange={() => choose(name)}
-              />
-              {DEFINITIONS[name].label}
-            </label>
-          ))}
-        </fieldset>
+        <Segments
+          legend="Definition of the difference"
+          name="difference"
+          value={shown}
+          options={PICTURES.map((name) => [name, DEFINITIONS[name].label, DEFINITIONS[name].help])}
+          onChoose={choose}
+        />
         <p class="small">
           {DEFINITIONS[shown].help} B∖A the other way round.
           {report && shown === "exclusiveModes" && <ExclusiveModes />}
@@ -115,52 +109,39 @@ function ExclusiveModes() {
 function Quantile() {
   const { differenceQuantile, differenceThreshold } = settings.value;
   return (
-    <label class="slider">
-      <span>Leaves out</span>
-      <input
-        type="range"
-        min={0}
-        max={99}
-        step={1}
-        value={100 * differenceQuantile}
-        aria-valuetext={`${percent(differenceQuantile)} of the shapes`}
-        onChange={(event) =>
-          change({
-            differenceQuantile: Number(event.currentTarget.value) / 100,
-            differenceThreshold: null,
-          })
-        }
-      />
-      <span class="num">
-        {differenceThreshold === null ? percent(differenceQuantile) : "by threshold"}
-      </span>
-    </label>
+    <Slider
+      label="Leaves out"
+      value={100 * differenceQuantile}
+      least={0}
+      most={99}
+      step={1}
+      words={`${percent(differenceQuantile)} of the shapes`}
+      shown={differenceThreshold === null ? percent(differenceQuantile) : "by threshold"}
+      onSettle={(share) => change({ differenceQuantile: share / 100, differenceThreshold: null })}
+    />
   );
 }
 
 function Exaggeration() {
   return (
-    <label class="slider">
-      <span>Exaggerate</span>
-      <input
-        type="range"
-        min={0}
-        max={MOST_EXAGGERATION}
-        step={0.1}
-        value={exaggeration.value}
-        aria-valuetext={
-          exaggeration.value === 0
-            ? "none"
-            : `${number(exaggeration.value, 2)} times what the other model misses is added`
-        }
-        onInput={(event) => {
-          exaggeration.value = Number(event.currentTarget.value);
-        }}
-        onChange={(event) => {
-          settledExaggeration.value = Number(event.currentTarget.value);
-        }}
-      />
-      <span class="num">γ {exaggeration.value.toFixed(1)}</span>
-    </label>
+    <Slider
+      label="Exaggerate"
+      value={exaggeration.value}
+      least={0}
+      most={MOST_EXAGGERATION}
+      step={0.1}
+      words={
+        exaggeration.value === 0
+          ? "none"
+          : `${number(exaggeration.value, 2)} times what the other model misses is added`
+      }
+      shown={`γ ${exaggeration.value.toFixed(1)}`}
+      onMove={(times) => {
+        exaggeration.value = times;
+      }}
+      onSettle={(times) => {
+        settledExaggeration.value = times;
+      }}
+    />
   );
 }

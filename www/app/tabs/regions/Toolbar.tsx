@@ -6,6 +6,7 @@ import { HOME } from "../../state/camera";
 import { camera, outOfDate, region, view } from "../../state/state";
 import { VIEW_MODES, type ViewMode } from "../../state/view";
 import { DownloadIcon } from "../../ui/icons";
+import { Segments } from "../../ui/Segments";
 
 const LABELS: Record<ViewMode, string> = {
   mean: "Mean",
@@ -16,23 +17,15 @@ const LABELS: Record<ViewMode, string> = {
 export function Toolbar() {
   return (
     <div class="toolbar">
-      <fieldset class="segments">
-        <legend class="unseen">What is drawn</legend>
-        {VIEW_MODES.map((mode) => (
-          <label key={mode} data-on={view.value === mode}>
-            <input
-              type="radio"
-              name="view"
-              value={mode}
-              checked={view.value === mode}
-              onChange={() => {
-                view.value = mode;
-              }}
-            />
-            {LABELS[mode]}
-          </label>
-        ))}
-      </fieldset>
+      <Segments
+        legend="What is drawn"
+        name="view"
+        value={view.value}
+        options={VIEW_MODES.map((mode) => [mode, LABELS[mode]])}
+        onChoose={(mode) => {
+          view.value = mode;
+        }}
+      />
       {view.value === "samples" && (
         <button type="button" class="quiet" onClick={resample}>
           Resample

@@ -6,6 +6,7 @@ import { change, settings } from "../../state/state";
 import { number } from "../../text/format";
 import { Metric, Phrase } from "../../ui/Phrase";
 import { SaveTable } from "../../ui/SaveTable";
+import { Segments } from "../../ui/Segments";
 import { Numbers } from "./Numbers";
 
 const ALONE: Group = {
@@ -77,21 +78,17 @@ export function TwoSides({ report }: { report: Report }) {
           </table>
         </SaveTable>
       )}
-      <fieldset class="segments">
-        <legend class="unseen">Models from which the intersection is sampled</legend>
-        {(["both", "a", "b"] as const).map((side) => (
-          <label key={side} data-on={pooling === side} title={SIDES_USED[side].help}>
-            <input
-              type="radio"
-              name="pooling"
-              value={side}
-              checked={pooling === side}
-              onChange={() => change({ pooling: side })}
-            />
-            {SIDES_USED[side].label}
-          </label>
-        ))}
-      </fieldset>
+      <Segments
+        legend="Models from which the intersection is sampled"
+        name="pooling"
+        value={pooling}
+        options={(["both", "a", "b"] as const).map((side) => [
+          side,
+          SIDES_USED[side].label,
+          SIDES_USED[side].help,
+        ])}
+        onChoose={(side) => change({ pooling: side })}
+      />
     </details>
   );
 }
