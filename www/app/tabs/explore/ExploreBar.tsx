@@ -1,9 +1,9 @@
 /** Toolbar of the explorer: layout of the panes, surface style, dragging of vertices, view. */
 
-import { HOME } from "../../state/camera";
+import { ResetView } from "../../stage/ShapesCanvas";
 import { type ExploreLayout, LAYOUTS, STYLES, type SurfaceStyle } from "../../state/explorer";
 import { choose, dragTool, explorer } from "../../state/exploring";
-import { camera, SIDES, slots } from "../../state/state";
+import { SIDES, slots } from "../../state/state";
 
 const LAYOUT_NAMES: Record<ExploreLayout, string> = {
   side: "Side by side",
@@ -58,15 +58,7 @@ export function ExploreBar() {
         Drag vertices
       </button>
       <span class="grow" />
-      <button
-        type="button"
-        class="quiet"
-        onClick={() => {
-          camera.value = HOME;
-        }}
-      >
-        Reset view
-      </button>
+      <ResetView />
     </div>
   );
 }

@@ -1,6 +1,7 @@
 /** Canvas of the explorer with three panes under one camera: A, both models overlaid, and B. */
 import { useEffect, useRef } from "preact/hooks";
 import type { Region } from "../../../worker/protocol";
+import { PaneView, ShapesCanvas } from "../../stage/ShapesCanvas";
 import { dimension } from "../../stage/stage-controller";
 import { answer, dragTool, explorer, trouble } from "../../state/exploring";
 import { run, unit } from "../../state/state";
@@ -45,19 +46,9 @@ function Panes({ flat }: { flat: boolean }) {
   const shown = panesOf(explorer.value);
   return (
     <>
-      {/* biome-ignore lint/a11y/noInteractiveElementToNoninteractiveRole: arrow keys are ours here, and role="img" would take them away in screen readers */}
-      <canvas
-        ref={canvas}
-        class="shapes"
-        tabIndex={0}
-        role="application"
-        aria-label={canvasLabel()}
-        aria-describedby="explore-help"
-      />
-      <p id="explore-help" class="unseen">
-        Drag or use the arrow keys to {flat ? "shift" : "turn"} all shapes at once, plus and minus
-        to zoom, 0 to go back to the first view.
-      </p>
+      <ShapesCanvas canvas={canvas} label={canvasLabel()} help="explore-help">
+        Drag or use the arrow keys to {flat ? "shift" : "turn"} all shapes at once
+      </ShapesCanvas>
       <div class="panes" data-shown={shown.length}>
         {EXPLORE_PANES.map((name) => (
           <div
@@ -67,13 +58,7 @@ function Panes({ flat }: { flat: boolean }) {
             data-driven={explorer.value.space === name}
             data-away={!shown.includes(name)}
           >
-            <div
-              class="pane-view"
-              ref={(element) => {
-                if (element) panes.current.set(name, element);
-                else panes.current.delete(name);
-              }}
-            />
+            <PaneView name={name} panes={panes.current} />
             <p class="pane-label">
               <strong>{sign(name)}</strong> <span class="pane-meaning">{meaning(name)}</span>
             </p>

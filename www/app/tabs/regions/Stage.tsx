@@ -5,6 +5,7 @@ import { MAP_WORDS, mapUnit } from "../../stage/map-words";
 import { shownMap } from "../../stage/maps";
 import { REGION_NAMES, regionLabel, shownIn } from "../../stage/names";
 import { PaintBar } from "../../stage/PaintBar";
+import { PaneView, ShapesCanvas } from "../../stage/ShapesCanvas";
 import { brush, dimension, hover, scene, takeCanvas } from "../../stage/stage-controller";
 import { VennMap } from "../../stage/VennMap";
 import { VertexBar } from "../../stage/VertexBar";
@@ -76,22 +77,10 @@ function Panes({ live }: { live: boolean }) {
   const flat = dimension.value === 2;
   return (
     <>
-      {/* biome-ignore lint/a11y/noInteractiveElementToNoninteractiveRole: arrow keys are ours here, and role="img" would take them away in screen readers */}
-      <canvas
-        ref={canvas}
-        class="shapes"
-        tabIndex={0}
-        role="application"
-        aria-label={canvasLabel()}
-        aria-describedby="canvas-help"
-      />
-      <p id="canvas-help" class="unseen">
+      <ShapesCanvas canvas={canvas} label={canvasLabel()} help="canvas-help">
         {painting.value && "Space paints in the middle. "}
-        {flat
-          ? "Drag or use the arrow keys to shift"
-          : "Drag or use the arrow keys to turn all shapes at once"}
-        , plus and minus to zoom, 0 to go back to the first view.
-      </p>
+        Drag or use the arrow keys to {flat ? "shift" : "turn all shapes at once"}
+      </ShapesCanvas>
       <div class="panes">
         {ORDER.map((name) =>
           name === "map" ? (
@@ -121,13 +110,7 @@ function Pane({ name, panes }: { name: Region; panes: Map<Region, HTMLElement> }
   const paints = painting.value !== null;
   return (
     <div class="pane" data-pane={name} data-away={away}>
-      <div
-        class="pane-view"
-        ref={(element) => {
-          if (element) panes.set(name, element);
-          else panes.delete(name);
-        }}
-      />
+      <PaneView name={name} panes={panes} />
       <p class="pane-label">
         <strong>{sign}</strong>{" "}
         <span class="pane-meaning">

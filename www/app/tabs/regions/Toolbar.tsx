@@ -2,8 +2,8 @@ import { resample } from "../../comparison/run";
 import { pictureDialog } from "../../pictures/PictureDialogs";
 import { savePicture } from "../../pictures/picture";
 import { MapChooser } from "../../stage/MapChooser";
-import { HOME } from "../../state/camera";
-import { camera, outOfDate, region, view } from "../../state/state";
+import { ResetView } from "../../stage/ShapesCanvas";
+import { outOfDate, region, view } from "../../state/state";
 import { VIEW_MODES, type ViewMode } from "../../state/view";
 import { DownloadIcon } from "../../ui/icons";
 import { Segments } from "../../ui/Segments";
@@ -44,15 +44,7 @@ export function Toolbar() {
           All five
         </button>
       )}
-      <button
-        type="button"
-        class="quiet"
-        onClick={() => {
-          camera.value = HOME;
-        }}
-      >
-        Reset view
-      </button>
+      <ResetView />
       <button type="button" class="quiet" onClick={() => void savePicture()}>
         <DownloadIcon />
         <span>PNG</span>
