@@ -3,7 +3,7 @@ import type { Evaluation, Report } from "../../worker/protocol";
 import type { Nouns } from "../state/demos";
 import { count, degrees, length, number, percent } from "../text/format";
 import { type Phrase, reported } from "../text/phrase";
-import type { Group } from "./numbers";
+import { eachWay, type Group, inUnit } from "./numbers";
 
 /** Numbers from here on are shown as too large; the largest that the engine can have is 1.8 × 10³⁰⁸. */
 const BEYOND = 1e300;
@@ -50,13 +50,6 @@ export function compactnessSentence(found: NonNullable<Report["compactness"]>): 
     `${name} ${modesFor(values, MOST) ?? `more than ${values.length}`}`;
   return `For ${percent(MOST)} of the variance ${need("A needs", found.a)} modes, ${need("B", found.b)}, ${need("A∩B", found.intersection)}.`;
 }
-
-const eachWay = (label: string, path: string, show: Group["rows"][number]["show"]) => ({
-  label,
-  metrics: [`differences.aWithoutB.${path}`, `differences.bWithoutA.${path}`],
-  show,
-});
-const inUnit = (value: number, report: Report) => length(value, report.models.a.unit);
 
 export const SPLITTING: Group = {
   title: "The set difference and the linear splitting",

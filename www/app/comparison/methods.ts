@@ -1,6 +1,7 @@
 /** Writes the methods paragraph of a paper and its BibTeX from a report. Pure; every number is the report's. */
 import type { InferenceReport, Report, Sampler, Sides } from "../../worker/protocol";
 import { completed, preparationWords } from "../state/preparation";
+import type { Difference } from "../state/regions";
 import { count, length, number, percent, plusMinus } from "../text/format";
 import { type Phrase, reported } from "../text/phrase";
 import { DEFINITIONS } from "./words";
@@ -190,7 +191,7 @@ function outcome(report: Report): Phrase {
 }
 
 function differences(report: Report): Phrase {
-  const share = (key: "aWithoutB" | "bWithoutA"): Phrase => {
+  const share = (key: Difference): Phrase => {
     const { probability, standardError } = report.differences[key];
     const path = `differences.${key}`;
     return [

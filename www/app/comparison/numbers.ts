@@ -15,7 +15,7 @@ export interface Group {
   rows: Row[];
 }
 
-const inUnit = (value: number, report: Report) => length(value, report.models.a.unit);
+export const inUnit = (value: number, report: Report) => length(value, report.models.a.unit);
 /** Shows rounding error as 0. */
 const radians = (value: number) => (value < 1e-9 ? "0" : number(value, 4));
 const plainly = (value: number) => number(value);
@@ -32,7 +32,8 @@ const both = (label: string, path: string, show: Row["show"]): Row => ({
   metrics: [`models.a.${path}`, `models.b.${path}`],
   show,
 });
-const eachWay = (label: string, path: string, show: Row["show"]): Row => ({
+/** A row with a number of each difference. */
+export const eachWay = (label: string, path: string, show: Row["show"]): Row => ({
   label,
   metrics: [`differences.aWithoutB.${path}`, `differences.bWithoutA.${path}`],
   show,

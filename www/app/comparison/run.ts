@@ -7,6 +7,7 @@ import { FIRST_DEMO } from "../state/demos";
 import { engineClient, onEngineRestart, report as reportError } from "../state/engine";
 import { latest } from "../state/latest";
 import { selectsPoints } from "../state/preparation";
+import { isDifference, REGIONS } from "../state/regions";
 import {
   canPreview,
   compared,
@@ -34,7 +35,6 @@ import {
   tried,
 } from "../state/state";
 import type { Stored } from "../state/stored";
-import { REGIONS } from "../state/view";
 import { plain } from "../text/phrase";
 import { isCloud } from "../viewer/contents";
 import { belief } from "./words";
@@ -326,15 +326,13 @@ export function resample(): void {
   shapesSeed.value = (BigInt(shapesSeed.value) + 1n).toString();
 }
 
-const DIFFERENCES: Region[] = ["aWithoutB", "bWithoutA"];
-
 /** Requests other shapes of the same draws when the seed, the exaggeration or the kind of difference changes. */
 export function watchPictures(): void {
   let drawn = shapesSeed.value;
   const show = latest<undefined>(() => {
     const others = shapesSeed.peek() !== drawn;
     drawn = shapesSeed.peek();
-    return showRegions(others ? REGIONS : DIFFERENCES);
+    return showRegions(others ? REGIONS : REGIONS.filter(isDifference));
   });
   const picked = computed(() => `${picture.value} ${exaggeration.value} ${shapesSeed.value}`);
   let shown = picked.value;

@@ -17,6 +17,7 @@ import type {
 } from "../../worker/protocol";
 import type { Nouns } from "../state/demos";
 import { completed, preparationWords, UNSTATED } from "../state/preparation";
+import { DIFFERENCE_OF } from "../state/regions";
 import type { Reading } from "../state/state";
 import { bytes, count, degrees, length, number, percent, plusMinus } from "../text/format";
 import { type Phrase, reported } from "../text/phrase";
@@ -154,7 +155,7 @@ export function nearlyTheModel(report: Report): Phrase | null {
 
 /** Share of variance that the other model misses, and the largest exclusive modes; null for an older report. */
 export function exclusive(report: Report, side: "a" | "b"): Phrase | null {
-  const key = side === "a" ? "aWithoutB" : "bWithoutA";
+  const key = DIFFERENCE_OF[side];
   const found = report.differences[key].exclusive;
   if (!found) return null;
   const path = `differences.${key}.exclusive`;

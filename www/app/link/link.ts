@@ -25,6 +25,7 @@ import {
 } from "../state/explorer";
 import { type LinkedModels, noLinkedModels } from "../state/linked-models";
 import { UNITS } from "../state/preparation";
+import { REGIONS } from "../state/regions";
 import {
   budgetOf,
   choicesOf,
@@ -45,7 +46,6 @@ import {
   MOST_EXAGGERATION,
   PAGES,
   PICTURES,
-  REGIONS,
   TABS,
   VIEW_MODES,
   type ViewState,

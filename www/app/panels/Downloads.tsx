@@ -3,6 +3,7 @@ import type { Download, Region } from "../../worker/protocol";
 import { shapeCount } from "../comparison/run";
 import { saveRun } from "../link/runfile/run";
 import { REGION_NAMES } from "../stage/names";
+import { REGIONS } from "../state/regions";
 import {
   engine,
   exaggeration,
@@ -13,7 +14,6 @@ import {
   shapes,
   shapesSeed,
 } from "../state/state";
-import { REGIONS } from "../state/view";
 import { download, saveText } from "../ui/download";
 import { FileButton } from "../ui/FileButton";
 import { openFiles } from "./dropped-files";

@@ -6,6 +6,7 @@ import { cancelOpening, choosePart, chooseScale, openParts } from "../models/ope
 import { nameOf } from "../models/sources";
 import { cardPicture, drawable } from "../stage/stage-controller";
 import { keptModes } from "../state/preparation";
+import { otherSide } from "../state/regions";
 import {
   demo,
   linked,
@@ -106,7 +107,7 @@ function CancelButton({ side }: { side: Side }) {
 function Parts({ side, slot, name }: { side: Side; slot: Slot; name: string }) {
   const { parts, part, source } = slot;
   const both = parts.includes("shape") && parts.includes("expression");
-  const others = slots[side === "a" ? "b" : "a"].value;
+  const others = slots[otherSide(side)].value;
   const shown =
     others?.source === source && [part, others.part].sort().join() === "expression,shape";
   return (

@@ -14,6 +14,7 @@ import {
 import { differencePicture, REGION_NAMES } from "../stage/names";
 import { scene } from "../stage/stage-controller";
 import { engineClient, report as reportError } from "../state/engine";
+import { REGIONS } from "../state/regions";
 import {
   camera,
   exaggeration,
@@ -25,7 +26,7 @@ import {
   unit,
   vertex,
 } from "../state/state";
-import { REGIONS, type ViewMode } from "../state/view";
+import type { ViewMode } from "../state/view";
 import { saveBlob } from "../ui/download";
 import { contentsOf, ELLIPSOID_SD, type Scene, sceneFrame } from "../viewer/contents";
 import type { Frame, PaneContent } from "../viewer/viewer";

@@ -1,6 +1,6 @@
 /** Computes the layout of a figure of five blocks. Pure; lengths in 144ths of an inch. */
 import type { Region } from "../../worker/protocol";
-import { REGIONS } from "../state/view";
+import { REGIONS } from "../state/regions";
 import type { Frame, Rect } from "../viewer/viewer";
 
 /** Units per point: lines of one pixel on the page are half a point in print. */

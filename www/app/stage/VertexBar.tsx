@@ -1,6 +1,6 @@
 import type { Region } from "../../worker/protocol";
+import { REGIONS } from "../state/regions";
 import { compared, slots, tab, unit, vertex, view } from "../state/state";
-import { REGIONS } from "../state/view";
 import { number, signed, withoutRoundingError } from "../text/format";
 import { NumberField } from "../ui/NumberField";
 import { ELLIPSOID_SD } from "../viewer/contents";

@@ -4,6 +4,7 @@ import { EngineFailure, wasAborted } from "../../worker/engine-errors";
 import type { Ellipsoid, MapName, Region, VertexMap } from "../../worker/protocol";
 import { engineClient, onEngineRestart } from "../state/engine";
 import { latest } from "../state/latest";
+import { REGIONS } from "../state/regions";
 import {
   held,
   lockedRange,
@@ -16,7 +17,6 @@ import {
   vertexMap,
   view,
 } from "../state/state";
-import { REGIONS } from "../state/view";
 import { commonRange, type Palette, symmetricRange } from "../text/colormap";
 import { MAP_WORDS } from "./map-words";
 

@@ -1,5 +1,6 @@
 /** Names and meanings of the five regions. */
 import type { Region } from "../../worker/protocol";
+import { isDifference } from "../state/regions";
 import { exaggeration, picture, preview, run, unit, vertexMap, view } from "../state/state";
 import type { ViewMode } from "../state/view";
 import { length } from "../text/format";
@@ -24,7 +25,7 @@ export function shownIn(region: Region): string {
     const ahead = run.value ? null : preview.value;
     return ahead === null ? meaning : `preview, σ ${length(ahead.sigma, unit.value)}`;
   }
-  if (region !== "aWithoutB" && region !== "bWithoutA") return meaning;
+  if (!isDifference(region)) return meaning;
   const drawn = differencePicture();
   return drawn.startsWith("γ") ? `exaggerated, ${drawn}` : drawn || meaning;
 }

@@ -3,6 +3,7 @@ import { computed, effect, signal } from "@preact/signals";
 import type { Region } from "../../worker/protocol";
 import { beginStroke, brushRadius, paintAt, undoStroke } from "../models/painting";
 import { HOME } from "../state/camera";
+import { REGIONS } from "../state/regions";
 import {
   alone,
   camera,
@@ -19,7 +20,6 @@ import {
   view,
 } from "../state/state";
 import { isDark } from "../state/theme";
-import { REGIONS } from "../state/view";
 import {
   cardContent,
   contentsOf,

@@ -22,7 +22,6 @@ export const MAPS: MapName[] = [
   "ratio",
   "mode",
 ];
-export const REGIONS: Region[] = ["a", "aWithoutB", "intersection", "bWithoutA", "b"];
 export const PICTURES: DifferenceShapes[] = ["draws", "exclusiveModes"];
 /** Largest exaggeration of the slider. */
 export const MOST_EXAGGERATION = 5;

@@ -1,6 +1,7 @@
 /** Computes the contents of the panes of the five regions: shapes, colours, ellipsoids. Pure. */
-import type { Ellipsoid, Geometry, Region, RegionShapes, Sides } from "../../worker/protocol";
-import { REGIONS, type ViewMode } from "../state/view";
+import type { Ellipsoid, Geometry, Region, RegionShapes, Side, Sides } from "../../worker/protocol";
+import { isModel, ownerOf, REGIONS } from "../state/regions";
+import type { ViewMode } from "../state/view";
 import type { Palette } from "../text/colormap";
 import { rimFade } from "./rim";
 import { type DrawnEllipsoid, type Frame, frameOf, type PaneContent } from "./viewer";
@@ -26,36 +27,28 @@ export const ELLIPSOID_SD = 2;
 const RIM_RINGS = 5;
 
 type Rgb = readonly [number, number, number];
-const CLAY: Record<"light" | "dark", Record<Region, Rgb>> = {
+const CLAY: Record<"light" | "dark", Record<Side | "both", Rgb>> = {
   light: {
     a: [173, 190, 220],
-    aWithoutB: [173, 190, 220],
-    intersection: [205, 182, 211],
-    bWithoutA: [229, 196, 164],
+    both: [205, 182, 211],
     b: [229, 196, 164],
   },
   dark: {
     a: [146, 170, 214],
-    aWithoutB: [146, 170, 214],
-    intersection: [196, 164, 205],
-    bWithoutA: [222, 180, 138],
+    both: [196, 164, 205],
     b: [222, 180, 138],
   },
 };
 /** Colours of lines, more saturated than those of surfaces. */
-const INK: Record<"light" | "dark", Record<Region, Rgb>> = {
+const INK: Record<"light" | "dark", Record<Side | "both", Rgb>> = {
   light: {
     a: [37, 99, 190],
-    aWithoutB: [37, 99, 190],
-    intersection: [150, 66, 158],
-    bWithoutA: [196, 98, 16],
+    both: [150, 66, 158],
     b: [196, 98, 16],
   },
   dark: {
     a: [122, 170, 255],
-    aWithoutB: [122, 170, 255],
-    intersection: [226, 150, 232],
-    bWithoutA: [255, 176, 96],
+    both: [226, 150, 232],
     b: [255, 176, 96],
   },
 };
@@ -74,8 +67,7 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
   const own = ownGeometry(scene, region);
   const current = found && geometryFor(scene, region, found.mean.length);
   // Before a comparison the models themselves are shown.
-  const alone = region === "a" || region === "b";
-  const geometry = current ?? (alone ? own : null);
+  const geometry = current ?? (isModel(region) ? own : null);
   // A canvas shows 2-D or 3-D shapes, not both: if the models differ, A.
   if (!geometry || geometry.dimension !== dimensionOf(scene)) return null;
   const shown = current && found ? found : { mean: geometry.mean, vertexSd: geometry.vertexSd };
@@ -97,7 +89,7 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
     palette: scene.map?.palette ?? "viridis",
     ellipsoid: current ? drawnEllipsoid(scene, region) : null,
     marks: null,
-    tint: (surface ? CLAY : INK)[shade][region],
+    tint: (surface ? CLAY : INK)[shade][ownerOf(region)],
   };
 }
 
@@ -116,7 +108,7 @@ export function drawnWith(
 
 /** The colour of a region for surfaces or for lines. */
 export function tintOf(scene: Scene, region: Region, lines: boolean): Rgb {
-  return (lines ? INK : CLAY)[scene.dark ? "dark" : "light"][region];
+  return (lines ? INK : CLAY)[scene.dark ? "dark" : "light"][ownerOf(region)];
 }
 
 /** The values of a map, if it is of the drawn points. */
@@ -183,12 +175,13 @@ function samplesOf(found: RegionShapes): Float32Array[] {
   return samples;
 }
 
-function ownGeometry(scene: Scene, region: Region): Geometry | null {
+export function ownGeometry(scene: Scene, region: Region): Geometry | null {
   return scene.geometry[sideOf(region)];
 }
 
-function sideOf(region: Region): "a" | "b" {
-  return region === "b" || region === "bWithoutA" ? "b" : "a";
+/** The model whose points a region has; for the intersection, A. */
+function sideOf(region: Region): Side {
+  return ownerOf(region) === "b" ? "b" : "a";
 }
 
 /** The geometry with this number of coordinates: one with triangles if possible, that of its own model first. */

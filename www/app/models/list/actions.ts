@@ -1,6 +1,7 @@
 /** Adds models to the model list, removes them, and chooses which two of them are compared. */
 import { EngineFailure, sentenceOf, wasAborted } from "../../../worker/engine-errors";
 import { report } from "../../state/engine";
+import { otherSide } from "../../state/regions";
 import {
   addingModels,
   demo,
@@ -151,7 +152,7 @@ export async function comparePair(a: Slot, b: Slot): Promise<void> {
 
 /** Chooses a model of the list as A or B; if it was the other one, A and B are exchanged. */
 export async function chooseFor(side: Side, slot: Slot): Promise<void> {
-  const other = side === "a" ? "b" : "a";
+  const other = otherSide(side);
   const former = slots[side].value;
   const swaps = former !== null && isSame(slot, slots[other].value);
   const wanted = { [side]: wantedOf(slot), [other]: swaps ? wantedOf(former) : null };

@@ -18,6 +18,7 @@ import {
   trouble,
 } from "../../state/exploring";
 import { latest } from "../../state/latest";
+import { otherSide } from "../../state/regions";
 import { currentKey, run, slots, tab } from "../../state/state";
 import { timed } from "../../viewer/timing";
 
@@ -104,7 +105,7 @@ const ask = latest(async ({ key, state }: Wanted) => {
 /** The partner shape of a principal angle in the other model, with the same coefficient. */
 async function partnerOf(space: Space, kind: AxesKind, along: number[]): Promise<Explored | null> {
   if (kind !== "angles" || space === "intersection") return null;
-  return engineClient().explore(never, space === "a" ? "b" : "a", kind, along, false);
+  return engineClient().explore(never, otherSide(space), kind, along, false);
 }
 
 function fail(thrown: unknown): void {

@@ -3,6 +3,7 @@ import { batch, computed, effect, signal } from "@preact/signals";
 import type { Region } from "../../../worker/protocol";
 import { createViewer, layoutOf, scene } from "../../stage/stage-controller";
 import { answer, basis, dragTool, explorer, grab, lockedHeat, settle } from "../../state/exploring";
+import { otherSide } from "../../state/regions";
 import { camera, embedded, vertex } from "../../state/state";
 import { sceneFrame } from "../../viewer/contents";
 import { listen } from "../../viewer/gestures";
@@ -247,5 +248,5 @@ function missedAt(hit: Hit): number | null {
     const side = hit.region === "b" ? "b" : "a";
     return hit.region === "intersection" ? null : (nearest[side].residuals[hit.vertex] ?? null);
   }
-  return nearest[found.space === "a" ? "b" : "a"].residuals[hit.vertex] ?? null;
+  return nearest[otherSide(found.space)].residuals[hit.vertex] ?? null;
 }

@@ -9,6 +9,7 @@ import { PaneView, ShapesCanvas } from "../../stage/ShapesCanvas";
 import { brush, dimension, hover, scene, takeCanvas } from "../../stage/stage-controller";
 import { VennMap } from "../../stage/VennMap";
 import { VertexBar } from "../../stage/VertexBar";
+import { isDifference } from "../../state/regions";
 import {
   alone,
   compared,
@@ -29,7 +30,7 @@ import {
 } from "../../state/state";
 import { number, signed, withoutRoundingError } from "../../text/format";
 import { BackIcon, ExpandIcon } from "../../ui/icons";
-import { contentOf } from "../../viewer/contents";
+import { contentOf, ownGeometry } from "../../viewer/contents";
 import { DifferenceBar } from "./DifferenceBar";
 import { Toolbar } from "./Toolbar";
 
@@ -150,8 +151,7 @@ function PaneNote({ name }: { name: Region }) {
 
 /** Whether a finished difference has no shapes. */
 function isEmpty(name: Region): boolean {
-  if (name !== "aWithoutB" && name !== "bWithoutA") return false;
-  return result.value?.report.differences[name].diagnostics.draws === 0;
+  return isDifference(name) && result.value?.report.differences[name].diagnostics.draws === 0;
 }
 
 function Tooltip() {
@@ -180,8 +180,7 @@ function valueAt(name: Region, vertex: number): string | null {
     const text = (map.signed ? signed : number)(withoutRoundingError(value, size));
     return `${map.name === "sd" ? "SD " : ""}${text} ${mapUnit(map.name, unit.value)}`;
   }
-  const { geometry } = scene.value;
-  const own = name === "b" || name === "bWithoutA" ? geometry.b : geometry.a;
+  const own = ownGeometry(scene.value, name);
   const deviation = shapes.value[name]?.vertexSd[vertex] ?? own?.vertexSd[vertex];
   return deviation === undefined ? null : `SD ${number(deviation)} ${unit.value}`;
 }

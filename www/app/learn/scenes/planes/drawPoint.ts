@@ -1,5 +1,6 @@
 /** Draws the common line of the sheets, the point, and the nearest point of the other sheet. */
 import type { LessonPoint, Side } from "../../../../worker/protocol";
+import { otherSide } from "../../../state/regions";
 import { arrow, handle, write } from "../../canvas/marks";
 import type { Palette } from "../../canvas/palette";
 import { ALLOWABLE, EXTENT, type ToCanvas } from "./draw";
@@ -59,7 +60,7 @@ export function drawPoint(
   coefficients: Flat,
   point: LessonPoint | null,
 ): void {
-  const other = side === "a" ? "b" : "a";
+  const other = otherSide(side);
   const spot = to(pointAt(sheets[side], coefficients));
   const italic = { italic: true, weight: 700, size: 1.25 };
   if (point) {
