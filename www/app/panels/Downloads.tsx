@@ -16,6 +16,7 @@ import {
 } from "../state/state";
 import { download, saveText } from "../ui/download";
 import { FileButton } from "../ui/FileButton";
+import { Select } from "../ui/Select";
 import { openFiles } from "./dropped-files";
 import { Methods, Pictures } from "./Pictures";
 
@@ -150,33 +151,25 @@ function Shape({ ready }: { ready: boolean }) {
   return (
     <fieldset class="download-row">
       <legend>Shape</legend>
-      <select
-        aria-label="Region of the shape"
+      <Select
+        label="Region of the shape"
         value={from.value}
-        onChange={(event) => {
-          from.value = event.currentTarget.value as Region;
+        options={REGIONS.map((name) => [name, REGION_NAMES[name].sign])}
+        onChoose={(name) => {
+          from.value = name;
         }}
-      >
-        {REGIONS.map((name) => (
-          <option key={name} value={name}>
-            {REGION_NAMES[name].sign}
-          </option>
-        ))}
-      </select>
-      <select
-        aria-label="Which shape of the region"
+      />
+      <Select
+        label="Which shape of the region"
         value={String(index.value)}
-        onChange={(event) => {
-          index.value = Number(event.currentTarget.value);
+        options={[
+          ["-1", "mean"],
+          ...Array.from({ length: shown }, (_, i) => [String(i), `sample ${i + 1}`] as const),
+        ]}
+        onChoose={(chosen) => {
+          index.value = Number(chosen);
         }}
-      >
-        <option value="-1">mean</option>
-        {Array.from({ length: shown }, (_, i) => (
-          <option key={String(i)} value={String(i)}>
-            sample {i + 1}
-          </option>
-        ))}
-      </select>
+      />
       {MESHES.map((kind) => (
         <Save
           key={kind}

@@ -20,8 +20,10 @@ import {
 } from "../state/state";
 import { isDark } from "../state/theme";
 import { bytes, count, length } from "../text/format";
+import { Check } from "../ui/Check";
 import { Notices } from "../ui/Notices";
 import { Scree } from "../ui/Scree";
+import { Select } from "../ui/Select";
 import { ModesKept } from "./ModesKept";
 import { OpenButtons } from "./OpenButtons";
 
@@ -112,18 +114,13 @@ function Parts({ side, slot, name }: { side: Side; slot: Slot; name: string }) {
     others?.source === source && [part, others.part].sort().join() === "expression,shape";
   return (
     <div class="card-row">
-      <select
+      <Select
         class="parts"
-        aria-label={`Part of ${name}`}
+        label={`Part of ${name}`}
         value={part}
-        onChange={(event) => void choosePart(side, event.currentTarget.value)}
-      >
-        {parts.map((one) => (
-          <option key={one} value={one}>
-            {one === "shape" ? "shape (identity)" : partName(one)}
-          </option>
-        ))}
-      </select>
+        options={parts.map((one) => [one, one === "shape" ? "shape (identity)" : partName(one)])}
+        onChoose={(one) => void choosePart(side, one)}
+      />
       {both && !shown && (
         <button
           type="button"
@@ -146,14 +143,9 @@ function Made({ side, slot }: { side: Side; slot: Slot }) {
     <>
       {sentence && <p class="made">{sentence}</p>}
       {origin.kind === "shapes" && (
-        <label class="check">
-          <input
-            type="checkbox"
-            checked={slot.scale}
-            onChange={(event) => void chooseScale(side, event.currentTarget.checked)}
-          />
+        <Check checked={slot.scale} onChange={(scale) => void chooseScale(side, scale)}>
           Also scale to one size
-        </label>
+        </Check>
       )}
       {(sentence || modes !== null || variance !== null) && (
         <ModesKept side={side} deviations={report.standardDeviations} />

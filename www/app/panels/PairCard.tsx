@@ -18,10 +18,12 @@ import {
 } from "../state/state";
 import { count, number } from "../text/format";
 import { parseRanges } from "../text/ranges";
+import { Check } from "../ui/Check";
 import { Choice } from "../ui/Choice";
 import { Field } from "../ui/Field";
 import { CloseIcon } from "../ui/icons";
 import { Notices, showNotice } from "../ui/Notices";
+import { Select } from "../ui/Select";
 import { TypedField } from "../ui/TypedField";
 
 /** Card of the pair: whether the two models can be compared, and the remedies if they cannot. */
@@ -174,14 +176,9 @@ function Controls({ found }: { found: Inspection }) {
         <UnitField key={side} side={side} found={found.units[side]} own={prepare[side]} />
       ))}
       {(unlike || prepare.convert) && (
-        <label class="check">
-          <input
-            type="checkbox"
-            checked={prepare.convert}
-            onChange={(event) => change({ prepare: { convert: event.currentTarget.checked } })}
-          />
+        <Check checked={prepare.convert} onChange={(convert) => change({ prepare: { convert } })}>
           Convert B into the unit of A
-        </label>
+        </Check>
       )}
       <TypedField
         label="At most"
@@ -218,19 +215,17 @@ function UnitField({ side, found, own }: UnitProps) {
       onReset={() => declare(null)}
       standardWord=""
     >
-      <select
-        aria-label={`Unit of ${letter}`}
+      <Select
+        label={`Unit of ${letter}`}
         value={own.unit ?? ""}
-        onChange={(event) => declare(event.currentTarget.value || null)}
-      >
-        <option value="">not stated</option>
-        {UNITS.map((unit) => (
-          <option key={unit} value={unit}>
-            {unit}
-            {unit === found.guess ? " (probably)" : ""}
-          </option>
-        ))}
-      </select>
+        options={[
+          ["", "not stated"],
+          ...UNITS.map(
+            (unit) => [unit, unit === found.guess ? `${unit} (probably)` : unit] as const,
+          ),
+        ]}
+        onChoose={(unit) => declare(unit || null)}
+      />
     </Field>
   );
 }

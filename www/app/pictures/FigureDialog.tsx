@@ -5,10 +5,12 @@ import { mapIsWanted, shownMap } from "../stage/maps";
 import { scene } from "../stage/stage-controller";
 import { latest } from "../state/latest";
 import { result, shapes, vertexMap } from "../state/state";
+import { Check } from "../ui/Check";
 import { copyText } from "../ui/download";
 import { Modal } from "../ui/Modal";
 import { NumberField } from "../ui/NumberField";
 import { Segments } from "../ui/Segments";
+import { Select } from "../ui/Select";
 import type { FigureKind } from "./caption";
 import {
   type Background,
@@ -26,6 +28,10 @@ const BACKGROUNDS: [Background, string][] = [
   ["white", "White"],
   ["transparent", "Transparent"],
   ["dark", "Transparent, light lettering"],
+];
+const UNITS: [FigureOptions["unit"], string][] = [
+  ["mm", "mm"],
+  ["px", "pixels"],
 ];
 const COUNTS = [4, 9, 16, 25];
 
@@ -73,16 +79,11 @@ export function FigureDialog({ onClose }: { onClose: () => void }) {
         {options.shows === "shapes" && <Count value={options.shapes} />}
         <label class="number-field">
           <span>Background</span>
-          <select
+          <Select
             value={options.background}
-            onChange={(event) => set({ background: event.currentTarget.value as Background })}
-          >
-            {BACKGROUNDS.map(([name, label]) => (
-              <option key={name} value={name}>
-                {label}
-              </option>
-            ))}
-          </select>
+            options={BACKGROUNDS}
+            onChoose={(background) => set({ background })}
+          />
         </label>
         <NumberField
           label="Lettering, pt"
@@ -91,11 +92,11 @@ export function FigureDialog({ onClose }: { onClose: () => void }) {
           most={24}
           onChange={(points) => points !== null && set({ points })}
         />
-        <Check label="Labels" part="labels" />
+        <Part label="Labels" part="labels" />
         {(options.shows === "variance" || options.shows === "map") && (
-          <Check label="Colour bar" part="bar" />
+          <Part label="Colour bar" part="bar" />
         )}
-        <Check label="Caption" part="caption" />
+        <Part label="Caption" part="caption" />
       </div>
       <div class="modal-foot">
         <span class="small grow" role="status">
@@ -139,20 +140,17 @@ function Size({ options }: { options: FigureOptions }) {
         most={Math.max(1, most)}
         onChange={(value) => value !== null && set({ width: value })}
       />
-      <select
-        aria-label="Unit of the width"
+      <Select
+        label="Unit of the width"
         value={unit}
-        onChange={(event) => {
+        options={UNITS}
+        onChoose={(chosen) => {
           // Converts the width to the other unit, rounded to whole numbers.
           const across = widthInPixels(options);
           const millimetres = Math.max(1, Math.round((25.4 * across) / dpi));
-          if (event.currentTarget.value === "px") set({ unit: "px", width: across });
-          else set({ unit: "mm", width: millimetres });
+          set({ unit: chosen, width: chosen === "px" ? across : millimetres });
         }}
-      >
-        <option value="mm">mm</option>
-        <option value="px">pixels</option>
-      </select>
+      />
       <NumberField
         label="Resolution, dpi"
         value={dpi}
@@ -171,30 +169,20 @@ function Count({ value }: { value: number }) {
   return (
     <label class="number-field">
       <span>Shapes in a block</span>
-      <select
+      <Select
         value={String(value)}
-        onChange={(event) => set({ shapes: Number(event.currentTarget.value) })}
-      >
-        {COUNTS.map((count) => (
-          <option key={count} value={String(count)}>
-            {count}
-          </option>
-        ))}
-      </select>
+        options={COUNTS.map((count) => [String(count), String(count)])}
+        onChoose={(count) => set({ shapes: Number(count) })}
+      />
     </label>
   );
 }
 
-function Check({ label, part }: { label: string; part: "labels" | "bar" | "caption" }) {
+function Part({ label, part }: { label: string; part: "labels" | "bar" | "caption" }) {
   return (
-    <label class="check">
-      <input
-        type="checkbox"
-        checked={figureOptions.value[part]}
-        onChange={(event) => set({ [part]: event.currentTarget.checked })}
-      />
+    <Check checked={figureOptions.value[part]} onChange={(checked) => set({ [part]: checked })}>
       {label}
-    </label>
+    </Check>
   );
 }
 

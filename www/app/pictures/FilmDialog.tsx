@@ -3,10 +3,12 @@ import { useEffect, useRef } from "preact/hooks";
 import { wasAborted } from "../../worker/engine-errors";
 import { result } from "../state/state";
 import { bytes } from "../text/format";
+import { Check } from "../ui/Check";
 import { saveBlob } from "../ui/download";
 import { Modal } from "../ui/Modal";
 import { NumberField } from "../ui/NumberField";
 import { Segments } from "../ui/Segments";
+import { Select } from "../ui/Select";
 import { Slider } from "../ui/Slider";
 import { canRecord, encodeGif, recordWebm } from "./encode";
 import {
@@ -27,6 +29,11 @@ const SUBJECTS: [Subject, string][] = [
   ["intersection", "Mode of A∩B"],
   ["b", "Mode of B"],
   ["morph", "From A to B"],
+];
+
+const BACKGROUNDS: [FilmOptions["background"], string][] = [
+  ["white", "White"],
+  ["dark", "Dark"],
 ];
 
 /** Milliseconds between updates of the progress bar: rendering the page slows the animation down. */
@@ -120,30 +127,22 @@ export function FilmDialog({ onClose }: { onClose: () => void }) {
         </label>
         <label class="number-field">
           <span>Background</span>
-          <select
+          <Select
             value={background}
-            onChange={(event) => set({ background: event.currentTarget.value as "white" | "dark" })}
-          >
-            <option value="white">White</option>
-            <option value="dark">Dark</option>
-          </select>
-        </label>
-        <label class="check" title="The animation ends where it began, and a GIF repeats">
-          <input
-            type="checkbox"
-            checked={loops}
-            onChange={(event) => set({ loops: event.currentTarget.checked })}
+            options={BACKGROUNDS}
+            onChoose={(chosen) => set({ background: chosen })}
           />
+        </label>
+        <Check
+          title="The animation ends where it began, and a GIF repeats"
+          checked={loops}
+          onChange={(checked) => set({ loops: checked })}
+        >
           Loop
-        </label>
-        <label class="check">
-          <input
-            type="checkbox"
-            checked={label}
-            onChange={(event) => set({ label: event.currentTarget.checked })}
-          />
+        </Check>
+        <Check checked={label} onChange={(checked) => set({ label: checked })}>
           Label
-        </label>
+        </Check>
       </div>
       {report && <p class="small">{filmSentence(options.value, report)}</p>}
       <div class="modal-foot">

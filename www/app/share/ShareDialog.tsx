@@ -1,6 +1,7 @@
 import { signal } from "@preact/signals";
 import { sharedAddress } from "../link/history";
 import { namesInLinks } from "../state/state";
+import { Check } from "../ui/Check";
 import { CopyButton } from "../ui/CopyButton";
 import { Modal } from "../ui/Modal";
 import { Qr } from "./Qr";
@@ -78,16 +79,14 @@ function LinkPart({ address, shared: { holds, copied, lost } }: Props) {
 /** Chooses whether links contain the names of the visitor's files. */
 function Names() {
   return (
-    <label class="check">
-      <input
-        type="checkbox"
-        checked={namesInLinks.value}
-        onChange={(event) => {
-          namesInLinks.value = event.currentTarget.checked;
-        }}
-      />
+    <Check
+      checked={namesInLinks.value}
+      onChange={(checked) => {
+        namesInLinks.value = checked;
+      }}
+    >
       With the names of the files, also in the address bar
-    </label>
+    </Check>
   );
 }
 

@@ -1,6 +1,7 @@
 import { lockedRange, unit } from "../state/state";
 import { gradientOf } from "../text/colormap";
 import { number, signed, withoutRoundingError } from "../text/format";
+import { Check } from "../ui/Check";
 import { MAP_WORDS, mapCaption, scaleEnds } from "./map-words";
 import { mapProblem, mapRange, ownRange, shownMap } from "./maps";
 
@@ -32,16 +33,14 @@ export function ColorBar() {
         <span class="num">{text(high)}</span>
         {ends && <span class="scale-end">{ends[1]}</span>}
       </span>
-      <label class="check">
-        <input
-          type="checkbox"
-          checked={lockedRange.value !== null}
-          onChange={(event) => {
-            lockedRange.value = event.currentTarget.checked ? mapRange.value : null;
-          }}
-        />
+      <Check
+        checked={lockedRange.value !== null}
+        onChange={(checked) => {
+          lockedRange.value = checked ? mapRange.value : null;
+        }}
+      >
         Lock scale
-      </label>
+      </Check>
     </figure>
   );
 }

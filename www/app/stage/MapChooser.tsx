@@ -1,6 +1,7 @@
 import { mapMode, result, slots, vertexMap } from "../state/state";
 import { MAPS } from "../state/view";
 import { NumberField } from "../ui/NumberField";
+import { Select } from "../ui/Select";
 import { MAP_WORDS } from "./map-words";
 import { chooseMap } from "./maps";
 
@@ -8,22 +9,14 @@ import { chooseMap } from "./maps";
 export function MapChooser() {
   return (
     <>
-      <select
-        aria-label="What is coloured"
+      <Select
+        label="What is coloured"
         class="map-name"
         title={MAP_WORDS[vertexMap.value].help}
         value={vertexMap.value}
-        onChange={(event) => {
-          const name = MAPS.find((known) => known === event.currentTarget.value);
-          if (name) chooseMap(name);
-        }}
-      >
-        {MAPS.map((name) => (
-          <option key={name} value={name}>
-            {MAP_WORDS[name].label}
-          </option>
-        ))}
-      </select>
+        options={MAPS.map((name) => [name, MAP_WORDS[name].label])}
+        onChoose={chooseMap}
+      />
       {vertexMap.value === "mode" && (
         <NumberField
           label="Mode"

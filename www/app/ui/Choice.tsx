@@ -1,5 +1,6 @@
 import type { Options } from "../state/settings";
 import { Field } from "./Field";
+import { Select } from "./Select";
 
 interface ChoiceProps<T extends string> {
   label: string;
@@ -25,19 +26,16 @@ export function Choice<T extends string>(props: ChoiceProps<T>) {
         onReset={() => onChoose(standard)}
         help={help}
       >
-        <select
+        <Select
+          label={label}
+          describedBy={about}
           value={value}
-          aria-label={label}
-          aria-describedby={about}
-          onChange={(event) => onChoose(event.currentTarget.value as T)}
-        >
-          {names.map((name) => (
-            <option key={name} value={name}>
-              {options[name].label}
-              {name === standard && value !== name ? " (default)" : ""}
-            </option>
-          ))}
-        </select>
+          options={names.map((name) => [
+            name,
+            `${options[name].label}${name === standard && value !== name ? " (default)" : ""}`,
+          ])}
+          onChoose={onChoose}
+        />
       </Field>
       <p id={about} class={alwaysHelp || value !== standard ? "field-help" : "unseen"}>
         {help}

@@ -1,3 +1,4 @@
+import { Select } from "../../ui/Select";
 import { STAR_PAIRS } from "../scenes";
 
 type StarPair = (typeof STAR_PAIRS)[number];
@@ -13,19 +14,11 @@ export function StarPairs({ label, value, onChoose }: Props) {
   return (
     <label>
       {label}{" "}
-      <select
+      <Select
         value={value}
-        onChange={({ currentTarget }) => {
-          const chosen = STAR_PAIRS.find((name) => name === currentTarget.value);
-          if (chosen) onChoose(chosen);
-        }}
-      >
-        {STAR_PAIRS.map((name) => (
-          <option key={name} value={name}>
-            pair {name.slice(-1)}
-          </option>
-        ))}
-      </select>
+        options={STAR_PAIRS.map((name) => [name, `pair ${name.slice(-1)}`])}
+        onChoose={onChoose}
+      />
     </label>
   );
 }

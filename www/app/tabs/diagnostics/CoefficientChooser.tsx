@@ -5,6 +5,7 @@ import { R_HAT } from "../../comparison/words";
 import { diagnosedMode, diagnosedSide, SIDES } from "../../state/state";
 import { count } from "../../text/format";
 import { Segments } from "../../ui/Segments";
+import { Select } from "../../ui/Select";
 
 interface Props {
   report: Report;
@@ -35,19 +36,17 @@ export function CoefficientChooser({ report, chosen }: Props) {
       />
       <label class="coefficient">
         <span>Coefficient</span>
-        <select
+        <Select
           value={String(chosen.mode)}
-          onChange={(event) => {
-            diagnosedMode.value = Number(event.currentTarget.value);
+          options={Array.from({ length: modes }, (_, mode) => [
+            String(mode),
+            `Mode ${mode + 1}${diagnosticsOf(report, chosen.side, mode)}${mode === worst.mode ? `, ${why}` : ""}`,
+          ])}
+          onChoose={(mode) => {
+            diagnosedMode.value = Number(mode);
             diagnosedSide.value = chosen.side;
           }}
-        >
-          {Array.from({ length: modes }, (_, mode) => (
-            <option key={mode} value={String(mode)}>
-              {`Mode ${mode + 1}${diagnosticsOf(report, chosen.side, mode)}${mode === worst.mode ? `, ${why}` : ""}`}
-            </option>
-          ))}
-        </select>
+        />
       </label>
     </div>
   );

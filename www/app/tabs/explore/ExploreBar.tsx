@@ -4,6 +4,7 @@ import { ResetView } from "../../stage/ShapesCanvas";
 import { type ExploreLayout, LAYOUTS, STYLES, type SurfaceStyle } from "../../state/explorer";
 import { choose, dragTool, explorer } from "../../state/exploring";
 import { SIDES, slots } from "../../state/state";
+import { Select } from "../../ui/Select";
 
 const LAYOUT_NAMES: Record<ExploreLayout, string> = {
   side: "Side by side",
@@ -22,29 +23,19 @@ export function ExploreBar() {
   const surfaces = SIDES.some((side) => slots[side].value?.geometry?.triangles);
   return (
     <div class="toolbar">
-      <select
-        aria-label="Layout"
+      <Select
+        label="Layout"
         value={layout}
-        onChange={(event) => choose({ layout: event.currentTarget.value as ExploreLayout })}
-      >
-        {LAYOUTS.map((name) => (
-          <option key={name} value={name}>
-            {LAYOUT_NAMES[name]}
-          </option>
-        ))}
-      </select>
+        options={LAYOUTS.map((name) => [name, LAYOUT_NAMES[name]])}
+        onChoose={(name) => choose({ layout: name })}
+      />
       {surfaces && (
-        <select
-          aria-label="Surface"
+        <Select
+          label="Surface"
           value={style}
-          onChange={(event) => choose({ style: event.currentTarget.value as SurfaceStyle })}
-        >
-          {STYLES.map((name) => (
-            <option key={name} value={name}>
-              {STYLE_NAMES[name]}
-            </option>
-          ))}
-        </select>
+          options={STYLES.map((name) => [name, STYLE_NAMES[name]])}
+          onChoose={(name) => choose({ style: name })}
+        />
       )}
       <button
         type="button"

@@ -1,5 +1,4 @@
 /** Panel of the explorer: sets a shape along directions of one model and shows how close the other model comes. */
-import type { AxesKind } from "../../../worker/protocol";
 import { KINDS, MOST_MAGNIFY, SPACES } from "../../state/explorer";
 import {
   choose,
@@ -16,6 +15,7 @@ import {
 import { outOfDate } from "../../state/state";
 import { number } from "../../text/format";
 import { Segments } from "../../ui/Segments";
+import { Select } from "../../ui/Select";
 import { Slider } from "../../ui/Slider";
 import { play, playing, stopPlaying } from "./playing";
 import { Sliders } from "./Sliders";
@@ -34,17 +34,15 @@ export function Explorer() {
         options={SPACES.map((name) => [name, `Drive ${SIGNS[name]}`])}
         onChoose={chooseSpace}
       />
-      <select
-        aria-label="Along which directions"
+      <Select
+        label="Along which directions"
         value={kind}
-        onChange={(event) => chooseKind(event.currentTarget.value as AxesKind)}
-      >
-        {(space === "intersection" ? (["modes"] as const) : KINDS).map((name) => (
-          <option key={name} value={name}>
-            {kindLabel(name, space)}
-          </option>
-        ))}
-      </select>
+        options={(space === "intersection" ? (["modes"] as const) : KINDS).map((name) => [
+          name,
+          kindLabel(name, space),
+        ])}
+        onChoose={chooseKind}
+      />
       {trouble.value && <p class="warning">{trouble.value}</p>}
       <div class="explorer-buttons">
         <button type="button" onClick={calmly(toMean)}>

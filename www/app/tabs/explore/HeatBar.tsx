@@ -4,6 +4,7 @@ import { choose, explorer, lockedHeat } from "../../state/exploring";
 import { unit } from "../../state/state";
 import { viridisGradient } from "../../text/colormap";
 import { number } from "../../text/format";
+import { Check } from "../../ui/Check";
 import { heatRange, ownHeat } from "./controller";
 import { followers, SIGNS } from "./words";
 
@@ -15,14 +16,9 @@ export function HeatBar() {
     .join(" or ");
   return (
     <div class="heat-bar">
-      <label class="check">
-        <input
-          type="checkbox"
-          checked={heat}
-          onChange={(event) => choose({ heat: event.currentTarget.checked })}
-        />
+      <Check checked={heat} onChange={(checked) => choose({ heat: checked })}>
         Colour what {who} misses
-      </label>
+      </Check>
       {range && <Scale range={range} who={who} />}
     </div>
   );
@@ -41,16 +37,14 @@ function Scale({ range, who }: { range: [number, number]; who: string }) {
           {number(range[1])} {unit.value} per vertex
         </span>
       </figure>
-      <label class="check">
-        <input
-          type="checkbox"
-          checked={locked}
-          onChange={(event) => {
-            lockedHeat.value = event.currentTarget.checked ? ownHeat.value : null;
-          }}
-        />
+      <Check
+        checked={locked}
+        onChange={(checked) => {
+          lockedHeat.value = checked ? ownHeat.value : null;
+        }}
+      >
         Lock scale{beyond && <span class="small">; some values lie beyond</span>}
-      </label>
+      </Check>
     </>
   );
 }

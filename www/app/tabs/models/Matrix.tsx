@@ -20,6 +20,7 @@ import { ALIGNMENTS } from "../../state/settings";
 import { change, modelList, settings } from "../../state/state";
 import { viridisGradient } from "../../text/colormap";
 import { saveText } from "../../ui/download";
+import { Select } from "../../ui/Select";
 import { MatrixTable } from "./MatrixTable";
 import { listNames } from "./ModelListTable";
 
@@ -33,19 +34,14 @@ export function Matrix() {
     <figure class="matrix" aria-labelledby="matrix-title">
       <div class="toolbar">
         <h3 id="matrix-title">Pair by pair</h3>
-        <select
-          aria-label="What the table shows"
+        <Select
+          label="What the table shows"
           value={measure.value}
-          onChange={(event) => {
-            measure.value = event.currentTarget.value as MeasureName;
+          options={MEASURE_NAMES.map((name) => [name, MEASURES[name].label])}
+          onChoose={(name) => {
+            measure.value = name;
           }}
-        >
-          {MEASURE_NAMES.map((name) => (
-            <option key={name} value={name}>
-              {MEASURES[name].label}
-            </option>
-          ))}
-        </select>
+        />
         <AlignmentChoice />
         {isStale() && <span class="stale-chip">Out of date</span>}
       </div>
@@ -81,18 +77,16 @@ function isStale(): boolean {
 
 function AlignmentChoice() {
   return (
-    <select
-      aria-label="Align B to A"
+    <Select
+      label="Align B to A"
       title="How each pair is aligned before it is compared; the same setting as for A and B"
       value={settings.value.align}
-      onChange={(event) => change({ align: event.currentTarget.value as Alignment })}
-    >
-      {(Object.keys(ALIGNMENTS) as Alignment[]).map((name) => (
-        <option key={name} value={name}>
-          Aligned: {ALIGNMENTS[name].label.toLowerCase()}
-        </option>
-      ))}
-    </select>
+      options={(Object.keys(ALIGNMENTS) as Alignment[]).map((name) => [
+        name,
+        `Aligned: ${ALIGNMENTS[name].label.toLowerCase()}`,
+      ])}
+      onChoose={(align) => change({ align })}
+    />
   );
 }
 
