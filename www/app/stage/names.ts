@@ -27,7 +27,8 @@ export function shownIn(region: Region): string {
   }
   if (!isDifference(region)) return meaning;
   const drawn = differencePicture();
-  return drawn.startsWith("γ") ? `exaggerated, ${drawn}` : drawn || meaning;
+  if (drawn === "") return meaning;
+  return showsExclusive(view.value) ? drawn : `exaggerated, ${drawn}`;
 }
 
 const EXCLUSIVE: Record<ViewMode, string> = {
@@ -36,12 +37,17 @@ const EXCLUSIVE: Record<ViewMode, string> = {
   sd: "expected residual",
 };
 
-/** What a difference shows other than its draws: exaggeration or exclusive modes; empty if only its draws. */
-export function differencePicture(shows: ViewMode = view.value): string {
+/** Whether a difference shows its exclusive modes instead of its draws. */
+function showsExclusive(shows: ViewMode): boolean {
   // Maps other than standard deviations are always of the draws of a difference.
   const ofDraws = shows === "sd" && vertexMap.value !== "sd";
+  return picture.value === "exclusiveModes" && !ofDraws;
+}
+
+/** What a difference shows other than its draws: exaggeration or exclusive modes; empty if only its draws. */
+export function differencePicture(shows: ViewMode = view.value): string {
   return [
-    ...(picture.value === "exclusiveModes" && !ofDraws ? [EXCLUSIVE[shows]] : []),
+    ...(showsExclusive(shows) ? [EXCLUSIVE[shows]] : []),
     ...(exaggeration.value > 0 ? [`γ\u202f${exaggeration.value.toFixed(1)}`] : []),
   ].join(", ");
 }

@@ -126,11 +126,11 @@ export function drawOverMean(
 /** Difference of the log density from its maximum up to which it is coloured. */
 const DEPTH = 8;
 
-/**
- * Image of a log density, size × size, for the square −extent … extent: viridis, transparent where the density is
- * negligible.
- */
-export function fieldImage({ values, highest }: LessonField): HTMLCanvasElement {
+/** A square picture of values, the top row first, with the red, green, blue and opacity (0 … 1) of each. */
+export function squareImage(
+  values: Float32Array,
+  colourOf: (value: number) => readonly [number, number, number, number],
+): HTMLCanvasElement {
   const size = Math.round(Math.sqrt(values.length));
   const canvas = document.createElement("canvas");
   canvas.width = canvas.height = size;
@@ -138,13 +138,19 @@ export function fieldImage({ values, highest }: LessonField): HTMLCanvasElement 
   if (!pen) return canvas;
   const image = pen.createImageData(size, size);
   values.forEach((value, i) => {
-    const share = Math.exp(value - highest);
-    const [red, green, blue] = viridis(share);
-    const shown = Math.max(0, 1 + (value - highest) / DEPTH);
-    image.data.set([red, green, blue, Math.round(255 * Math.min(1, shown))], 4 * i);
+    const [red, green, blue, opacity] = colourOf(value);
+    image.data.set([red, green, blue, Math.round(255 * opacity)], 4 * i);
   });
   pen.putImageData(image, 0, 0);
   return canvas;
+}
+
+/** Image of a log density for the square −extent … extent: viridis, transparent where the density is negligible. */
+export function fieldImage({ values, highest }: LessonField): HTMLCanvasElement {
+  return squareImage(values, (value) => {
+    const opacity = 1 + (value - highest) / DEPTH;
+    return [...viridis(Math.exp(value - highest)), Math.min(1, Math.max(0, opacity))];
+  });
 }
 
 export function drawField(

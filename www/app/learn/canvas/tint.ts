@@ -1,5 +1,6 @@
 /** Draws a density in one colour with increasing opacity, where the colour tells the model. */
 import type { LessonField } from "../../../worker/protocol";
+import { squareImage } from "./plane";
 
 /** Image of a log density, size × size, the top row first. */
 export function tintedField(
@@ -7,28 +8,12 @@ export function tintedField(
   colour: string,
   strength = 0.7,
 ): HTMLCanvasElement {
-  return tinted(values, colour, (value) => strength * Math.exp(value - highest));
-}
-
-/** Image of any field in one colour; `share` maps a value to an opacity, 0 … 1. */
-function tinted(
-  values: Float32Array,
-  colour: string,
-  share: (value: number) => number,
-): HTMLCanvasElement {
-  const size = Math.round(Math.sqrt(values.length));
-  const canvas = document.createElement("canvas");
-  canvas.width = canvas.height = size;
+  const canvas = squareImage(values, (value) => [0, 0, 0, strength * Math.exp(value - highest)]);
   const pen = canvas.getContext("2d");
   if (!pen) return canvas;
-  const image = pen.createImageData(size, size);
-  values.forEach((value, i) => {
-    image.data[4 * i + 3] = Math.round(255 * share(value));
-  });
-  pen.putImageData(image, 0, 0);
   // The canvas converts any CSS colour to numbers.
   pen.globalCompositeOperation = "source-in";
   pen.fillStyle = colour;
-  pen.fillRect(0, 0, size, size);
+  pen.fillRect(0, 0, canvas.width, canvas.height);
   return canvas;
 }

@@ -2,6 +2,7 @@
 
 import { parseSeed } from "../../state/settings";
 import { count } from "../../text/format";
+import { Select } from "../../ui/Select";
 import { Slider } from "../parts/controls";
 import { PAIRS } from "../scenes";
 import { PAIR_NAMES, SAMPLER_NAMES } from "./names";
@@ -12,7 +13,7 @@ const PLANE_SIGMA = 0.3;
 /** Least number of draws or steps of a scene. */
 const LEAST_COUNT = 16;
 
-interface SelectProps<T extends string> {
+interface NamedProps<T extends string> {
   label: string;
   value: T;
   options: readonly T[];
@@ -20,31 +21,24 @@ interface SelectProps<T extends string> {
   onChange: (value: T) => void;
 }
 
-export function Select<T extends string>({
-  label,
-  value,
-  options,
-  names,
-  onChange,
-}: SelectProps<T>) {
+function NamedChoice<T extends string>(props: NamedProps<T>) {
+  const { label, value, options, names, onChange } = props;
   return (
     <label class="lesson-choice">
       <span class="lesson-label">{label}</span>
-      <select value={value} onChange={(event) => onChange(event.currentTarget.value as T)}>
-        {options.map((option) => (
-          <option key={option} value={option}>
-            {names[option] ?? option}
-          </option>
-        ))}
-      </select>
+      <Select
+        value={value}
+        options={options.map((option) => [option, names[option] ?? option])}
+        onChoose={onChange}
+      />
     </label>
   );
 }
 
-type Common<T extends string> = Pick<SelectProps<T>, "value" | "options" | "onChange">;
+type Common<T extends string> = Pick<NamedProps<T>, "value" | "options" | "onChange">;
 
 export function PairChoice<T extends string>(props: Common<T>) {
-  return <Select label="Models" names={PAIR_NAMES} {...props} />;
+  return <NamedChoice label="Models" names={PAIR_NAMES} {...props} />;
 }
 
 interface AnyPairProps {
@@ -66,13 +60,13 @@ export function AnyPairChoice({ value, starSigma, onChange }: AnyPairProps) {
 }
 
 export function SamplerChoice<T extends string>(props: Common<T>) {
-  return <Select label="Sampler" names={SAMPLER_NAMES} {...props} />;
+  return <NamedChoice label="Sampler" names={SAMPLER_NAMES} {...props} />;
 }
 
 const SIDE_NAMES = { a: "of A, near B", b: "of B, near A" };
 
 export function SideChoice(props: { value: "a" | "b"; onChange: (value: "a" | "b") => void }) {
-  return <Select label="Shapes" options={["a", "b"]} names={SIDE_NAMES} {...props} />;
+  return <NamedChoice label="Shapes" options={["a", "b"]} names={SIDE_NAMES} {...props} />;
 }
 
 /** Slider for a number of draws or steps on a logarithmic scale. */

@@ -27,28 +27,8 @@ export function Numbers({ run }: { run: CloudRun }) {
           metric="intersection.closedForm"
           value={found?.closedForm}
         />
-        <LessonNumber
-          label="R-hat, A and B"
-          metric="sides.a.rHatMax"
-          value={sides?.a.rHatMax}
-          show={(value) => number(value, 3)}
-          note={
-            <span data-metric="sides.b.rHatMax" data-value={sides?.b.rHatMax ?? undefined}>
-              {sides?.b.rHatMax == null ? "–" : number(sides.b.rHatMax, 3)} of B
-            </span>
-          }
-        />
-        <LessonNumber
-          label="effective draws"
-          metric="sides.a.essBulkMin"
-          value={sides?.a.essBulkMin}
-          show={(value) => number(value, 3)}
-          note={
-            <span data-metric="sides.b.essBulkMin" data-value={sides?.b.essBulkMin ?? undefined}>
-              {sides?.b.essBulkMin == null ? "–" : number(sides.b.essBulkMin, 3)} of B
-            </span>
-          }
-        />
+        <OfBoth label="R-hat, A and B" sides={sides} name="rHatMax" />
+        <OfBoth label="effective draws" sides={sides} name="essBulkMin" />
       </LessonNumbers>
       {found && (
         <AdviceLine
@@ -65,6 +45,30 @@ export function Numbers({ run }: { run: CloudRun }) {
         />
       )}
     </>
+  );
+}
+
+interface OfBothProps {
+  label: string;
+  sides: CloudRun["diagnostics"]["value"];
+  name: "rHatMax" | "essBulkMin";
+}
+
+/** A number of the draws from A, and below it that of the draws from B. */
+function OfBoth({ label, sides, name }: OfBothProps) {
+  const ofB = sides?.b[name];
+  return (
+    <LessonNumber
+      label={label}
+      metric={`sides.a.${name}`}
+      value={sides?.a[name]}
+      show={(value) => number(value, 3)}
+      note={
+        <span data-metric={`sides.b.${name}`} data-value={ofB ?? undefined}>
+          {ofB == null ? "–" : number(ofB, 3)} of B
+        </span>
+      }
+    />
   );
 }
 
