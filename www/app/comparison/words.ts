@@ -17,7 +17,7 @@ import type {
 } from "../../worker/protocol";
 import type { Nouns } from "../state/demos";
 import { completed, preparationWords, UNSTATED } from "../state/preparation";
-import { DIFFERENCE_OF } from "../state/regions";
+import { DIFFERENCE_OF, letters } from "../state/regions";
 import type { Reading } from "../state/state";
 import { bytes, count, degrees, length, number, percent, plusMinus } from "../text/format";
 import { type Phrase, reported } from "../text/phrase";
@@ -159,7 +159,7 @@ export function exclusive(report: Report, side: "a" | "b"): Phrase | null {
   const found = report.differences[key].exclusive;
   if (!found) return null;
   const path = `differences.${key}.exclusive`;
-  const [own, other] = side === "a" ? ["A", "B"] : ["B", "A"];
+  const [own, other] = letters(side);
   const strongest = found.residualSd.slice(0, 3);
   const sentence: Phrase = [
     `${other} misses `,

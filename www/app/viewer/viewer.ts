@@ -43,6 +43,23 @@ export interface PaneContent {
   moves?: boolean;
 }
 
+const DRAWN_BY = [
+  "region",
+  "triangles",
+  "segments",
+  "fade",
+  "style",
+  "outline",
+  "moves",
+] as const satisfies (keyof PaneContent)[];
+
+/** Whether two contents have the same cells and style; points, colours and values may differ. */
+export function drawsAlike(one: PaneContent, other: PaneContent): boolean {
+  return (
+    DRAWN_BY.every((key) => one[key] === other[key]) && one.shapes.length === other.shapes.length
+  );
+}
+
 /** New points of one content, and new values per vertex if it is coloured. */
 export interface Moved {
   shape: Float32Array;

@@ -1,5 +1,6 @@
 /** Judges numbers of the lessons in a sentence: convergence, a step, the error of a model, a difference. Pure. */
 import type { ChainGroupSummary, LessonStep, Side } from "../../../worker/protocol";
+import { letters } from "../../state/regions";
 import { count, number, percent } from "../../text/format";
 
 export interface Verdict {
@@ -101,7 +102,7 @@ export function cloudVerdict(
 
 /** Judges the share of a model that the other cannot make, and PCA of the difference. */
 export function differenceVerdict(side: Side, share: number, misled: number): Verdict {
-  const [own, other] = side === "a" ? ["A", "B"] : ["B", "A"];
+  const [own, other] = letters(side);
   if (share > 0.95) {
     return {
       calm: false,

@@ -1,4 +1,5 @@
 import { useEffect, useMemo, useRef } from "preact/hooks";
+import { letters } from "../../state/regions";
 import { Segments } from "../../ui/Segments";
 import { useFrames } from "../clock";
 import { useSceneKeys } from "../keys";
@@ -49,7 +50,7 @@ export function DifferenceScene() {
   };
   const toggle = () => run.toggleRain();
   useSceneKeys(toggle, () => turn(!run.flipped.peek()));
-  const [own, other] = side === "a" ? (["A", "B"] as const) : (["B", "A"] as const);
+  const [own, other] = letters(side);
   return (
     <>
       <p class="lead">

@@ -3,7 +3,7 @@ import type { Explored, Nearest, Space } from "../../../worker/protocol";
 import type { ExplorerState } from "../../state/explorer";
 import { contentOf, drawnWith, isCloud, type Scene, tintOf } from "../../viewer/contents";
 import { blended, magnified } from "../../viewer/morph";
-import type { Moved, PaneContent } from "../../viewer/viewer";
+import { drawsAlike, type Moved, type PaneContent } from "../../viewer/viewer";
 import { otherOf } from "./words";
 
 /** The panes: A, both overlaid, and B. */
@@ -202,14 +202,11 @@ export function movedFrom(
   );
 }
 
-const ALIKE = ["region", "triangles", "segments", "fade", "style", "outline", "moves"] as const;
-
 function looksLike(one: PaneContent, other: PaneContent): boolean {
   return (
-    ALIKE.every((key) => one[key] === other[key]) &&
+    drawsAlike(one, other) &&
     one.tint.every((channel, i) => channel === other.tint[i]) &&
     (one.values === null) === (other.values === null) &&
-    one.shapes.length === other.shapes.length &&
     one.shapes[0]?.length === other.shapes[0]?.length &&
     (one.moves === true || one.shapes === other.shapes)
   );

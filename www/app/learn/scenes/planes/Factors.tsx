@@ -1,5 +1,6 @@
 import type { ComponentChildren } from "preact";
 import type { LessonPoint, Side } from "../../../../worker/protocol";
+import { letters } from "../../../state/regions";
 import { number } from "../../../text/format";
 
 interface Props {
@@ -9,7 +10,7 @@ interface Props {
 
 /** The factors of the density of A∩B at the point, as bars from 0 to 1: nearness, plausibility in both models. */
 export function Factors({ point, side }: Props) {
-  const [here, there] = side === "a" ? ["A", "B"] : ["B", "A"];
+  const [here, there] = letters(side);
   return (
     <dl class="factors" aria-label="Factors of the density of A∩B at x">
       <Factor
