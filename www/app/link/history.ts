@@ -1,5 +1,5 @@
 /** Writes the state of the page into its address and reads it back, so that Back is undo. */
-import { batch, computed, effect, untracked } from "@preact/signals";
+import { batch, computed, effect, type Signal, untracked } from "@preact/signals";
 import { applyLesson, settledLesson } from "../learn/state";
 import { HASH_DIGITS } from "../models/address/codec";
 import { arrange, giveUpAdding, restoreModelList } from "../models/list/actions";
@@ -99,6 +99,41 @@ function listed(): string[] {
   return modelList.value.flatMap(({ source }) => (source.kind === "demo" ? source.name : []));
 }
 
+/** The parts of a link that are more than the value of one signal. */
+type Composed =
+  | keyof LinkedModels
+  | ("page" | "embed" | "demo" | "lesson" | "explorer" | "exaggeration" | "modelList");
+type Simple = Exclude<keyof LinkState, Composed>;
+
+/** The signal that holds each other part of a link. */
+const SIGNALS: { [Part in Simple]: Signal<LinkState[Part]> } = {
+  settings,
+  tab,
+  view,
+  map: vertexMap,
+  mapMode,
+  vertex,
+  scale: lockedRange,
+  heatScale: lockedHeat,
+  side: diagnosedSide,
+  coefficient: diagnosedMode,
+  region,
+  picture,
+  shapes: shapesSeed,
+  measure,
+  camera,
+};
+const SIMPLE_PARTS = Object.keys(SIGNALS) as Simple[];
+
+function simpleParts(): Pick<LinkState, Simple> {
+  const values = SIMPLE_PARTS.map((part) => [part, SIGNALS[part].value]);
+  return Object.fromEntries(values) as Pick<LinkState, Simple>;
+}
+
+function setPart<Part extends Simple>(part: Part, link: LinkState): void {
+  SIGNALS[part].value = link[part];
+}
+
 /** The link of the present state. */
 function present(): LinkState {
   return {
@@ -107,24 +142,10 @@ function present(): LinkState {
     embed: embedded.value,
     demo: demo.value?.id ?? "files",
     ...models(),
-    settings: settings.value,
-    tab: tab.value,
-    view: view.value,
-    map: vertexMap.value,
-    mapMode: mapMode.value,
-    vertex: vertex.value,
+    ...simpleParts(),
     explorer: settledExplorer.value,
-    scale: lockedRange.value,
-    heatScale: lockedHeat.value,
-    side: diagnosedSide.value,
-    coefficient: diagnosedMode.value,
-    region: region.value,
-    picture: picture.value,
     exaggeration: settledExaggeration.value,
-    shapes: shapesSeed.value,
     modelList: listed(),
-    measure: measure.value,
-    camera: camera.value,
   };
 }
 
@@ -304,23 +325,9 @@ export function take(link: LinkState): void {
     // The comparison stays unchanged while another page is shown.
     if (link.page === "learn") applyLesson(link.lesson);
     if (link.page !== "compare") return;
-    settings.value = link.settings;
-    tab.value = link.tab;
-    view.value = link.view;
-    vertexMap.value = link.map;
-    mapMode.value = link.mapMode;
-    vertex.value = link.vertex;
+    for (const part of SIMPLE_PARTS) setPart(part, link);
     applyExplorer(link.explorer);
-    lockedRange.value = link.scale;
-    lockedHeat.value = link.heatScale;
-    diagnosedSide.value = link.side;
-    diagnosedMode.value = link.coefficient;
-    region.value = link.region;
-    picture.value = link.picture;
     exaggeration.value = link.exaggeration;
     settledExaggeration.value = link.exaggeration;
-    measure.value = link.measure;
-    shapesSeed.value = link.shapes;
-    camera.value = link.camera;
   });
 }
