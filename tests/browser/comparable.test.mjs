@@ -1,14 +1,14 @@
 /** Whether two models can be compared as they stand, what helps, and how it is undone. */
 import assert from "node:assert/strict";
-import { join } from "node:path";
 import { test } from "node:test";
-import { root } from "../../scripts/steps/run.mjs";
 import {
   accessibilityFaults,
   downloadReport,
   dropFiles,
+  fixture,
   leave,
   openLink,
+  STARS,
   shownMetrics,
   typeSetting,
   untilDrawn,
@@ -16,9 +16,6 @@ import {
   untilState,
   withPage,
 } from "./harness.mjs";
-
-const fixture = (name) => join(root, "tests/fixtures", name);
-const STARS = "v=1&demo=stars-1&draws=400";
 
 const pair = (page) => page.getByRole("region", { name: "Comparable?" });
 const line = (page) => pair(page).locator(".pair-line");

@@ -1,12 +1,13 @@
 /** What goes wrong is said in a sentence beside what it concerns; what was there stays. */
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
-import { join } from "node:path";
 import { test } from "node:test";
-import { root } from "../../scripts/steps/run.mjs";
 import {
+  card,
   dropFiles,
+  fixture,
   openLink,
+  STARS,
   shownMetrics,
   typeSetting,
   untilCompared,
@@ -16,10 +17,6 @@ import {
   withPage,
 } from "./harness.mjs";
 
-const fixture = (name) => join(root, "tests/fixtures", name);
-const STARS = "v=1&demo=stars-1&draws=400";
-
-const card = (page, side) => page.getByRole("region", { name: `Model ${side}` });
 const title = (page, side) => card(page, side).getByRole("heading").innerText();
 
 const JPEG = Buffer.from("ffd8ffe000104a46494600010100000100010000", "hex");

@@ -6,6 +6,7 @@ import { test } from "node:test";
 import { shapevenn, temporaryFolder } from "./command.mjs";
 import {
   accessibilityFaults,
+  button,
   openLink,
   untilDrawn,
   untilRedrawn,
@@ -21,7 +22,6 @@ const slider = (page, axis) =>
 const field = (page, axis) =>
   page.getByRole("textbox", { name: `Direction ${axis} in standard deviations` });
 const meter = (page) => page.getByRole("meter", { name: "Where the shape lies" });
-const button = (page, name) => page.getByRole("button", { name, exact: true });
 
 async function open(page, url, link) {
   await openLink(page, url, link);

@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
   accessibilityFaults,
+  button,
   download,
   downloadReport,
   isBlankPicture,
@@ -12,8 +13,6 @@ import {
   untilShown,
   withPage,
 } from "./harness.mjs";
-
-const button = (page, name) => page.getByRole("button", { name, exact: true });
 
 async function open(page, url, more) {
   await openLink(page, url, `v=1&${more}`);

@@ -161,6 +161,17 @@ export async function withPage(
   }
 }
 
+/** A comparison that takes no time. */
+export const STARS = "v=1&demo=stars-1&draws=400";
+
+/** The path of a file of the fixtures. */
+export const fixture = (name) => join(root, "tests/fixtures", name);
+
+export const button = (page, name) => page.getByRole("button", { name, exact: true });
+
+/** The card of model A or B. */
+export const card = (page, side) => page.getByRole("region", { name: `Model ${side}` });
+
 /** Resolves once `<html data-state>` is one of `states`. */
 export async function untilState(page, states, timeout = 60_000) {
   await page.waitForFunction(
@@ -377,8 +388,8 @@ export async function isBlankPicture(page, bytes) {
 /** Resolves once the cards carry these names and what they hold has been compared. */
 export async function untilCompared(page, names, timeout = 60_000) {
   for (const [side, name] of Object.entries(names)) {
-    const card = page.getByRole("region", { name: `Model ${side.toUpperCase()}` });
-    await card.getByRole("heading", { name, exact: true }).waitFor({ timeout });
+    const heading = card(page, side.toUpperCase()).getByRole("heading", { name, exact: true });
+    await heading.waitFor({ timeout });
   }
   await untilState(page, "done", timeout);
 }

@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import {
   accessibilityFaults,
+  button,
   leave,
   metric,
   shownMetrics,
@@ -18,7 +19,6 @@ const LINKS = {
 };
 
 const fragment = (link) => `#v=1&page=learn&${link}`;
-const button = (page, name) => page.getByRole("button", { name, exact: true });
 const addressOf = (page) => page.evaluate(() => location.hash);
 
 /** Goes to a scene as somebody who follows a link does: nothing of before is there any more. */

@@ -4,6 +4,7 @@ import { test } from "node:test";
 import { shapevenn } from "./command.mjs";
 import {
   accessibilityFaults,
+  button,
   dropFiles,
   leave,
   shownMetrics,
@@ -34,7 +35,6 @@ async function open(page, url, link) {
 /** The settings in the address, once they have been written down. */
 const settled = (page, pattern) => page.waitForURL(pattern, { timeout: 5000 });
 const setting = (page, key) => new URLSearchParams(new URL(page.url()).hash.slice(1)).get(key);
-const button = (page, name) => page.getByRole("button", { name, exact: true });
 const board = (page) => page.getByRole("application");
 const figure = async (page, metric) =>
   Number(await page.locator(`[data-metric="${metric}"]`).getAttribute("data-value"));

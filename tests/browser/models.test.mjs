@@ -1,21 +1,19 @@
 /** Several models: the list of those that are open, and the table of pairs. */
 import assert from "node:assert/strict";
-import { join } from "node:path";
 import { test } from "node:test";
-import { root } from "../../scripts/steps/run.mjs";
 import {
   accessibilityFaults,
   download,
   downloadReport,
   dropFiles,
+  fixture,
   openLink,
+  STARS,
   untilCompared,
   untilState,
   withPage,
 } from "./harness.mjs";
 
-const fixture = (name) => join(root, "tests/fixtures", name);
-const STARS = "v=1&demo=stars-1&draws=400";
 const HEADS = "heads-male,heads-female,heads-identity,heads-expression";
 
 const models = (page) => page.getByRole("region", { name: "Models", exact: true });

@@ -1,14 +1,15 @@
 /** Whatever is dropped or chosen becomes models: files, folders of meshes, parts of one file. */
 import assert from "node:assert/strict";
-import { join } from "node:path";
 import { test } from "node:test";
-import { root } from "../../scripts/steps/run.mjs";
 import {
   accessibilityFaults,
+  card,
   download,
   downloadReport,
   dropFiles,
+  fixture,
   openLink,
+  STARS,
   untilCompared,
   untilDrawn,
   untilShown,
@@ -17,10 +18,6 @@ import {
 } from "./harness.mjs";
 import { meshes } from "./meshes.mjs";
 
-const fixture = (name) => join(root, "tests/fixtures", name);
-const STARS = "v=1&demo=stars-1&draws=400";
-
-const card = (page, side) => page.getByRole("region", { name: `Model ${side}` });
 const titles = async (page) => [
   await card(page, "A").getByRole("heading").innerText(),
   await card(page, "B").getByRole("heading").innerText(),

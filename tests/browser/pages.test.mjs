@@ -1,13 +1,12 @@
 /** Compare, Learn and Gallery are pages of one page: each a link, a step of Back, and no hindrance to the others. */
 import assert from "node:assert/strict";
-import { join } from "node:path";
 import { test } from "node:test";
 import { EXHIBITS } from "../../scripts/exhibits.mjs";
-import { root } from "../../scripts/steps/run.mjs";
 import { shapevenn } from "./command.mjs";
 import {
   accessibilityFaults,
   dropFiles,
+  fixture,
   openLink,
   untilCompared,
   untilState,
@@ -43,7 +42,7 @@ test("a lesson needs no models, no shapes and no three.js; the comparison begins
 test("what is compared is still there after a lesson, files of one's own too", async () => {
   await withPage({}, async ({ url, page }) => {
     await openLink(page, url, "v=1&demo=planes&draws=400");
-    const files = ["double.h5", "bfm-groups.h5"].map((name) => join(root, "tests/fixtures", name));
+    const files = ["double.h5", "bfm-groups.h5"].map(fixture);
     await dropFiles(page, "body", files);
     await untilCompared(page, { a: "double.h5", b: "bfm-groups.h5" });
     await untilState(page, "done");

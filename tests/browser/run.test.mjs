@@ -2,11 +2,12 @@
 import assert from "node:assert/strict";
 import { join } from "node:path";
 import { test } from "node:test";
-import { root } from "../../scripts/steps/run.mjs";
 import { shapevenn, temporaryFolder, timeless } from "./command.mjs";
 import {
+  button,
   downloadReport,
   dropFiles,
+  fixture,
   openLink,
   shownMetrics,
   typeSetting,
@@ -23,7 +24,6 @@ const ENDLESS_STARS = "v=1&demo=stars-1&sampler=paper-corrected&draws=200000&thi
 const SHORT = "v=1&demo=stars-1&seed=5&draws=800";
 
 const panel = (page) => page.getByRole("region", { name: "Run", exact: true });
-const button = (page, name) => page.getByRole("button", { name, exact: true });
 
 /** Resolves once the run has draws to speak of. */
 async function untilDrawing(page) {
@@ -171,13 +171,12 @@ test("σ belongs to its models: others get the one recommended for them", async 
 
 test("one model exchanged for another keeps the σ that was typed for them", async () => {
   await withPage({}, async ({ url, page }) => {
-    const fixtures = join(root, "tests/fixtures");
     await openLink(page, url, "v=1&demo=planes&draws=400");
-    await dropFiles(page, "body", [join(fixtures, "double.h5"), join(fixtures, "group.h5")]);
+    await dropFiles(page, "body", [fixture("double.h5"), fixture("group.h5")]);
     await untilCompared(page, { a: "double.h5", b: "group.h5" });
     await typeSetting(page, "Tolerance σ", "0.5");
     await untilShown(page, /^σ 0\.500/);
-    await dropFiles(page, "body", [join(fixtures, "cpp-0.9.h5")]);
+    await dropFiles(page, "body", [fixture("cpp-0.9.h5")]);
     await untilCompared(page, { a: "cpp-0.9.h5", b: "group.h5" });
     await untilShown(page, /^σ 0\.500/);
   });

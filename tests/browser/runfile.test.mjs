@@ -1,15 +1,14 @@
 /** A run file makes a comparison again, to the last digit; without its models it says which they were. */
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
-import { join } from "node:path";
 import { test } from "node:test";
-import { root } from "../../scripts/steps/run.mjs";
 import { timeless } from "./command.mjs";
 import {
   accessibilityFaults,
   download,
   downloadReport,
   dropFiles,
+  fixture,
   openLink,
   shownMetrics,
   untilCompared,
@@ -18,7 +17,6 @@ import {
   withPage,
 } from "./harness.mjs";
 
-const fixture = (name) => join(root, "tests/fixtures", name);
 const PLANES = "v=1&demo=planes&draws=400";
 /** Settings of every kind, so that one that is lost is noticed. */
 const STARS =

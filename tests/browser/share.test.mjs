@@ -8,8 +8,10 @@ import { root } from "../../scripts/steps/run.mjs";
 import { compareByCommand, timeless } from "./command.mjs";
 import {
   accessibilityFaults,
+  card,
   downloadReport,
   dropFiles,
+  fixture,
   metric,
   nextRun,
   openLink,
@@ -21,12 +23,10 @@ import {
 } from "./harness.mjs";
 import { host } from "./hosts.mjs";
 
-const fixture = (name) => join(root, "tests/fixtures", name);
 const bytesOf = (name) => readFile(fixture(name));
 const PLANES = "v=1&demo=planes&draws=400";
 const RUN = "draws=400&seed=5";
 
-const card = (page, side) => page.getByRole("region", { name: `Model ${side}` });
 const waiting = (page) => page.getByRole("region", { name: "Link" });
 const notice = (page, code) => page.locator(`.notice[data-code="${code}"]`);
 const fragment = (page) => page.evaluate(() => location.hash);

@@ -1,13 +1,14 @@
 /** Everything that changes the picture can be undone and done again; what was found never vanishes. */
 import assert from "node:assert/strict";
-import { join } from "node:path";
 import { test } from "node:test";
-import { root } from "../../scripts/steps/run.mjs";
 import { timeless } from "./command.mjs";
 import {
+  button,
   downloadReport,
   dropFiles,
+  fixture,
   openLink,
+  STARS,
   shownMetrics,
   typeSetting,
   untilCompared,
@@ -19,13 +20,9 @@ import {
 } from "./harness.mjs";
 import { meshes } from "./meshes.mjs";
 
-const fixture = (name) => join(root, "tests/fixtures", name);
-const STARS = "v=1&demo=stars-1&draws=400";
-
 const undo = (page) => page.getByRole("button", { name: "Undo", exact: true });
 const redo = (page) => page.getByRole("button", { name: "Redo", exact: true });
 const radio = (page, name) => page.getByRole("radio", { name, exact: true });
-const button = (page, name) => page.getByRole("button", { name, exact: true });
 const text = (page, name) => page.getByRole("textbox", { name }).inputValue();
 const staleResults = (page) => page.locator('.results[data-stale="true"]');
 
