@@ -12,7 +12,7 @@ export interface Advice {
   chain: number | null;
 }
 
-interface Props {
+export interface ChartProps {
   title: string;
   /** Explanation of the plot in a sentence. */
   about: ComponentChildren;
@@ -29,7 +29,7 @@ interface Props {
 }
 
 /** A plot with title, explanation, advice, and a table of its numbers. */
-export function Chart(props: Props) {
+export function Chart(props: ChartProps) {
   const { title, about, label, height, draw, legend, advice, table, children, name } = props;
   const box = useRef<HTMLDivElement>(null);
   const width = useSignal(0);

@@ -1,4 +1,5 @@
 import { linear, type Scale, ticks } from "../text/plots";
+import { Chart, type ChartProps } from "./Chart";
 import { Mark } from "./Mark";
 import { PlotAxes, wholeTicks } from "./PlotAxes";
 
@@ -27,20 +28,27 @@ interface Props {
   showUp?: (value: number) => string;
 }
 
+interface CurveChartProps extends Omit<ChartProps, "height" | "draw" | "legend"> {
+  plot: Omit<Props, "width">;
+}
+
+/** Chart of curves over the number of modes, with a legend if there are several. */
+export function CurveChart({ plot, ...chart }: CurveChartProps) {
+  return (
+    <Chart
+      {...chart}
+      height={() => plot.height}
+      draw={(width) => <Curves width={width} {...plot} />}
+      legend={plot.curves.length > 1 && <CurveLegend curves={plot.curves} />}
+    />
+  );
+}
+
 /** Largest number of points that have marks; longer curves are lines only. */
 const MOST_MARKS = 60;
 
 /** Plot of curves over the number of modes, from 0 upwards. They differ in marks and dashes, not only in colour. */
-export function Curves({
-  width,
-  height,
-  curves,
-  acrossName,
-  upName,
-  top,
-  showUp,
-  ...props
-}: Props) {
+function Curves({ width, height, curves, acrossName, upName, top, showUp, ...props }: Props) {
   const box = { left: 46, right: width - 10, top: 24, bottom: height - 36 };
   const ends = curves.flatMap(({ values, errors }) =>
     values.map((value, i) => value + (errors?.[i] ?? 0)),

@@ -1,34 +1,29 @@
 import type { Report } from "../../../worker/protocol";
 import { angleLabel, angleSentence } from "../../comparison/measured";
 import { degrees } from "../../text/format";
-import { Chart } from "../../ui/Chart";
-import { Curves } from "../../ui/Curves";
+import { CurveChart } from "../../ui/Curves";
 import { DataTable } from "../../ui/DataTable";
 
 /** Plot and table of the principal angles between the two shape spaces, smallest first. */
 export function Angles({ report }: { report: Report }) {
   const angles = report.overlap.principalAnglesDegrees;
   return (
-    <Chart
+    <CurveChart
       name="angles"
       title="Principal angles"
       about={angleSentence(angles)}
       label={angleLabel(angles)}
-      height={() => 206}
-      draw={(width) => (
-        <Curves
-          width={width}
-          height={206}
-          curves={[
-            { key: "intersection", label: "angle", mark: "circle", values: angles, line: false },
-          ]}
-          acrossName="direction, most alike first"
-          upName="degrees"
-          top={90}
-          up={[0, 30, 60, 90]}
-          showUp={(value) => `${value}°`}
-        />
-      )}
+      plot={{
+        height: 206,
+        curves: [
+          { key: "intersection", label: "angle", mark: "circle", values: angles, line: false },
+        ],
+        acrossName: "direction, most alike first",
+        upName: "degrees",
+        top: 90,
+        up: [0, 30, 60, 90],
+        showUp: (value) => `${value}°`,
+      }}
       table={() => (
         <DataTable
           file="principal-angles"

@@ -9,8 +9,7 @@ import {
 import { evaluationSentence, methodSentence } from "../../comparison/measured";
 import { SIDES, type Side, slotKey, slots } from "../../state/state";
 import { number } from "../../text/format";
-import { Chart } from "../../ui/Chart";
-import { type Curve, CurveLegend, Curves } from "../../ui/Curves";
+import { type Curve, CurveChart } from "../../ui/Curves";
 import { DataTable } from "../../ui/DataTable";
 import { FileButton } from "../../ui/FileButton";
 
@@ -126,22 +125,17 @@ function EvaluationChart({ evaluation, unit, side }: ChartProps) {
   ];
   const sentence = evaluationSentence(evaluation, name, unit);
   return (
-    <Chart
+    <CurveChart
       name={`evaluation-${side}`}
       title={`Model ${name} tested`}
       about={`${methodSentence(evaluation)} ${sentence} Bars: ± one standard error.`}
       label={`Generalization and specificity of ${name} by the number of modes. ${sentence}`}
-      height={() => 216}
-      draw={(width) => (
-        <Curves
-          width={width}
-          height={216}
-          curves={curves}
-          acrossName="modes"
-          upName={`mean distance per vertex, ${unit}`}
-        />
-      )}
-      legend={<CurveLegend curves={curves} />}
+      plot={{
+        height: 216,
+        curves,
+        acrossName: "modes",
+        upName: `mean distance per vertex, ${unit}`,
+      }}
       table={() => (
         <DataTable
           file={`evaluation-${side}`}

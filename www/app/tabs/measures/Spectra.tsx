@@ -2,8 +2,7 @@ import type { Report } from "../../../worker/protocol";
 import { compactnessSentence } from "../../comparison/measured";
 import { exclusive } from "../../comparison/words";
 import { number, percent } from "../../text/format";
-import { Chart } from "../../ui/Chart";
-import { type Curve, CurveLegend, Curves } from "../../ui/Curves";
+import { type Curve, CurveChart } from "../../ui/Curves";
 import { DataTable } from "../../ui/DataTable";
 import { Phrase } from "../../ui/Phrase";
 
@@ -20,25 +19,20 @@ export function Compactness({ report }: { report: Report }) {
   const modes = Math.max(...curves.map(({ values }) => values.length));
   const sentence = compactnessSentence(found);
   return (
-    <Chart
+    <CurveChart
       name="compactness"
       title="Compactness"
       about={`Share of the variance that the first modes of each model explain. ${sentence}`}
       label={`Compactness curves of A, B and A∩B. ${sentence}`}
-      height={() => 226}
-      draw={(width) => (
-        <Curves
-          width={width}
-          height={226}
-          curves={curves}
-          acrossName="modes"
-          upName="share of the variance"
-          top={1}
-          up={[0, 0.25, 0.5, 0.75, 1]}
-          showUp={(value) => `${100 * value}\u202f%`}
-        />
-      )}
-      legend={<CurveLegend curves={curves} />}
+      plot={{
+        height: 226,
+        curves,
+        acrossName: "modes",
+        upName: "share of the variance",
+        top: 1,
+        up: [0, 0.25, 0.5, 0.75, 1],
+        showUp: (value) => `${100 * value}\u202f%`,
+      }}
       table={() => (
         <DataTable
           file="compactness"
@@ -71,7 +65,7 @@ export function ExclusiveSpectrum({ report }: { report: Report }) {
   ];
   const sentences = (["a", "b"] as const).map((side) => exclusive(report, side));
   return (
-    <Chart
+    <CurveChart
       name="exclusive"
       title="Exclusive spectrum"
       about={
@@ -89,17 +83,12 @@ export function ExclusiveSpectrum({ report }: { report: Report }) {
         </>
       }
       label={`Exclusive modes: of A from ${number(a[0] ?? 0)} ${unit} down to ${number(a.at(-1) ?? 0)}, of B from ${number(b[0] ?? 0)} down to ${number(b.at(-1) ?? 0)}.`}
-      height={() => 226}
-      draw={(width) => (
-        <Curves
-          width={width}
-          height={226}
-          curves={curves}
-          acrossName="exclusive mode"
-          upName={`residual of one SD, ${unit}`}
-        />
-      )}
-      legend={<CurveLegend curves={curves} />}
+      plot={{
+        height: 226,
+        curves,
+        acrossName: "exclusive mode",
+        upName: `residual of one SD, ${unit}`,
+      }}
       table={() => (
         <DataTable
           file="exclusive-modes"
