@@ -1,9 +1,9 @@
 /** Asks the engine for generalization and specificity of a model, as Davies defines them, with given shapes. */
 import { type Signal, signal } from "@preact/signals";
 import { EngineFailure, sentenceOf } from "../../worker/engine-errors";
-import type { DroppedFile, Evaluation } from "../../worker/protocol";
+import type { DroppedFile, Evaluation, Side } from "../../worker/protocol";
 import { engineClient } from "../state/engine";
-import { type Side, slotKey, slots, spoken } from "../state/state";
+import { slotKey, slots, spoken } from "../state/state";
 import { evaluationSentence } from "./measured";
 
 export interface Evaluated {

@@ -1,5 +1,6 @@
 /** Writes the state of the page into its address and reads it back, so that Back is undo. */
 import { batch, computed, effect, type Signal, untracked } from "@preact/signals";
+import type { Side } from "../../worker/protocol";
 import { applyLesson, settledLesson } from "../learn/state";
 import { HASH_DIGITS } from "../models/address/codec";
 import { arrange, giveUpAdding, restoreModelList } from "../models/list/actions";
@@ -29,7 +30,6 @@ import {
   picture,
   region,
   SIDES,
-  type Side,
   type Slot,
   type Source,
   settings,

@@ -1,7 +1,7 @@
 /** Opens models as A or B. If a model cannot be opened the former one stays. */
 import { batch, signal } from "@preact/signals";
 import { EngineFailure, wasAborted } from "../../worker/engine-errors";
-import type { DroppedFile } from "../../worker/protocol";
+import type { DroppedFile, Side } from "../../worker/protocol";
 import type { Demo } from "../state/demos";
 import { engineClient, report } from "../state/engine";
 import { withoutSides } from "../state/preparation";
@@ -19,7 +19,6 @@ import {
   type Reading,
   reopening,
   SIDES,
-  type Side,
   type Slot,
   type Source,
   settings,

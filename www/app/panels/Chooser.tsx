@@ -1,9 +1,10 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import type { Side } from "../../worker/protocol";
 import { openEvery } from "../models/list/actions";
 import { choosing, openChosen } from "../models/opening";
 import { type NamedSource, nameOf } from "../models/sources";
-import { SIDES, type Side, slots, sourceKey } from "../state/state";
+import { SIDES, slots, sourceKey } from "../state/state";
 
 /** Dialog that asks which of several dropped models are compared as A and B. */
 export function Chooser() {

@@ -1,5 +1,5 @@
 import { useEffect, useRef } from "preact/hooks";
-import type { ModelReport } from "../../worker/protocol";
+import type { ModelReport, Side } from "../../worker/protocol";
 import { basisSentence, originSentence, readingSentence, unitSentence } from "../comparison/words";
 import { askedName } from "../link/waiting";
 import { cancelOpening, choosePart, chooseScale, openParts } from "../models/opening";
@@ -13,7 +13,6 @@ import {
   opening,
   partName,
   result,
-  type Side,
   type Slot,
   settings,
   slots,

@@ -1,6 +1,7 @@
+import type { Side } from "../../worker/protocol";
 import { keptModes } from "../state/preparation";
 import { parseCount, rangeOf } from "../state/settings";
-import { change, type Side, settings } from "../state/state";
+import { change, settings } from "../state/state";
 import { count } from "../text/format";
 
 const SHARES = [0.9, 0.95, 0.99];

@@ -1,4 +1,4 @@
-import type { Side } from "../state/state";
+import type { Side } from "../../worker/protocol";
 import { FileButton } from "../ui/FileButton";
 import { openFiles } from "./dropped-files";
 

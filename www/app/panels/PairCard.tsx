@@ -1,21 +1,12 @@
 import { useSignal } from "@preact/signals";
 import { useRef } from "preact/hooks";
-import type { Inspection, Remedy, SidePreparation } from "../../worker/protocol";
+import type { Inspection, Remedy, Side, SidePreparation } from "../../worker/protocol";
 import { alignmentWords, pairLine } from "../comparison/words";
 import { beginPainting } from "../models/painting";
 import { takeList } from "../models/pair";
 import { pointsText, UNITS, UNSTATED } from "../state/preparation";
 import { ALIGNMENTS, DEFAULTS, parseCount, SUBSAMPLE } from "../state/settings";
-import {
-  change,
-  inspected,
-  pairKey,
-  SIDES,
-  type Side,
-  settings,
-  spoken,
-  unit,
-} from "../state/state";
+import { change, inspected, pairKey, SIDES, settings, spoken, unit } from "../state/state";
 import { count, number } from "../text/format";
 import { parseRanges } from "../text/ranges";
 import { Check } from "../ui/Check";

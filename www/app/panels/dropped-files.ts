@@ -1,8 +1,8 @@
 /** Opens dropped or chosen files: models, a run file, or a run file with its models. */
-import type { DroppedFile } from "../../worker/protocol";
+import type { DroppedFile, Side } from "../../worker/protocol";
 import { openRun, runAmong } from "../link/runfile/run";
 import { openModels } from "../models/opening";
-import { page, type Side } from "../state/state";
+import { page } from "../state/state";
 
 /** Folders of shapes have no run file among them. */
 const MOST_LOOKED_INTO = 20;

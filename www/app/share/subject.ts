@@ -1,11 +1,12 @@
 /** Describes what the share dialog shares: the comparison, the scene of a lesson, or the gallery. */
 
+import type { Side } from "../../worker/protocol";
 import { headline } from "../comparison/words";
 import { titleOf } from "../learn/scenes";
 import { scene } from "../learn/state";
 import { currentLink, unlinkable } from "../link/history";
 import { nameOf } from "../models/sources";
-import { nouns, page, result, type Side, settings, slots } from "../state/state";
+import { nouns, page, result, settings, slots } from "../state/state";
 import { plain } from "../text/phrase";
 import { type CommandModel, commandOf } from "./command";
 import { copiedWords, holdsSentences, type Unlinkable } from "./holds";

@@ -1,8 +1,8 @@
 /** Opens files that are dropped anywhere on the window; a drop never leaves the page. */
 import { signal } from "@preact/signals";
-import type { DroppedFile } from "../../worker/protocol";
+import type { DroppedFile, Side } from "../../worker/protocol";
 import { openFiles } from "../panels/dropped-files";
-import { notify, type Side } from "../state/state";
+import { notify } from "../state/state";
 import { count } from "../text/format";
 import { filesBelow, filesOf, MOST_FILES } from "../ui/folders";
 

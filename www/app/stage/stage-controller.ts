@@ -1,6 +1,6 @@
 /** Updates the viewer of the five regions when shapes, colours, camera or selection change. */
 import { computed, effect, signal } from "@preact/signals";
-import type { Region } from "../../worker/protocol";
+import type { Region, Side } from "../../worker/protocol";
 import { beginStroke, brushRadius, paintAt, undoStroke } from "../models/painting";
 import { HOME } from "../state/camera";
 import { REGIONS } from "../state/regions";
@@ -12,7 +12,6 @@ import {
   packagedHeads,
   painting,
   region,
-  type Side,
   shapes,
   slots,
   tab,

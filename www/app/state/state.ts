@@ -14,6 +14,7 @@ import type {
   Report,
   Settings,
   SettingsPatch,
+  Side,
   Sides,
 } from "../../worker/protocol";
 import { type Camera, HOME } from "./camera";
@@ -23,7 +24,6 @@ import { patched } from "./preparation";
 import { DEFAULTS, settingsKey } from "./settings";
 import { FIRST_VIEW, type PageName, type Tab, type ViewMode } from "./view";
 
-export type Side = "a" | "b";
 export const SIDES: Side[] = ["a", "b"];
 
 /** Where a model came from, so that it can be opened again. */

@@ -1,7 +1,7 @@
 /** The steps of undo, and changes that are joined to a step instead of making one. */
 import { batch } from "@preact/signals";
-import type { PointSelection } from "../../worker/protocol";
-import type { Side, Wanted } from "./state";
+import type { PointSelection, Side } from "../../worker/protocol";
+import type { Wanted } from "./state";
 import { Steps } from "./steps";
 
 /** State of a step that no address can hold: files, and long lists of points. */

@@ -1,4 +1,4 @@
-import type { Side } from "../state/state";
+import type { Side } from "../../worker/protocol";
 import { number } from "../text/format";
 
 const [WIDTH, HEIGHT] = [120, 44];

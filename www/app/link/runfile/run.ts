@@ -1,7 +1,7 @@
 /** Repeats the comparison of a run file, as soon as its models are open. */
 import { batch, computed, effect, signal } from "@preact/signals";
 import { wasAborted } from "../../../worker/engine-errors";
-import type { DroppedFile } from "../../../worker/protocol";
+import type { DroppedFile, Side } from "../../../worker/protocol";
 import { looksLikeAddress } from "../../models/address/address";
 import { openPair } from "../../models/opening";
 import {
@@ -23,7 +23,6 @@ import {
   opening,
   result,
   SIDES,
-  type Side,
   type Slot,
   settings,
   slots,

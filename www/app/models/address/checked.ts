@@ -1,6 +1,7 @@
 /** Checks whether the file at an address is still the one that the link was made with. */
 import { computed, effect, untracked } from "@preact/signals";
-import { dismiss, linked, notify, SIDES, type Side, slots, spoken } from "../../state/state";
+import type { Side } from "../../../worker/protocol";
+import { dismiss, linked, notify, SIDES, slots, spoken } from "../../state/state";
 import { nameOf } from "../sources";
 import { HASH_DIGITS } from "./codec";
 

@@ -1,5 +1,6 @@
 /** Adds models to the model list, removes them, and chooses which two of them are compared. */
 import { EngineFailure, sentenceOf, wasAborted } from "../../../worker/engine-errors";
+import type { Side } from "../../../worker/protocol";
 import { report } from "../../state/engine";
 import { otherSide } from "../../state/regions";
 import {
@@ -8,7 +9,6 @@ import {
   dismiss,
   modelList,
   type Reading,
-  type Side,
   type Slot,
   type Source,
   settings,

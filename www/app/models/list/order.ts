@@ -1,5 +1,6 @@
 /** Order and names of the open models. Pure. */
-import { type Side, type Slot, slotKey } from "../../state/state";
+import type { Side } from "../../../worker/protocol";
+import { type Slot, slotKey } from "../../state/state";
 
 export type Compared = Record<Side, Slot | null>;
 

@@ -1,15 +1,8 @@
 /** Opens all models again after a restart of the engine, the two that are compared first. */
 import { batch } from "@preact/signals";
+import type { Side } from "../../../worker/protocol";
 import { onEngineRestart, report } from "../../state/engine";
-import {
-  modelList,
-  reopening,
-  SIDES,
-  type Side,
-  type Slot,
-  slotKey,
-  slots,
-} from "../../state/state";
+import { modelList, reopening, SIDES, type Slot, slotKey, slots } from "../../state/state";
 import { load } from "../opening";
 import { openWanted, wantedOf } from "../sources";
 import { forgetHandles, release, retain } from "./handles";

@@ -1,4 +1,4 @@
-import type { Evaluation } from "../../../worker/protocol";
+import type { Evaluation, Side } from "../../../worker/protocol";
 import {
   type Evaluated,
   evaluate,
@@ -7,7 +7,7 @@ import {
   trainingFiles,
 } from "../../comparison/evaluating";
 import { evaluationSentence, methodSentence } from "../../comparison/measured";
-import { SIDES, type Side, slotKey, slots } from "../../state/state";
+import { SIDES, slotKey, slots } from "../../state/state";
 import { number } from "../../text/format";
 import { type Curve, CurveChart } from "../../ui/Curves";
 import { DataTable } from "../../ui/DataTable";

@@ -1,3 +1,4 @@
+import type { Side } from "../../../worker/protocol";
 import { addModels, chooseFor, removeModel } from "../../models/list/actions";
 import { isSame, namesOf } from "../../models/list/order";
 import { nameOf } from "../../models/sources";
@@ -8,7 +9,6 @@ import {
   partName,
   reopening,
   SIDES,
-  type Side,
   type Slot,
   slots,
   sourceKey,
