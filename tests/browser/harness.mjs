@@ -161,7 +161,7 @@ export async function withPage(
   }
 }
 
-/** A comparison that takes no time. */
+/** A small comparison, for tests that need any. */
 export const STARS = "v=1&demo=stars-1&draws=400";
 
 /** The path of a file of the fixtures. */
