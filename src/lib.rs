@@ -12,7 +12,7 @@
 //!
 //! ```toml
 //! [dependencies]
-//! shapevenn = { version = "0.1", default-features = false }
+//! shapevenn = { version = "0.2", default-features = false }
 //! ```
 //!
 //! The feature `cli`, the only one and on by default, adds the program `shapevenn` and nothing to the library.
@@ -131,11 +131,13 @@
 //! # Modules
 //!
 //! A module uses only those before it: [`linalg`], [`model`], [`sampling`], [`formats`], [`pair`], [`measure`],
-//! [`settings`], [`report`], [`error`], [`inspect`], [`relate`], [`demos`], [`comparison`], [`files`].
+//! [`settings`], [`report`], [`error`], [`inspect`], [`relate`], [`evidence`],
+//! [`demos`], [`comparison`], [`files`].
 
 pub mod comparison;
 pub mod demos;
 pub mod error;
+pub mod evidence;
 pub mod files;
 pub mod formats;
 pub mod inspect;

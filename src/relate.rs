@@ -8,14 +8,18 @@ use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
 use crate::error::ComparisonError;
+use crate::evidence::left_out_errors;
 use crate::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, bhattacharyya_distance, kullback_leibler,
     mean_vertex_distance, principal_angles,
 };
 use crate::model::LinearModel;
-use crate::pair::{Joint, Pair, ResidualOperator, recommended_tolerance};
+use crate::pair::{
+    Joint, Meeting, Pair, ResidualOperator, nearest_meeting, plausible_radius,
+    recommended_tolerance,
+};
 use crate::report::{KullbackLeibler, Notice, Overlap};
-use crate::settings::Settings;
+use crate::settings::{Settings, Sigma};
 
 /// Closed-form measures of two models.
 #[derive(Debug, Clone, PartialEq)]
@@ -110,9 +114,8 @@ fn of_pair(pair: &Pair, settings: &Settings) -> Relation {
     });
     let operators = operators.as_ref();
     let joint = pair.joint();
-    let noise = settings
-        .sigma
-        .unwrap_or_else(|| recommended_tolerance(pair, operators, settings.noise).sigma);
+    let noise =
+        settings.sigma.unwrap_or_else(|| recommended_sigma(pair, operators, settings.noise).value);
     let overlap = overlap(pair, operators, &joint, noise);
     let away = joint.coordinates_of(joint.origin());
     let spaces = Side::BOTH.map(|side| affine_space(&away, joint.mean(side), joint.modes(side)));
@@ -129,6 +132,50 @@ fn of_pair(pair: &Pair, settings: &Settings) -> Relation {
         bhattacharyya: Some(overlap.bhattacharyya).filter(|&value| value < f64::MAX),
         noise,
     }
+}
+
+/// The recommended σ of a pair, as a comparison finds it step by step.
+pub(crate) fn recommended_sigma(
+    pair: &Pair,
+    operators: Sides<&ResidualOperator>,
+    noise: Option<f64>,
+) -> Sigma {
+    let tolerance = recommended_tolerance(pair, operators, noise);
+    let meeting = meeting_of(pair, operators.a).map(|meeting| meeting.distance);
+    Sigma::recommended(&tolerance, mean_left_out(&left_out(pair), pair.scale()), meeting)
+}
+
+/// The leave-one-out errors of the training shapes of either model, where they are known: with as many modes as the
+/// model has, where it was cut to fewer than its shapes make.
+pub(crate) fn left_out(pair: &Pair) -> Sides<Option<Vec<f64>>> {
+    pair.models().map(|model| {
+        let training = model.training_shapes()?;
+        let cut = model.mode_count() + 1 < training.count();
+        let modes = cut.then(|| model.mode_count());
+        Some(left_out_errors(model.dimension(), &training.shapes(), modes))
+    })
+}
+
+/// Their mean over the models of which they are known, each model with the same weight. `scale` is the length beside
+/// which a distance is rounding: errors that are, because the shapes fill the space that they lie in, say nothing.
+pub(crate) fn mean_left_out(errors: &Sides<Option<Vec<f64>>>, scale: f64) -> Option<f64> {
+    const ROUNDING: f64 = 1e-6;
+    let means: Vec<f64> = errors
+        .iter()
+        .flatten()
+        .map(|of| of.iter().sum::<f64>() / of.len() as f64)
+        .filter(|mean| *mean > ROUNDING * scale)
+        .collect();
+    (!means.is_empty()).then(|| means.iter().sum::<f64>() / means.len() as f64)
+}
+
+/// The least distance of plausible shapes; `None` where B makes all shapes of A, or there is none.
+pub(crate) fn meeting_of(pair: &Pair, operator_of_a: &ResidualOperator) -> Option<Meeting> {
+    if operator_of_a.is_contained(pair.scale()) {
+        return None;
+    }
+    let radii = pair.models().map(|model| plausible_radius(model.mode_count()));
+    nearest_meeting(pair, radii.into_array())
 }
 
 /// What the report says of two models' spaces and variances.

@@ -23,11 +23,12 @@ use crate::linalg::Moments;
 use crate::measure::{Evaluation, Method};
 use crate::model::{Alignment, Geometry, Kind, Side, Sides, Unit};
 use crate::pair::{DifferenceDefinition, FitMethod, PointSelection, Preparation, SidePreparation};
+use crate::pair::{MeanSquare, Quantiles, ReachOfSide};
 use crate::relate::RelationReport;
 use crate::report::*;
 use crate::settings::{
     FIELDS, Field, FieldValue, FitChoice, LEAST_DRAWS_OF_A_CHAIN, Plausibility, Pooling, Sampler,
-    Settings,
+    Settings, SigmaSource,
 };
 
 /// Declarations in the order in which they are asked for.
@@ -121,6 +122,9 @@ fn declarations() -> String {
         Agreement, UnitFound, MeanDistance, Remedy, Inspection, RelationReport,
         Method, Evaluation,
         // The report.
+        SigmaSource, Quantiles, MeanSquare, ReachOfSide, ReachCurve, ReachReport,
+        Chance, StatisticName, Statistic, Hypothesis, Band, Bands, LeftOut, MatchedShares, ToldApart,
+        VertexEvidence, ModeStability, EvidenceReport,
         MeanSd, Diagnostics, ModeDiagnostics, MomentSource, InferenceReport, Accuracy, Disagreement,
         ToleranceReport, Grassmann, IntersectionReport, EnvelopeName, ExclusiveReport,
         LinearSplitReport, DifferenceReport, Differences, KullbackLeibler, Overlap, Compactness,

@@ -113,6 +113,55 @@ fn compare_prints_one_report_with_every_field_that_is_promised() {
     }
 }
 
+/// A folder of `count` triangles in space, whose corners vary by random numbers about `height`.
+fn triangles(name: &str, count: usize, height: f64) -> String {
+    use shapevenn::sampling::{Stream, fill_normal, stream};
+    let folder = folder(name);
+    let mut random = stream(count as u64, Stream::Display, 9, 0);
+    for shape in 0..count {
+        let mut noise = [0.0; 18];
+        fill_normal(&mut random, &mut noise);
+        let corners = [
+            [0., 0., 0.],
+            [9., 0., 0.],
+            [0., 9., 0.],
+            [9., 9., height],
+            [4., 4., 9.],
+            [0., 5., 5.],
+        ];
+        let mut lines = String::new();
+        for (corner, noise) in corners.iter().zip(noise.chunks_exact(3)) {
+            let [x, y, z] = [0, 1, 2].map(|axis| corner[axis] + 0.3 * noise[axis]);
+            lines.push_str(&format!("v {x} {y} {z}\n"));
+        }
+        lines.push_str("f 1 2 3\nf 2 3 4\nf 4 5 6\n");
+        std::fs::write(folder.join(format!("s{shape}.obj")), lines).unwrap();
+    }
+    folder.to_string_lossy().into_owned()
+}
+
+#[test]
+fn evidence_of_two_folders_is_that_of_their_comparison_and_a_model_without_shapes_is_refused() {
+    let (low, high) = (triangles("evidence-low", 9, 0.0), triangles("evidence-high", 10, 6.0));
+    let alone: Value =
+        serde_json::from_str(&printed(&["evidence", &low, &high, "--json"])).unwrap();
+    let report: Value =
+        serde_json::from_str(&printed(&["compare", &low, &high, "--json"])).unwrap();
+    assert_eq!(report["evidence"], alone, "the same numbers");
+    assert_eq!(report["sigmaSource"], "left-out", "σ of the population");
+    assert_eq!(alone["shapes"], serde_json::json!({ "a": 9, "b": 10 }), "all shapes");
+    let p = |found: &Value| found["onePopulation"]["statistics"][0]["pAdjusted"].as_f64().unwrap();
+    assert!(p(&alone) < 0.05, "the means differ by six: {}", p(&alone));
+    let words = printed(&["evidence", &low, &high]);
+    assert!(words.contains("the two differ by more than chance"), "in words: {words}");
+    let refused = shapevenn(&["evidence", &low, "demo:stars-1-a"]);
+    assert_eq!(refused.status.code(), Some(2), "a model whose shapes are not known");
+    let complaint = text(&refused.stderr);
+    assert!(complaint.contains("training shapes are not known"), "{complaint}");
+    let found: Value = serde_json::from_str(&printed(&["matrix", &low, &high, "--json"])).unwrap();
+    assert_eq!(found["relations"][0]["evidence"], alone, "of every pair of a matrix");
+}
+
 #[test]
 fn a_matrix_relates_every_two_models_and_says_why_where_it_cannot() {
     let files = ["demo:stars-1-a", "demo:stars-1-b", "demo:planes-a"];

@@ -9,7 +9,7 @@ use nalgebra::DVector;
 use shapevenn::comparison::{Comparison, Preview, Region, ShapeSource};
 use shapevenn::model::LinearModel;
 use shapevenn::report::{MomentSource, Report};
-use shapevenn::settings::{Plausibility, Pooling, Sampler, Settings};
+use shapevenn::settings::{Plausibility, Pooling, Sampler, Settings, SigmaSource};
 
 const POINTS: usize = 60;
 const MODES: usize = 6;
@@ -44,19 +44,17 @@ fn models_that_do_not_meet_within_the_noise_are_said_not_to() {
 }
 
 #[test]
-fn the_recommended_tolerance_heeds_the_noise_and_takes_it_from_modes_that_are_cut_off() {
-    let plain = of(few()).intersection.tolerance.unwrap();
-    let share = |share: f64| plain.nearest + share * (plain.farthest - plain.nearest);
-    let with = |noise: f64| {
-        of(Settings { noise: Some(noise), ..few() }).intersection.tolerance.unwrap().recommended
-    };
-    assert_eq!(with(share(0.1)), plain.recommended, "less noise than a quarter of the range");
-    assert!(with(share(0.5)) > 1.5 * plain.recommended, "more");
-    assert_eq!(with(share(0.95)), with(share(2.0)), "nine tenths at the most");
+fn the_recommended_tolerance_is_the_noise_where_it_is_known_or_modes_were_cut_off() {
+    for noise in [0.01, 3.0] {
+        let found = of(Settings { noise: Some(noise), ..few() });
+        assert_eq!(found.sigma_source, Some(SigmaSource::Noise), "{noise}");
+        assert_eq!(found.settings.sigma, Some(noise), "as it is");
+        assert_eq!(found.intersection.tolerance.unwrap().recommended, noise, "and recommended");
+    }
     // Half of the modes: the noise is that of the other half, both models' share of it.
     let (a, b) = pair();
-    let cut = Settings { modes: Some(MODES / 2), ..few() };
-    let noise = report(&compared(&a, &b, cut)).intersection.tolerance.unwrap().noise.unwrap();
+    let cut = report(&compared(&a, &b, Settings { modes: Some(MODES / 2), ..few() }));
+    let noise = cut.intersection.tolerance.unwrap().noise.unwrap();
     let tail = |model: &LinearModel| {
         model.standard_deviations().iter().skip(MODES / 2).map(|s| s * s).sum::<f64>()
     };
@@ -64,6 +62,7 @@ fn the_recommended_tolerance_heeds_the_noise_and_takes_it_from_modes_that_are_cu
     // E‖·‖/rms of an isotropic vector in space is √(8/3π).
     let expected = (8.0 / (3.0 * core::f64::consts::PI) * square).sqrt();
     assert!((noise / expected - 1.0).abs() < 1e-3, "{noise}, not {expected}");
+    assert_eq!(cut.sigma_source, Some(SigmaSource::Noise), "from the modes that were cut off");
 }
 
 #[test]

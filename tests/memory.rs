@@ -13,8 +13,9 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use files::tests;
 use nalgebra::{DMatrix, DVector};
 use peak_alloc::PeakAlloc;
+use shapevenn::evidence::{self, Evidence, Groups};
 use shapevenn::formats::{self, FormatError, Input, Opened, Options};
-use shapevenn::model::LinearModel;
+use shapevenn::model::{Alignment, LinearModel};
 
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
@@ -174,4 +175,26 @@ fn a_large_model_takes_a_small_multiple_of_its_file() {
         println!("{name}: {:.2} times {length}", cost as f64 / length as f64);
         assert!(cost < 8 * length, "{name}: {cost} bytes for a file of {length}");
     }
+}
+
+#[test]
+fn evidence_takes_little_beside_the_shapes() {
+    let _alone = alone();
+    // Twice 15 shapes of 30,000 points: 21 MB.
+    let shapes = |shift: usize| {
+        DMatrix::from_fn(90_000, 15, |row, shape| libm::sin((row * (shape + shift)) as f64))
+    };
+    let (a, b) = (shapes(1), shapes(20));
+    let size = 2 * 8 * a.len();
+    let (cost, groups) = peak(|| Groups::new(3, &a, &b, Alignment::None).unwrap());
+    assert!(cost < size + size / 4, "{cost} bytes to keep {size}");
+    let options = evidence::Options { permutations: 199, ..evidence::Options::default() };
+    let (cost, report) = peak(|| {
+        let mut run = Evidence::new(groups, options).unwrap();
+        run.advance(usize::MAX);
+        run.report().unwrap()
+    });
+    // A quadratic form, a height and a p of every point are 12 of its 90 numbers; blocks of all threads, curves.
+    assert!(cost < size / 5 + 4 * MIB, "{cost} bytes beside {size}");
+    assert_eq!(report.vertices.p.len(), 30_000, "every point");
 }

@@ -4,24 +4,27 @@ use nalgebra::{DMatrix, DVector};
 
 use super::accuracy::accuracy;
 use super::inference::Estimate;
-use super::run::{ChainDiagnostics, Drawing, DrawingStep, Drawn, Finished, Measuring, Run};
+use super::run::{
+    ChainDiagnostics, Drawing, DrawingStep, Drawn, Finished, Measuring, Run, Weighing,
+};
 use super::{Comparison, summary};
 use crate::error::ComparisonError;
+use crate::evidence::{Evidence, Groups, Options};
 use crate::linalg::{Moments, product};
 use crate::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, compactness, linear_split,
     mean_vertex_distance, scaled_modes, unexplained_share, vertex_standard_deviations,
 };
-use crate::model::{Side, Sides};
-use crate::pair::{Joint, JointModel};
+use crate::model::{LinearModel, Side, Sides};
+use crate::pair::{Joint, JointModel, ReachDraws};
 use crate::relate::{affine_space, overlap};
 use crate::report::{
     Compactness, DifferenceReport, Differences, Disagreement, EnvelopeName, ExclusiveReport,
-    Grassmann, InferenceReport, IntersectionReport, LinearSplitReport, MeanSd, Models, Report,
-    SCHEMA, Seconds, Spread, ToleranceReport,
+    Grassmann, InferenceReport, IntersectionReport, LinearSplitReport, MeanSd, Models, ReachCurve,
+    ReachReport, Report, SCHEMA, Seconds, Spread, ToleranceReport,
 };
 use crate::sampling::Envelope;
-use crate::settings::Pooling;
+use crate::settings::{Pooling, Settings};
 
 impl Comparison {
     /// The intersection model from the draws or fits so far, in the joint basis.
@@ -64,17 +67,70 @@ impl Comparison {
             }
             Measuring::Report { chains, differences } => {
                 let (report, intersection) = self.finish(drawing, *chains, *differences)?;
-                if let Run::Drawing(drawing) = std::mem::take(&mut self.run) {
-                    let drawn = drawing.drawn;
-                    self.run = Run::Done(Box::new(Finished { drawn, report, intersection }));
+                let evidence = self.evidence();
+                match evidence {
+                    Some(evidence) => {
+                        let weighing = Weighing { report, intersection, evidence };
+                        self.go_on(DrawingStep::Evidence(Box::new(weighing)));
+                    }
+                    None => self.end(report, intersection),
                 }
                 return Ok(());
             }
         };
-        if let Run::Drawing(drawing) = &mut self.run {
-            drawing.step = DrawingStep::Measure(next);
-        }
+        self.go_on(DrawingStep::Measure(next));
         Ok(())
+    }
+
+    fn go_on(&mut self, next: DrawingStep) {
+        if let Run::Drawing(drawing) = &mut self.run {
+            drawing.step = next;
+        }
+    }
+
+    fn end(&mut self, report: Report, intersection: JointModel) {
+        if let Run::Drawing(drawing) = std::mem::take(&mut self.run) {
+            let drawn = drawing.drawn;
+            self.run = Run::Done(Box::new(Finished { drawn, report, intersection }));
+        }
+    }
+
+    /// The comparison of the training shapes, where those of both models are known and can be compared.
+    fn evidence(&self) -> Option<Evidence> {
+        let Settings { permutations, seed, .. } = self.settings;
+        if self.cancelled || permutations == 0 {
+            return None;
+        }
+        let groups = Groups::of_pair(self.pair())?.ok()?;
+        Evidence::new(groups, Options { permutations, seed, modes: self.modes_of_both() }).ok()
+    }
+
+    /// The number of modes to which a model was cut, the smaller one of both; `None` where both have all that their
+    /// training shapes make.
+    fn modes_of_both(&self) -> Option<usize> {
+        let cut = |model: &LinearModel| {
+            let count = model.training_shapes()?.count();
+            (model.mode_count() + 1 < count).then(|| model.mode_count())
+        };
+        self.prepared.models().into_iter().filter_map(cut).min()
+    }
+
+    /// More relabellings; `ended` takes those that were done as all.
+    pub(super) fn weigh(&mut self, replicates: usize, ended: bool) {
+        let Run::Drawing(drawing) = &mut self.run else { return };
+        let DrawingStep::Evidence(weighing) = &mut drawing.step else { return };
+        if !ended {
+            weighing.evidence.advance(replicates);
+        }
+        if !(ended || weighing.evidence.is_done()) {
+            return;
+        }
+        let step = std::mem::replace(&mut drawing.step, DrawingStep::Fit);
+        if let DrawingStep::Evidence(weighing) = step {
+            let Weighing { report, intersection, evidence } = *weighing;
+            let report = Report { evidence: evidence.report(), ..report };
+            self.end(report, intersection);
+        }
     }
 
     /// The report, from pieces that are measured already and the rest, and the intersection model.
@@ -104,6 +160,9 @@ impl Comparison {
             engine: env!("CARGO_PKG_VERSION").to_owned(),
             models: Models { a: described_a, b: described_b },
             settings: self.settings.with_sigma(*sigma),
+            sigma_source: Some(sigma.source),
+            reach: Some(self.reach(drawing)),
+            evidence: None,
             intersection: IntersectionReport {
                 modes: intersection.standard_deviations.len(),
                 standard_deviations: intersection.standard_deviations.as_slice().to_vec(),
@@ -145,6 +204,17 @@ impl Comparison {
         };
         report.warnings = self.warnings(drawing, &report);
         Ok((report, intersection))
+    }
+
+    /// How far the shapes of either model lie from the other.
+    fn reach(&self, drawing: &Drawing) -> ReachReport {
+        let draws = Sides::each(|side| {
+            let (operator, model) = (self.prepared.operator(side), self.prepared.model(side));
+            ReachDraws::new(operator, model, self.settings.seed, side.index())
+        });
+        let Sides { a: a_to_b, b: b_to_a } = draws.as_ref().map(ReachDraws::summary);
+        let meeting = drawing.meeting.as_ref().map(|meeting| meeting.distance);
+        ReachReport { a_to_b, b_to_a, meeting, curve: ReachCurve::of(&draws) }
     }
 
     fn inference_report(&self, drawn: &Drawn) -> Option<Sides<InferenceReport>> {
@@ -196,7 +266,7 @@ impl Comparison {
         let tolerance = drawing.tolerance;
         let predicted = self.prediction()?;
         Some(ToleranceReport {
-            recommended: tolerance.sigma,
+            recommended: drawing.recommended.value,
             relative: drawing.drawn.sigma.value / self.pair().scale(),
             nearest: tolerance.nearest,
             farthest: tolerance.farthest,

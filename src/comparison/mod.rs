@@ -43,15 +43,19 @@ use crate::error::ComparisonError;
 use crate::linalg::Moments;
 use crate::model::{LinearModel, Side, Sides};
 use crate::pair::{
-    Criterion, Difference, DifferenceDefinition, Level, Meeting, Pair, Tolerance, nearest_meeting,
-    plausible_radius, recommended_tolerance,
+    Criterion, Difference, DifferenceDefinition, Level, Meeting, Pair, Tolerance,
+    recommended_tolerance,
 };
+use crate::relate::{left_out, mean_left_out, meeting_of};
 use crate::report::{ModelReport, Report, Seconds};
 use crate::sampling::{Draws, Gaussian, Rejection};
-use crate::settings::{Settings, Sigma};
+use crate::settings::{Settings, Sigma, SigmaSource};
 
 /// Proposals of the rejection sampler for each draw wanted, before it gives up.
 const MOST_PROPOSALS_PER_DRAW: u64 = 100;
+
+/// Evaluations of the distance that take about as long as one relabelling of the training shapes.
+const EVALUATIONS_OF_A_RELABELLING: usize = 64;
 
 /// How far a run is.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -151,7 +155,7 @@ impl Comparison {
         let Results { intersection, differences, mut moments } =
             Results::from_arrays(draws, modes)?;
         let drawn = Drawn {
-            sigma: report.settings.given_sigma().ok_or(ComparisonError::FlatIntersection)?,
+            sigma: sigma_of(&report).ok_or(ComparisonError::FlatIntersection)?,
             inferences: intersection
                 .zip(Side::BOTH.into())
                 .map(|(draws, side)| Inference::stored(side, draws, moments[side].take())),
@@ -183,6 +187,9 @@ impl Comparison {
                     drawing.draw_differences(&self.prepared, self.settings.difference);
                 }
                 DrawingStep::Measure(_) => self.measure()?,
+                DrawingStep::Evidence(_) => {
+                    self.weigh(evaluations.div_ceil(EVALUATIONS_OF_A_RELABELLING), self.cancelled);
+                }
             },
             Run::Done(_) => {}
         }
@@ -212,6 +219,8 @@ impl Comparison {
                     drawing.step = DrawingStep::Measure(Measuring::default());
                 }
                 DrawingStep::Measure(_) => {}
+                // The draws are complete: only what chance would give is cut short.
+                DrawingStep::Evidence(_) => self.cancelled = true,
             },
             Run::Done(_) => {}
         }
@@ -249,7 +258,8 @@ impl Comparison {
 
     /// The σ in use; `None` as long as none was given and none is recommended yet.
     pub fn sigma(&self) -> Option<Sigma> {
-        self.run.drawn().map(|drawn| drawn.sigma).or_else(|| self.settings.given_sigma())
+        let given = |value: f64| Sigma { value, source: SigmaSource::Given };
+        self.run.drawn().map(|drawn| drawn.sigma).or_else(|| self.settings.sigma.map(given))
     }
 
     /// The Gaussian fits of both sides, once they are decided.
@@ -309,16 +319,25 @@ impl Comparison {
                 prepared.joint();
                 Preparing::Meeting
             }
-            // A model that lies inside the other meets it everywhere.
-            Preparing::Meeting if prepared.is_contained(Side::A) => Preparing::Tolerance(None),
             Preparing::Meeting => {
-                let radii = prepared.models().map(|model| plausible_radius(model.mode_count()));
-                Preparing::Tolerance(nearest_meeting(prepared.pair(), radii.into_array()))
+                Preparing::LeftOut(meeting_of(prepared.pair(), prepared.operator(Side::A)))
             }
-            Preparing::Tolerance(meeting) => {
+            Preparing::LeftOut(meeting) => {
+                let left_out = left_out(prepared.pair());
+                Preparing::Tolerance { meeting: meeting.take(), left_out }
+            }
+            Preparing::Tolerance { meeting, left_out } => {
                 let (operators, noise) = (prepared.operators(), self.settings.noise);
                 let tolerance = recommended_tolerance(prepared.pair(), operators, noise);
-                let drawing = Drawing::new(prepared, &self.settings, tolerance, meeting.take())?;
+                let nearest = meeting.as_ref().map(|meeting| meeting.distance);
+                let recommended = Sigma::recommended(
+                    &tolerance,
+                    mean_left_out(left_out, prepared.pair().scale()),
+                    nearest,
+                );
+                let meeting = meeting.take();
+                let drawing =
+                    Drawing::new(prepared, &self.settings, tolerance, recommended, meeting)?;
                 self.run = Run::Drawing(Box::new(drawing));
                 return Ok(());
             }
@@ -386,14 +405,15 @@ impl Comparison {
 }
 
 impl Drawing {
-    /// Starts the fits; `tolerance` gives σ where the settings do not.
+    /// Starts the fits with the σ of the settings, else the recommended one.
     fn new(
         prepared: &Prepared,
         settings: &Settings,
         tolerance: Tolerance,
+        recommended: Sigma,
         meeting: Option<Meeting>,
     ) -> Result<Self, ComparisonError> {
-        let sigma = settings.sigma_beside(tolerance.sigma);
+        let sigma = settings.sigma_beside(recommended);
         let fitting = |side: Side| {
             Inference::new(prepared.operator(side), side, sigma.value, settings)
                 .ok_or_else(|| overflow(side, sigma))
@@ -425,7 +445,7 @@ impl Drawing {
             )
         });
         let drawn = Drawn { sigma, inferences, rejections };
-        Ok(Self { drawn, tolerance, meeting, criteria, step: DrawingStep::Fit })
+        Ok(Self { drawn, tolerance, recommended, meeting, criteria, step: DrawingStep::Fit })
     }
 
     /// One iteration of the fit of the first side that has none yet.
@@ -475,6 +495,14 @@ impl Drawing {
             None => self.step = DrawingStep::Measure(Measuring::default()),
         }
     }
+}
+
+/// The σ of a report. Reports of older engines do not say where it comes from: then it was given, or by the range.
+fn sigma_of(report: &Report) -> Option<Sigma> {
+    let older =
+        if report.settings.sigma_recommended { SigmaSource::Budget } else { SigmaSource::Given };
+    let source = report.sigma_source.unwrap_or(older);
+    report.settings.sigma.map(|value| Sigma { value, source })
 }
 
 /// The error of a side whose numbers overflow.

@@ -51,11 +51,6 @@ impl Prepared {
         self.joint.get_or_init(|| self.pair.joint())
     }
 
-    /// Whether the other model makes every shape of `side`, to rounding.
-    pub(super) fn is_contained(&self, side: Side) -> bool {
-        self.operator(side).is_contained(self.pair.scale())
-    }
-
     /// Directions in which the model of `side` varies most and the other cannot follow.
     pub(super) fn exclusive(&self, side: Side) -> ExclusiveModes {
         exclusive_modes(self.operator(side).gram(), self.pair.a().point_count())

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::inference::Inference;
+use crate::evidence::Evidence;
 use crate::model::Sides;
 use crate::pair::{Criterion, JointModel, Meeting, Tolerance};
 use crate::report::{Diagnostics, DifferenceReport, ModeDiagnostics, Report};
@@ -24,6 +25,8 @@ pub enum Stage {
     Differences,
     /// Principal components and measures.
     Measure,
+    /// Relabellings of the training shapes, where they are known.
+    Evidence,
     /// There is a report.
     Done,
 }
@@ -33,7 +36,7 @@ pub enum Stage {
 pub(super) enum Run {
     /// [`Stage::Prepare`]; holds the next step.
     Preparing(Preparing),
-    /// From [`Stage::Fit`] to [`Stage::Measure`].
+    /// From [`Stage::Fit`] to [`Stage::Evidence`].
     Drawing(Box<Drawing>),
     /// [`Stage::Done`].
     Done(Box<Finished>),
@@ -52,7 +55,8 @@ pub(super) enum Preparing {
     OperatorOfB,
     JointBasis,
     Meeting,
-    Tolerance(Option<Meeting>),
+    LeftOut(Option<Meeting>),
+    Tolerance { meeting: Option<Meeting>, left_out: Sides<Option<Vec<f64>>> },
 }
 
 /// What was drawn, and at which σ.
@@ -70,6 +74,8 @@ pub(super) struct Drawn {
 pub(super) struct Drawing {
     pub(super) drawn: Drawn,
     pub(super) tolerance: Tolerance,
+    /// The σ that would be used if none were given.
+    pub(super) recommended: Sigma,
     pub(super) meeting: Option<Meeting>,
     pub(super) criteria: Sides<Criterion>,
     pub(super) step: DrawingStep,
@@ -81,6 +87,15 @@ pub(super) enum DrawingStep {
     Intersection,
     Differences,
     Measure(Measuring),
+    Evidence(Box<Weighing>),
+}
+
+/// A run whose report is complete but for what chance would give.
+#[derive(Debug)]
+pub(super) struct Weighing {
+    pub(super) report: Report,
+    pub(super) intersection: JointModel,
+    pub(super) evidence: Evidence,
 }
 
 /// Diagnostics of the chains of one side: the worst, and each coefficient's.
@@ -124,6 +139,7 @@ impl Run {
                 DrawingStep::Intersection => Stage::Intersection,
                 DrawingStep::Differences => Stage::Differences,
                 DrawingStep::Measure(_) => Stage::Measure,
+                DrawingStep::Evidence(_) => Stage::Evidence,
             },
             Self::Done(_) => Stage::Done,
         }
@@ -151,7 +167,8 @@ impl Run {
             Self::Preparing(Preparing::OperatorOfB) => 0.02,
             Self::Preparing(Preparing::JointBasis) => 0.04,
             Self::Preparing(Preparing::Meeting) => 0.05,
-            Self::Preparing(Preparing::Tolerance(_)) => 0.06,
+            Self::Preparing(Preparing::LeftOut(_)) => 0.06,
+            Self::Preparing(Preparing::Tolerance { .. }) => 0.07,
             Self::Drawing(drawing) => {
                 let Drawn { inferences, rejections, .. } = &drawing.drawn;
                 match &drawing.step {
@@ -164,15 +181,16 @@ impl Run {
                             * inferences.iter().map(|one| one.fraction(settings)).sum::<f64>()
                     }
                     DrawingStep::Differences => {
-                        0.7 + 0.125 * rejections.iter().map(Rejection::fraction).sum::<f64>()
+                        0.7 + 0.1 * rejections.iter().map(Rejection::fraction).sum::<f64>()
                     }
                     DrawingStep::Measure(measuring) => match measuring {
-                        Measuring::ChainsOfA => 0.95,
-                        Measuring::ChainsOfB { .. } => 0.96,
-                        Measuring::AWithoutB { .. } => 0.97,
-                        Measuring::BWithoutA { .. } => 0.98,
-                        Measuring::Report { .. } => 0.99,
+                        Measuring::ChainsOfA => 0.90,
+                        Measuring::ChainsOfB { .. } => 0.91,
+                        Measuring::AWithoutB { .. } => 0.92,
+                        Measuring::BWithoutA { .. } => 0.93,
+                        Measuring::Report { .. } => 0.94,
                     },
+                    DrawingStep::Evidence(weighing) => 0.95 + 0.05 * weighing.evidence.fraction(),
                 }
             }
             Self::Done(_) => 1.0,

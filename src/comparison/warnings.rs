@@ -7,7 +7,7 @@ use crate::inspect::canonical;
 use crate::measure::mean_vertex_distance;
 use crate::model::{Alignment, Cells, Side, Sides, procrustes};
 use crate::report::{Notice, Report, ToleranceReport};
-use crate::settings::{Plausibility, Sampler};
+use crate::settings::{Plausibility, Sampler, SigmaSource};
 use crate::text::three_digits;
 
 /// Share of a model's shapes above which its difference is called nearly everything.
@@ -175,6 +175,7 @@ impl Comparison {
         }
         if let Some(ToleranceReport { predicted, .. }) = report.intersection.tolerance
             && apart
+            && drawing.drawn.sigma.source == SigmaSource::Given
             && predicted > tolerance.nearest + IDLE * range
         {
             warnings.push(Notice::new(
@@ -185,7 +186,7 @@ impl Comparison {
                     three_digits(predicted),
                     three_digits(tolerance.farthest)
                 ),
-                "Choose a smaller σ; the recommended one uses a quarter of what there is.",
+                "Choose a smaller σ, or none for the recommended one.",
             ));
         }
         let error = self.density_error(drawing);

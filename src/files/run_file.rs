@@ -1,7 +1,7 @@
 //! Run files: models and settings with which a comparison is repeated, to the last digit.
 //!
 //! ```json
-//! { "shapevenn": 1, "engine": "0.1.0",
+//! { "shapevenn": 1, "engine": "0.2.0",
 //!   "models": { "a": { "name": "…", "part": "shape", "source": "demo:heads-male", "fingerprint": "…" }, "b": … },
 //!   "settings": { … } }
 //! ```

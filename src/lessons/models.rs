@@ -17,8 +17,9 @@ use crate::measure::{paper_distance, principal_angles};
 use crate::model::{Alignment, Cells, LinearModel, Similarity};
 use crate::pair::{
     Criterion, Difference, DifferenceDefinition, Intersection, Joint, Level, Pair,
-    ResidualOperator, expected_distance, recommended_tolerance, without_distance,
+    ResidualOperator, expected_distance, without_distance,
 };
+use crate::relate::recommended_sigma;
 use crate::sampling::{Envelope, Gaussian};
 use crate::settings::{Plausibility, Settings};
 
@@ -229,7 +230,7 @@ impl Opened {
             fits: Sides::each(fit),
             angles: angles.into_iter().map(f64::to_degrees).collect(),
             distances: Sides::each(distance),
-            recommended: recommended_tolerance(&self.pair, sides.into(), None).sigma,
+            recommended: recommended_sigma(&self.pair, sides.into(), None).value,
         })
     }
 }

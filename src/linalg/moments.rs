@@ -27,7 +27,7 @@ impl Serialize for Moments {
             mean: &'a [f64],
             covariance: &'a [f64],
         }
-        // Symmetric: column by column is row by row.
+        // Symmetric up to rounding: column by column is row by row.
         Lists { mean: self.mean.as_slice(), covariance: self.covariance.as_slice() }.serialize(to)
     }
 }

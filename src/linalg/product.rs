@@ -133,14 +133,18 @@ fn put(matrix: &mut DMatrix<f64>, range: Range<usize>, block: &[f64]) {
 }
 
 /// The small factor of a product (inner × columns), row-major in panels of columns.
-struct Packed {
+pub(crate) struct Packed {
     inner: usize,
     columns: usize,
     panels: Aligned<f64>,
 }
 
 impl Packed {
-    fn new(left: &[&DMatrix<f64>], right: &DMatrix<f64>) -> Self {
+    /// `right`, to be multiplied with rows of [left₁ left₂ …].
+    ///
+    /// # Panics
+    /// When the inner sizes or the numbers of rows differ.
+    pub(crate) fn new(left: &[&DMatrix<f64>], right: &DMatrix<f64>) -> Self {
         let (inner, columns) = right.shape();
         assert_eq!(left.iter().map(|one| one.ncols()).sum::<usize>(), inner, "inner sizes");
         assert!(left.iter().all(|one| one.nrows() == left[0].nrows()), "rows");
@@ -155,7 +159,7 @@ impl Packed {
     }
 
     /// The rows `range` of the product, column by column.
-    fn times(&self, left: &[&DMatrix<f64>], range: Range<usize>) -> Vec<f64> {
+    pub(crate) fn times(&self, left: &[&DMatrix<f64>], range: Range<usize>) -> Vec<f64> {
         let mut rows = vec![0.0; range.len().next_multiple_of(ROWS) * self.inner];
         turn(left, range.clone(), &mut rows, self.inner);
         simd::dispatch(Block { right: self, rows: &rows, present: range.len() })

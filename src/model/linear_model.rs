@@ -6,6 +6,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector, DVectorView};
 use serde::{Deserialize, Serialize};
 
+use super::TrainingShapes;
 use crate::linalg::{gram, into_thin_svd};
 
 /// Modes whose standard deviation is below this share of the largest are dropped: a projection
@@ -226,13 +227,15 @@ pub struct LinearModel {
     kind: Kind,
     unit: Unit,
     dimension: usize,
-    mean: DVector<f64>,
+    pub(super) mean: DVector<f64>,
     /// Shared, so that copying a model copies the mean but not the basis.
-    basis: Arc<DMatrix<f64>>,
+    pub(super) basis: Arc<DMatrix<f64>>,
     standard_deviations: DVector<f64>,
     cells: Cells,
     /// For every point its number in a larger mesh of which this is a crop.
     numbers: Option<Arc<[u32]>>,
+    /// The shapes that it was made from, where they are known.
+    pub(super) training: Option<Arc<TrainingShapes>>,
 }
 
 impl LinearModel {
@@ -283,6 +286,7 @@ impl LinearModel {
             standard_deviations: svd.values.rows(0, kept).into_owned(),
             cells: Cells::None,
             numbers: None,
+            training: None,
         };
         Ok((model, BasisCheck { orthogonality_error, dropped_modes: given - kept }))
     }
@@ -304,6 +308,7 @@ impl LinearModel {
             standard_deviations,
             cells: Cells::None,
             numbers: None,
+            training: None,
         }
     }
 
@@ -374,14 +379,20 @@ impl LinearModel {
     #[must_use]
     pub fn with_mean(&self, mean: DVector<f64>) -> Self {
         assert_eq!(mean.len(), self.mean.len(), "a mean of as many points");
-        Self { mean, ..self.clone() }
+        let training = self.training_shapes().map(|shapes| shapes.shifted(&(&mean - &self.mean)));
+        Self { mean, training: training.map(Arc::new), ..self.clone() }
     }
 
     /// The model enlarged by `factor` about the origin, as in another unit.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
-        let mean = &self.mean * factor;
-        Self { mean, standard_deviations: &self.standard_deviations * factor, ..self.clone() }
+        let training = self.training_shapes().map(|shapes| shapes.scaled(factor));
+        Self {
+            mean: &self.mean * factor,
+            standard_deviations: &self.standard_deviations * factor,
+            training: training.map(Arc::new),
+            ..self.clone()
+        }
     }
 
     /// The model of the first `modes` modes (all of them when there are fewer).
@@ -514,6 +525,14 @@ impl LinearModel {
             similarity.turn_directions(mode.as_mut_slice());
         }
         moved.standard_deviations *= similarity.scale();
+        moved.training = self.training_shapes().map(|shapes| {
+            let training = shapes.clone().moved(similarity);
+            Arc::new(if shapes.shares(&self.basis) {
+                training.with_directions(Arc::clone(&moved.basis))
+            } else {
+                training.turned(similarity)
+            })
+        });
         moved
     }
 }

@@ -18,6 +18,7 @@ mod points;
 mod population;
 mod procrustes;
 mod side;
+mod training;
 
 pub use geometry::Geometry;
 pub(crate) use linear_model::lengths;
@@ -25,6 +26,7 @@ pub use linear_model::{BasisCheck, Cells, Kind, LinearModel, ModelError, Unit};
 pub use normals::vertex_normals;
 pub use points::evenly_spread;
 pub(crate) use population::into_principal_components;
-pub use population::{generalised_procrustes, principal_components};
+pub use population::{generalised_procrustes, model_of_population, principal_components};
 pub use procrustes::{Alignment, Similarity, align_to, procrustes};
 pub use side::{Side, Sides};
+pub use training::TrainingShapes;

@@ -3,6 +3,8 @@
 //! The rows of the kept points are cut out of the scaled basis, and the thin SVD is made anew: modes that
 //! were orthogonal on the whole mesh are not on a part of it.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
 use super::{Cells, LinearModel, ModelError};
@@ -58,7 +60,8 @@ impl LinearModel {
             }
         }
         let (model, _) = Self::from_scaled_basis(dimension, mean, scaled)?;
-        let model = model.with_name(self.name()).with_kind(self.kind()).with_unit(self.unit());
+        let mut model = model.with_name(self.name()).with_kind(self.kind()).with_unit(self.unit());
+        model.training = self.training_shapes().map(|shapes| Arc::new(shapes.at_rows(&rows)));
         model.with_cells(cells)
     }
 

@@ -5,6 +5,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{Alignment, LinearModel, ModelError, procrustes};
+use crate::linalg::cross;
 
 /// The model of `shapes` (d·n × N, one shape a column): their mean and principal components.
 ///
@@ -56,6 +57,25 @@ pub(crate) fn into_principal_components(
     }
     let contrasts = shapes.remove_column(count - 1);
     LinearModel::from_scaled_basis(dimension, mean, contrasts).map(|(model, _)| model)
+}
+
+/// The model of shapes that were brought to one frame by `alignment`; it knows its [training
+/// shapes](LinearModel::training_shapes).
+///
+/// # Errors
+/// As [`principal_components`].
+pub fn model_of_population(
+    dimension: usize,
+    shapes: DMatrix<f64>,
+    alignment: Alignment,
+) -> Result<LinearModel, ModelError> {
+    let model = into_principal_components(dimension, shapes.clone())?;
+    let mut centred = shapes;
+    for mut shape in centred.column_iter_mut() {
+        shape -= model.mean();
+    }
+    let coefficients = cross(model.basis(), &centred);
+    Ok(model.with_training_coefficients(coefficients, alignment))
 }
 
 /// Moves every shape (a column of `shapes`, d·n × N) onto the running mean until it settles, in at

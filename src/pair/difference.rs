@@ -202,7 +202,7 @@ fn quantile(mut scores: Vec<f64>, share: f64) -> f64 {
 }
 
 /// Distances in single precision about the mean shape.
-fn about_the_mean(side: &ResidualOperator) -> Distances<'_> {
+pub(super) fn about_the_mean(side: &ResidualOperator) -> Distances<'_> {
     let mean = DVector::zeros(side.mode_count());
     Distances::about(side, Arc::new(Centre::new(side, &mean)))
 }

@@ -1,11 +1,10 @@
-//! Recommends the tolerance σ from the range of distances between two models.
+//! The tolerance σ that follows from the range of distances between two models.
 //!
 //! σ is a tolerance *per dimension* of the coefficients: the realised mean distance is about
 //! √(d(μ)² + q_eff σ²) and grows with the number of modes, so that a σ found on a small model does not
 //! carry over. As σ → 0 the expected distance falls to d₀, how near the models come at all; as
-//! σ → ∞ it rises to d_∞, where only the projection likelihood acts. The recommendation gives
-//! a quarter of that range, E d(σ) = d₀ + ¼(d_∞ − d₀), or more where true members lie farther than that from
-//! their own model (noise): then the noise, but no more than nine tenths of the range.
+//! σ → ∞ it rises to d_∞, where only the projection likelihood acts. It gives a quarter of that
+//! range, E d(σ) = d₀ + ¼(d_∞ − d₀).
 //!
 //! E d is taken under the rms fit, which has it in closed form in O(q) for any σ once its two quadratic
 //! forms are diagonal together, and brought from rms to mean distance with their ratio at σ = ∞ (by
@@ -22,15 +21,13 @@ use crate::pair::{Pair, ResidualOperator};
 
 /// The share of the range of distances that the recommended σ uses up.
 const SHARE: f64 = 0.25;
-/// The most of it that is used up where the noise asks for more.
-const LARGEST_SHARE: f64 = 0.9;
 /// Steps of the bisection, in the logarithm of σ.
 const BISECTIONS: usize = 30;
 
 /// σ and the distances that it was chosen by, in the unit of the models.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tolerance {
-    /// The recommended σ.
+    /// σ that uses up a quarter of the range between the two.
     pub sigma: f64,
     /// Expected distance as σ → 0: how near the two models come.
     pub nearest: f64,
@@ -40,7 +37,7 @@ pub struct Tolerance {
     pub noise: Option<f64>,
 }
 
-/// The recommended σ for both sides of a pair together. `noise` is how far true members lie from their own model,
+/// σ by the range of distances, for both sides of a pair together. `noise` is how far true members lie from their own model,
 /// where that is known; otherwise it is taken from the modes that were cut off, if any.
 pub fn recommended_tolerance(
     pair: &Pair,
@@ -59,8 +56,7 @@ pub fn recommended_tolerance(
     let distance = |sigma: f64| curves.iter().map(|curve| curve.at(sigma)).sum::<f64>() / count;
     let (mut low, mut high) = (1e-4 * farthest, 1e2 * farthest);
     let nearest = distance(low);
-    let at = |share: f64| nearest + share * (farthest - nearest);
-    let wanted = noise.map_or(at(SHARE), |noise| noise.clamp(at(SHARE), at(LARGEST_SHARE)));
+    let wanted = nearest + SHARE * (farthest - nearest);
     if farthest - nearest <= 1e-3 * farthest {
         // Parallel models at a constant offset: the distance does not depend on σ.
         return Tolerance { sigma: 0.1 * farthest, nearest, farthest, noise };

@@ -30,6 +30,12 @@ pub enum Stream {
     Experiment = 7,
     /// Random shapes of a model, for its specificity.
     Specificity = 8,
+    /// A relabelling of the shapes of two groups.
+    Permutation = 9,
+    /// Half of the shapes of a group, or as many as another group has.
+    Subsample = 10,
+    /// Shapes whose distance to the other model is the reach.
+    Reach = 11,
 }
 
 /// The generator of `seed` for one purpose. `side` is 0 for A and 1 for B; `index` counts chains or

@@ -79,7 +79,7 @@ pub enum FieldValue {
 use FieldValue::{Choice, Count, CountOrAll, Positive, Seed, Share};
 
 /// All of them, in the order of a link.
-pub const FIELDS: [Field; 18] = [
+pub const FIELDS: [Field; 19] = [
     Field::new(
         "align",
         "align",
@@ -218,6 +218,13 @@ pub const FIELDS: [Field; 18] = [
         "difference-draws",
         "Draws wanted of each difference",
         Count { least: 32, most: 10_000_000, get: |s| s.difference_draws },
+    ),
+    Field::new(
+        "permutations",
+        "perms",
+        "permutations",
+        "Random relabellings of the training shapes, which say what chance would give; 0 for none",
+        Count { least: 0, most: 100_000, get: |s| s.permutations },
     ),
 ];
 

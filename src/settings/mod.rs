@@ -1,6 +1,7 @@
 //! Settings of a run: everything that, with the two models, decides every draw.
 
 mod fields;
+mod sigma;
 
 use core::fmt;
 
@@ -10,6 +11,7 @@ use crate::model::{Alignment, Side};
 use crate::pair::{DifferenceDefinition, Preparation};
 
 pub use fields::{FIELDS, Field, FieldValue, LEAST_DRAWS_OF_A_CHAIN};
+pub use sigma::{Sigma, SigmaSource};
 
 /// How the intersection is sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -158,6 +160,8 @@ pub struct Settings {
     pub difference_threshold: Option<f64>,
     /// Draws wanted of each difference.
     pub difference_draws: usize,
+    /// Random relabellings of the training shapes, which say what chance would give; 0 for no evidence.
+    pub permutations: usize,
     /// Use only the first modes of each model; `null` uses all.
     pub modes: Option<usize>,
     /// What may be moved to bring B to A.
@@ -186,6 +190,7 @@ impl Default for Settings {
             difference_quantile: 0.8,
             difference_threshold: None,
             difference_draws: 2000,
+            permutations: 999,
             modes: None,
             align: Alignment::None,
             prepare: Preparation::default(),
@@ -210,55 +215,7 @@ impl Settings {
     }
 }
 
-/// Where the σ of a run comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SigmaSource {
-    /// The settings.
-    Given,
-    /// [`crate::pair::recommended_tolerance`].
-    Recommended,
-}
-
-/// The tolerance σ of a run, in the unit of A.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sigma {
-    /// σ.
-    pub value: f64,
-    /// Where it comes from.
-    pub source: SigmaSource,
-}
-
 impl Settings {
-    /// The σ of a run, where `recommended` would be chosen if nothing were given. A run file gives the
-    /// recommended value along; it is called recommended as long as it still is.
-    pub fn sigma_beside(&self, recommended: f64) -> Sigma {
-        let value = self.sigma.unwrap_or(recommended);
-        let claimed = self.sigma.is_none() || self.sigma_recommended;
-        let source = if claimed && value == recommended {
-            SigmaSource::Recommended
-        } else {
-            SigmaSource::Given
-        };
-        Sigma { value, source }
-    }
-
-    /// The settings as a run with `sigma` used them: with them it can be run again.
-    #[must_use]
-    pub fn with_sigma(&self, sigma: Sigma) -> Self {
-        Self {
-            sigma: Some(sigma.value),
-            sigma_recommended: sigma.source == SigmaSource::Recommended,
-            ..self.clone()
-        }
-    }
-
-    /// The σ that these settings give, if they give one.
-    pub fn given_sigma(&self) -> Option<Sigma> {
-        let source =
-            if self.sigma_recommended { SigmaSource::Recommended } else { SigmaSource::Given };
-        self.sigma.map(|value| Sigma { value, source })
-    }
-
     /// From JSON; what is left out has the default of the sampler that it names.
     ///
     /// # Errors

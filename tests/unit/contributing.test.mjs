@@ -56,6 +56,7 @@ const TRIED = {
   "cargo fuzz tmin": "needs an input that failed",
   "cargo run --release -- compare *": cli,
   "cargo run --release -- lesson *": cli,
+  "cargo run --release -- evidence *": cli,
   "cargo run --release -- evaluate *": cli,
   "cargo run --release -- sweep *": cli,
   "cargo run --release -- info *": cli,

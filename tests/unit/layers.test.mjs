@@ -19,7 +19,17 @@ const RUST = {
       "settings",
       "report",
     ],
-    ...["error", "inspect", "relate", "demos", "comparison", "files", "lessons", "reproduce"],
+    ...[
+      "evidence",
+      "error",
+      "inspect",
+      "relate",
+      "demos",
+      "comparison",
+      "files",
+      "lessons",
+      "reproduce",
+    ],
     ...["roofline", "typescript", "wasm", "bin"],
   ],
   "src/formats": [

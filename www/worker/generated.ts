@@ -139,6 +139,8 @@ export type Settings = {
   differenceThreshold: number | null,
   /** Draws wanted of each difference. */
   differenceDraws: number,
+  /** Random relabellings of the training shapes, which say what chance would give; 0 for no evidence. */
+  permutations: number,
   /** Use only the first modes of each model; `null` uses all. */
   modes: number | null,
   /** What may be moved to bring B to A. */
@@ -404,6 +406,214 @@ export type Evaluation = {
   specificity: Array<number>,
   /** Its standard error. */
   specificityError: Array<number>,
+};
+
+/** Where the σ of a run comes from. */
+export type SigmaSource = "given" | "left-out" | "noise" | "budget" | "meeting";
+
+/** Quantiles of a quantity over draws. */
+export type Quantiles = {
+  /** 5 %. */
+  p05: number,
+  /** Median. */
+  p50: number,
+  /** 95 %. */
+  p95: number,
+};
+
+/** Mean squares per point, in closed form. `total` is the sum of the others. */
+export type MeanSquare = {
+  /** E‖r‖²/n. */
+  total: number,
+  /** Of the offset of the means, what no shape of the model closes. */
+  offset: number,
+  /** Of the offset, what some shape of the model closes. */
+  offsetClosed: number,
+  /** Of the variance of the model, what the other model cannot make. */
+  exclusive: number,
+};
+
+/** How far the shapes of one model lie from the other. Lengths are in the unit of the models. */
+export type ReachOfSide = {
+  /** Mean distance of the shapes to the other model, over draws. */
+  mean: number,
+  /** Its Monte-Carlo standard error. */
+  standardError: number,
+  /** Quantiles of the distance. */
+  quantiles: Quantiles,
+  /** Their Monte-Carlo standard errors, from order statistics. */
+  quantileErrors: Quantiles,
+  /** `mean` over the mean distance of the same shapes from the mean shape of their own model. */
+  relative: number,
+  /** What the mean square of the distances is made of. */
+  meanSquare: MeanSquare,
+};
+
+/** Shares of the soft differences by σ, from the draws of the reach: E[1 − exp(−½(d/σ)²)]. */
+export type ReachCurve = {
+  /** σ, ascending in equal ratios. */
+  sigma: Array<number>,
+  /** P(A\B | σ). */
+  aWithoutB: Array<number>,
+  /** P(B\A | σ). */
+  bWithoutA: Array<number>,
+};
+
+/** How far the shapes of each model lie from the other. Lengths are in the unit of A. */
+export type ReachReport = {
+  /** Of shapes of A to B. */
+  aToB: ReachOfSide,
+  /** Of shapes of B to A. */
+  bToA: ReachOfSide,
+  /** Least distance of plausible shapes of the two; absent where B makes all shapes of A. */
+  meeting: number | null,
+  /** Share of the shapes that count as outside the other model, for every σ. */
+  curve: ReachCurve,
+};
+
+/** A number under relabelling. */
+export type Chance = {
+  /** Mean. */
+  mean: number,
+  /** Standard deviation. */
+  standardDeviation: number,
+  /** 5 % quantile. */
+  p05: number,
+  /** 95 % quantile. */
+  p95: number,
+};
+
+/** What a statistic measures. */
+export type StatisticName = "means" | "varianceAOutsideB" | "varianceBOutsideA" | "distanceAToB" | "distanceBToA" | "totalVariances" | "principalAngles";
+
+/** A statistic; large values speak against the hypothesis. */
+export type Statistic = {
+  /** Which. */
+  name: StatisticName,
+  /** Its value. */
+  observed: number,
+  /** Its values under relabelling. */
+  chance: Chance,
+  /** Chance of a value as large under the hypothesis. */
+  p: number,
+  /** Standard error of p, for it is found by random relabellings. */
+  pError: number,
+  /** Adjusted for the number of statistics of the hypothesis (Holm). */
+  pAdjusted: number,
+};
+
+/** A hypothesis with its statistics. */
+export type Hypothesis = {
+  /** Relabellings. */
+  permutations: number,
+  /** Whether these are all that are possible. */
+  exhaustive: boolean,
+  /** Its statistics. */
+  statistics: Array<Statistic>,
+};
+
+/** One curve with what chance makes of it. */
+export type Band = {
+  /** Of the two groups. */
+  observed: Array<number>,
+  /** Mean under relabelling. */
+  mean: Array<number>,
+  /** 5 % quantile under relabelling. */
+  p05: Array<number>,
+  /** 95 % quantile under relabelling. */
+  p95: Array<number>,
+};
+
+/** Curves over the modes, observed and of groups relabelled at random (one population). */
+export type Bands = {
+  /** Share of the variance of each inside the first k modes of the other, k = 1, 2, … */
+  sharedVariance: Sides<Band>,
+  /** Principal angles of the first modes, smallest first, in degrees. */
+  principalAnglesDegrees: Band,
+  /** Standard deviations of the modes, of the whole shape vector. */
+  standardDeviations: Sides<Band>,
+  /**
+   * Exclusive modes: root mean square over the points of what one standard deviation of each leaves outside the
+   * first modes of the other, largest first.
+   */
+  exclusiveModes: Sides<Band>,
+};
+
+/** Left-out errors of a group, mean over the points of each shape, in the unit of the shapes. */
+export type LeftOut = {
+  /** Mean over the shapes. */
+  mean: number,
+  /** Standard deviation over the shapes (divisor n − 1). */
+  standardDeviation: number,
+};
+
+/** Shares of variance at equal numbers of shapes: means over random parts of the larger group. */
+export type MatchedShares = {
+  /** Shapes of each group. */
+  shapes: number,
+  /** Share of A's variance outside the first modes of B. */
+  varianceAOutsideB: number,
+  /** Share of B's variance outside the first modes of A. */
+  varianceBOutsideA: number,
+};
+
+/** How well shapes of a group are told from those of the other. */
+export type ToldApart = {
+  /**
+   * Share of the group's shapes that are nearer to the model of its other shapes than to the other group's, by
+   * the mean distance of the points; ties are half.
+   */
+  share: number,
+  /** The same share of groups relabelled at random, by the root mean square distance of the points. */
+  chance: Chance,
+};
+
+/** Where the means of the groups differ. */
+export type VertexEvidence = {
+  /** Family-wise p of every point: chance that, with no difference anywhere, any point would show as large a one. */
+  p: Array<number>,
+  /** Share of the points with p ≤ 0.05. */
+  differ: number,
+  /** Share of the points that are called different when a twentieth of those that are may be false. */
+  falseDiscovery: number,
+};
+
+/** How alike the modes of random halves of a group are. */
+export type ModeStability = {
+  /** Mean squared cosine of the principal angles between the first k modes of two halves, k = 1, 2, … */
+  overlap: Array<number>,
+  /** Number of modes up to which each adds more than half of a shared direction, chance deducted; at least one. */
+  suggestedModes: number,
+};
+
+/** Whether two groups of shapes differ by more than chance, where, and how stable their modes are. */
+export type EvidenceReport = {
+  /** Numbers of shapes. */
+  shapes: Sides<number>,
+  /** How many shapes of A there are in B too. */
+  sharedShapes: number,
+  /** How many modes of each group the statistics compare. */
+  modes: number,
+  /** What the model of all other shapes of a group misses of each. */
+  leftOut: Sides<LeftOut>,
+  /** Relabellings that were compared with the observed labelling. */
+  permutations: number,
+  /** Whether both groups are of one population. */
+  onePopulation: Hypothesis,
+  /** Whether the populations vary alike about means that may differ. */
+  oneCovariance: Hypothesis,
+  /** What two random groups of these sizes would have. */
+  bands: Bands,
+  /** The shares of variance at equal numbers of shapes, where the groups have different ones. */
+  matched?: MatchedShares,
+  /** Whether shapes are nearer to the model of their own group. */
+  toldApart: Sides<ToldApart>,
+  /** Where the means differ. */
+  vertices: VertexEvidence,
+  /** How many modes of each group are more than an accident of who was measured. */
+  stability: Sides<ModeStability>,
+  /** What the reader should know before believing the numbers. */
+  conditions: Array<Notice>,
 };
 
 /** Mean and standard deviation of a quantity over draws. */
@@ -706,6 +916,12 @@ export type Report = {
   models: Models,
   /** Everything needed to run again. */
   settings: Settings,
+  /** Where the σ in `settings` comes from; reports of older engines do not say. */
+  sigmaSource: SigmaSource | null,
+  /** How far the shapes of one model lie from the other, without any tolerance. */
+  reach: ReachReport | null,
+  /** Whether the two populations differ by more than chance; absent where the shapes of one are not known. */
+  evidence: EvidenceReport | null,
   /** The allowable shapes of both. */
   intersection: IntersectionReport,
   /** The shapes of one that the other cannot make. */
@@ -721,7 +937,7 @@ export type Report = {
 };
 
 /** Where a run is. */
-export type Stage = "prepare" | "fit" | "intersection" | "differences" | "measure" | "done";
+export type Stage = "prepare" | "fit" | "intersection" | "differences" | "measure" | "evidence" | "done";
 
 /** How far a run is. */
 export type Progress = {

@@ -1,10 +1,11 @@
-//! The command line: `shapevenn info | compare | inspect | matrix | convert | sweep | evaluate | lesson | reproduce`.
+//! The command line: `shapevenn info | compare | evidence | inspect | matrix | convert | sweep | evaluate | lesson | reproduce`.
 //!
 //! Exit status 0: done. 2: a bad input, with the error on standard error. 1: anything else.
 #![allow(clippy::print_stdout, reason = "a command prints its result")]
 
 mod document;
 mod evaluate;
+mod evidence;
 mod lesson;
 mod link;
 mod matrix;
@@ -28,8 +29,9 @@ use shapevenn::error::ComparisonError;
 use shapevenn::files::{self, Download, Error, ShownShape, Sources};
 use shapevenn::formats;
 use shapevenn::model::LinearModel;
+use shapevenn::pair::{MeanSquare, Quantiles};
 use shapevenn::report::{ModelReport, Report, Seconds};
-use shapevenn::settings::{Settings, SettingsError};
+use shapevenn::settings::{Settings, SettingsError, SigmaSource};
 
 /// Which shapes can two statistical shape models both make, and which can only one of them make?
 #[derive(Debug, Parser)]
@@ -64,6 +66,8 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Say whether two sets of shapes differ by more than chance: permutation tests, points, stable modes
+    Evidence(evidence::Arguments),
     /// Compares several models pair by pair: shares of variance and Grassmann distances
     Matrix(matrix::Arguments),
     /// Write a model in another format, chosen by the ending of OUT: .h5, .h5.json, .npz, .json, .glb, or .ply and .obj (mean shape)
@@ -167,6 +171,7 @@ fn main() -> ExitCode {
         Command::Matrix(arguments) => matrix::matrix(&arguments),
         Command::Sweep { a, b, sigma, prepare, json } => sweep([&a, &b], sigma, &prepare, json),
         Command::Convert { input, output } => convert(&input, &output),
+        Command::Evidence(arguments) => evidence::evidence(&arguments),
         Command::Evaluate(arguments) => evaluate::evaluate(&arguments),
         Command::Lesson(arguments) => lesson::lesson(&arguments),
         Command::Reproduce(arguments) => reproduce::reproduce(&arguments),
@@ -362,6 +367,7 @@ fn name_of(stage: Stage) -> &'static str {
         Stage::Fit => "fitting",
         Stage::Intersection => "intersection",
         Stage::Differences => "differences",
+        Stage::Evidence => "chance",
         Stage::Measure => "measuring",
         Stage::Done => "done",
     }
@@ -411,11 +417,16 @@ fn print_in_words(report: &Report) {
     let share = |value: f64| 100.0 * value;
     println!("A  {} ({} modes)", report.models.a.name, report.models.a.modes);
     println!("B  {} ({} modes)", report.models.b.name, report.models.b.modes);
-    println!(
-        "σ = {:.4} {unit}{}",
-        report.settings.sigma.unwrap_or(f64::NAN),
-        if report.settings.sigma_recommended { " (recommended)" } else { "" }
-    );
+    print_reach(report);
+    if let Some(sigma) = report.settings.sigma {
+        println!("σ = {sigma:.4} {unit}, {}", source_in_words(report.sigma_source));
+    }
+    match &report.evidence {
+        Some(found) => evidence::print_in_words(found, unit),
+        None => println!(
+            "Whether this is more than chance cannot be said: the shapes that the models were made from are not known. Give the folders of the shapes instead of the models."
+        ),
+    }
     println!(
         "B can make {:.1} % of A's variance; A can make {:.1} % of B's.",
         share(report.overlap.variance_of_a_in_b),
@@ -461,6 +472,44 @@ fn print_in_words(report: &Report) {
     );
     for warning in &report.warnings {
         println!("! {} {}", warning.message, warning.hint);
+    }
+}
+
+/// How far the shapes of either model lie from the other.
+fn print_reach(report: &Report) {
+    let Some(reach) = &report.reach else { return };
+    let unit = report.models.a.unit.symbol();
+    for (this, other, found) in [("A", "B", &reach.a_to_b), ("B", "A", &reach.b_to_a)] {
+        let Quantiles { p05, p50, p95 } = found.quantiles;
+        println!(
+            "A shape of {this} lies {:.4} ± {:.4} {unit} from the nearest that {other} can make (median {p50:.4}, nine in ten {p05:.4} to {p95:.4}), {:.0} % of its distance from the mean of {this}.",
+            found.mean,
+            found.standard_error,
+            100.0 * found.relative
+        );
+        let MeanSquare { total, offset, offset_closed, exclusive } = found.mean_square;
+        let share = |part: f64| if total > 0.0 { 100.0 * part / total } else { 0.0 };
+        println!(
+            "     of its mean square {:.1} % are an offset of the means that no shape closes, {:.1} % an offset that shapes close, {:.1} % variance that {other} lacks.",
+            share(offset),
+            share(offset_closed),
+            share(exclusive)
+        );
+    }
+    if let Some(meeting) = reach.meeting {
+        println!("Plausible shapes of the two come within {meeting:.4} {unit} of one another.");
+    }
+}
+
+fn source_in_words(source: Option<SigmaSource>) -> &'static str {
+    match source {
+        Some(SigmaSource::LeftOut) => {
+            "the mean distance of training shapes to the model of the others"
+        }
+        Some(SigmaSource::Noise) => "how far true members lie from their own model",
+        Some(SigmaSource::Budget) => "a quarter of the range of distances",
+        Some(SigmaSource::Meeting) => "the least distance of plausible shapes of the two",
+        Some(SigmaSource::Given) | None => "as given",
     }
 }
 

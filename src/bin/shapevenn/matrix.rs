@@ -3,8 +3,12 @@
 use clap::Args;
 use serde::Serialize;
 use shapevenn::error::ComparisonError;
+use shapevenn::evidence::{Options, evidence_of_pair};
 use shapevenn::files::Error;
+use shapevenn::model::LinearModel;
+use shapevenn::pair::Pair;
 use shapevenn::relate::{RelationReport, relate};
+use shapevenn::report::EvidenceReport;
 use shapevenn::settings::Settings;
 
 use crate::{Failure, document, prepare, sources, to_json};
@@ -33,6 +37,8 @@ struct Cell {
     b: usize,
     #[serde(flatten)]
     relation: RelationReport,
+    /// Whether they differ by more than chance; null where the training shapes of one are not known.
+    evidence: Option<EvidenceReport>,
 }
 
 #[derive(Debug, Serialize)]
@@ -42,16 +48,34 @@ struct Matrix {
 }
 
 impl Matrix {
-    /// What is said of row and column; the share is of the row's variance in the space of the column.
-    fn cell(&self, row: usize, column: usize) -> Option<(f64, f64)> {
+    /// The cell of two models, whatever their order.
+    fn cell(&self, row: usize, column: usize) -> Option<&Cell> {
         let (first, second) = (row.min(column), row.max(column));
-        let cell = self.relations.iter().find(|cell| cell.a == first && cell.b == second)?;
-        let found = &cell.relation;
-        let share = if row < column { found.variance_of_a_in_b } else { found.variance_of_b_in_a };
-        Some((share?, found.grassmann?))
+        self.relations.iter().find(|cell| cell.a == first && cell.b == second)
     }
 
-    fn table(&self, value: impl Fn((f64, f64)) -> String) -> String {
+    /// Share of the row's variance in the space of the column.
+    fn share(&self, row: usize, column: usize) -> Option<f64> {
+        let found = &self.cell(row, column)?.relation;
+        if row < column { found.variance_of_a_in_b } else { found.variance_of_b_in_a }
+    }
+
+    fn grassmann(&self, row: usize, column: usize) -> Option<f64> {
+        self.cell(row, column)?.relation.grassmann
+    }
+
+    /// Smallest adjusted p of the hypothesis of one population.
+    fn smallest_p(&self, row: usize, column: usize) -> Option<f64> {
+        let evidence = self.cell(row, column)?.evidence.as_ref()?;
+        let statistics = evidence.one_population.statistics.iter();
+        statistics.map(|one| one.p_adjusted).reduce(f64::min)
+    }
+
+    fn table(
+        &self,
+        value: impl Fn(&Self, usize, usize) -> Option<f64>,
+        text: impl Fn(f64) -> String,
+    ) -> String {
         let numbers: Vec<String> = (1..=self.models.len()).map(|k| k.to_string()).collect();
         let headings: Vec<&str> =
             core::iter::once("").chain(numbers.iter().map(String::as_str)).collect();
@@ -64,13 +88,20 @@ impl Matrix {
                     if row == column {
                         return "·".to_owned();
                     }
-                    self.cell(row, column).map_or_else(|| "–".to_owned(), &value)
+                    value(self, row, column).map_or_else(|| "–".to_owned(), &text)
                 });
                 core::iter::once(format!("{} {name}", row + 1)).chain(cells).collect()
             })
             .collect();
         document::markdown(&headings, &rows)
     }
+}
+
+fn evidence(a: &LinearModel, b: &LinearModel, settings: &Settings) -> Option<EvidenceReport> {
+    let Settings { prepare, align, modes, permutations, seed, .. } = settings;
+    let pair = Pair::prepared(a, b, prepare, *align, *modes).ok()?;
+    let options = Options { permutations: *permutations, seed: *seed, modes: *modes };
+    evidence_of_pair(&pair, options)?.ok()
 }
 
 pub(crate) fn matrix(arguments: &Arguments) -> Result<(), Failure> {
@@ -87,8 +118,10 @@ pub(crate) fn matrix(arguments: &Arguments) -> Result<(), Failure> {
     };
     for a in 0..models.len() {
         for b in a + 1..models.len() {
-            let relation = relate(&models[a].model, &models[b].model, &settings).into();
-            found.relations.push(Cell { a, b, relation });
+            let (first, second) = (&models[a].model, &models[b].model);
+            let relation = relate(first, second, &settings).into();
+            let evidence = evidence(first, second, &settings);
+            found.relations.push(Cell { a, b, relation, evidence });
         }
     }
     if arguments.json {
@@ -96,10 +129,14 @@ pub(crate) fn matrix(arguments: &Arguments) -> Result<(), Failure> {
         return Ok(());
     }
     println!("Share of the row's variance that the column can make, in %:\n");
-    println!("{}", found.table(|(share, _)| format!("{:.1}", 100.0 * share)));
+    println!("{}", found.table(Matrix::share, |share| format!("{:.1}", 100.0 * share)));
     println!("Affine Grassmann distance, in radians:\n");
-    println!("{}", found.table(|(_, distance)| format!("{distance:.4}")));
-    for Cell { a, b, relation } in &found.relations {
+    println!("{}", found.table(Matrix::grassmann, |distance| format!("{distance:.4}")));
+    if found.relations.iter().any(|cell| cell.evidence.is_some()) {
+        println!("Smallest adjusted p of one population, by relabelling the training shapes:\n");
+        println!("{}", found.table(Matrix::smallest_p, |p| format!("{p:.3}")));
+    }
+    for Cell { a, b, relation, .. } in &found.relations {
         if let Some(problem) = &relation.problem {
             println!("! {} and {}: {} {}", a + 1, b + 1, problem.message, problem.hint);
         }

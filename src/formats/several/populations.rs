@@ -24,7 +24,7 @@ use crate::formats::readers::cells;
 use crate::formats::several::naming::name_of;
 use crate::formats::{FormatError, Opened, Options, Origin, Part};
 use crate::model::{
-    Alignment, BasisCheck, Cells, ModelError, generalised_procrustes, into_principal_components,
+    Alignment, BasisCheck, Cells, ModelError, generalised_procrustes, model_of_population,
 };
 use crate::text::thousands;
 
@@ -306,7 +306,7 @@ impl Shapes {
         {
             return Err(Fault::SameShapes { count });
         }
-        let model = into_principal_components(dimension, shapes).map_err(Fault::Model)?;
+        let model = model_of_population(dimension, shapes, alignment).map_err(Fault::Model)?;
         let mut notes = vec![format!(
             "Made of {count} shapes, moved and turned onto their mean {}: {}.",
             if options.scale { "and brought to one size" } else { "without changing their size" },

@@ -77,15 +77,30 @@ function tolerance(report: Report): Phrase {
       : [];
     return [" The tolerance σ of the distance likelihood was chosen as ", used, ...other, "."];
   }
-  const why: Phrase = found
-    ? [
+  return [" The tolerance σ of the distance likelihood was ", used, ...source(report), "."];
+}
+
+/** Where the recommended σ comes from. */
+function source({ sigmaSource, intersection, models }: Report): Phrase {
+  switch (sigmaSource) {
+    case "left-out":
+      return [", the mean distance of each training shape to the model of the others"];
+    case "noise":
+      return [", the distance of true members from their own model"];
+    case "meeting":
+      return [", the least distance of plausible shapes of the two models"];
+    default: {
+      const found = intersection.tolerance;
+      if (!found) return [", recommended by the program"];
+      const path = "intersection.tolerance";
+      return [
         ", recommended by the program from the expected distance to the other model as σ → 0 and as σ → ∞, ",
         reported(`${path}.nearest`, found.nearest, number(found.nearest)),
         " and ",
-        reported(`${path}.farthest`, found.farthest, length(found.farthest, unit)),
-      ]
-    : [", recommended by the program"];
-  return [" The tolerance σ of the distance likelihood was ", used, ...why, "."];
+        reported(`${path}.farthest`, found.farthest, length(found.farthest, models.a.unit)),
+      ];
+    }
+  }
 }
 
 function sampling(report: Report): Phrase {

@@ -1,5 +1,5 @@
 /** The tables of numbers under the results: which numbers of the report, in which order, in which format. */
-import type { Report } from "../../worker/protocol";
+import type { Report, StatisticName } from "../../worker/protocol";
 import { count, length, number, percent } from "../text/format";
 
 export interface Row {
@@ -16,6 +16,8 @@ export interface Group {
 }
 
 export const inUnit = (value: number, report: Report) => length(value, report.models.a.unit);
+const inSquaredUnit = (value: number, report: Report) =>
+  `${number(value)}\u202f${report.models.a.unit}²`;
 /** Shows rounding error as 0. */
 const radians = (value: number) => (value < 1e-9 ? "0" : number(value, 4));
 const plainly = (value: number) => number(value);
@@ -44,7 +46,29 @@ const grassmann = (label: string, end: string): Row => ({
   show: radians,
 });
 
+const reach = (label: string, path: string, show: Row["show"]): Row => ({
+  label,
+  metrics: [`reach.aToB.${path}`, `reach.bToA.${path}`],
+  show,
+});
+
 export const GROUPS: Group[] = [
+  {
+    title: "Distance to the other model, whatever σ",
+    columns: ["A to B", "B to A"],
+    rows: [
+      reach("Mean over the shapes", "mean", inUnit),
+      reach("its standard error", "standardError", inUnit),
+      reach("5 % quantile", "quantiles.p05", inUnit),
+      reach("Median", "quantiles.p50", inUnit),
+      reach("95 % quantile", "quantiles.p95", inUnit),
+      reach("Relative to the distance from the own mean", "relative", percent),
+      reach("Mean square", "meanSquare.total", inSquaredUnit),
+      reach("of it, offset that no shape closes", "meanSquare.offset", inSquaredUnit),
+      reach("offset that shapes close", "meanSquare.offsetClosed", inSquaredUnit),
+      reach("variance that the other lacks", "meanSquare.exclusive", inSquaredUnit),
+    ],
+  },
   {
     title: "The two models",
     columns: ["A", "B"],
@@ -135,6 +159,65 @@ export const DIAGNOSTICS: Group = {
     perSide("Evaluations", "evaluations", (value) => count(value)),
   ],
 };
+
+/** Names of the statistics of the permutation tests. */
+const STATISTICS: Record<StatisticName, string> = {
+  means: "Distance of the means",
+  varianceAOutsideB: "Variance of A outside B",
+  varianceBOutsideA: "Variance of B outside A",
+  distanceAToB: "Distance of A’s shapes to B",
+  distanceBToA: "Distance of B’s shapes to A",
+  totalVariances: "Ratio of the total variances, |log|",
+  principalAngles: "Sum of the squared principal angles",
+};
+
+/** Tables of what chance would give; none where the training shapes are not known. */
+export function evidenceGroups({ evidence }: Report): Group[] {
+  if (!evidence) return [];
+  const tests = (title: string, hypothesis: "onePopulation" | "oneCovariance"): Group => ({
+    title,
+    columns: ["observed", "by chance", "its SD", "p", "adjusted"],
+    rows: evidence[hypothesis].statistics.map(({ name }, index) => ({
+      label: STATISTICS[name],
+      metrics: ["observed", "chance.mean", "chance.standardDeviation", "p", "pAdjusted"].map(
+        (path) => `evidence.${hypothesis}.statistics.${index}.${path}`,
+      ),
+      show: (value) => number(value),
+    })),
+  });
+  const eachSide = (label: string, path: string, show: Row["show"]): Row => ({
+    label,
+    metrics: ["a", "b"].map((side) => path.replace("*", side)),
+    show,
+  });
+  return [
+    {
+      title: "Training shapes",
+      columns: ["A", "B"],
+      rows: [
+        eachSide("Number", "evidence.shapes.*", (value) => count(value)),
+        eachSide("Distance to the model of the others", "evidence.leftOut.*.mean", inUnit),
+        eachSide("its SD", "evidence.leftOut.*.standardDeviation", inUnit),
+        eachSide("Nearer to the others of their own", "evidence.toldApart.*.share", percent),
+        eachSide("by chance", "evidence.toldApart.*.chance.mean", percent),
+        eachSide("Stable modes", "evidence.stability.*.suggestedModes", (value) => count(value)),
+      ],
+    },
+    tests(`One population? ${count(evidence.permutations)} relabellings`, "onePopulation"),
+    tests("One covariance about different means?", "oneCovariance"),
+    {
+      title: "Points where the means differ",
+      columns: ["family-wise p ≤ 0.05", "one in twenty false"],
+      rows: [
+        {
+          label: "Share of the points",
+          metrics: ["evidence.vertices.differ", "evidence.vertices.falseDiscovery"],
+          show: percent,
+        },
+      ],
+    },
+  ];
+}
 
 /** The number at a path such as `intersection.grassmann.toA`; null where the report has none. */
 export function valueAt(report: Report, path: string): number | null {

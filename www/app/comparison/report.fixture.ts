@@ -4,6 +4,7 @@ import type {
   DifferenceReport,
   ModeDiagnostics,
   ModelReport,
+  ReachOfSide,
   Report,
   Settings,
 } from "../../worker/protocol";
@@ -42,6 +43,14 @@ export function madeUpReport(settings: Partial<Settings> = {}, names = { a: "a",
       sigma,
       sigmaRecommended: (settings.sigma ?? null) === null,
     },
+    sigmaSource: (settings.sigma ?? null) === null ? "budget" : "given",
+    reach: {
+      aToB: reach(3.02),
+      bToA: reach(2.91),
+      meeting: 0.2504,
+      curve: { sigma: [0.3, 3, 30], aWithoutB: [1, 0.4, 0.01], bWithoutA: [1, 0.38, 0.01] },
+    },
+    evidence: null,
     intersection: {
       modes: 31,
       standardDeviations: deviations,
@@ -143,6 +152,17 @@ function modelReport(name: string): ModelReport {
     vertexSd: { min: 0.8, mean: 2.6, max: 6.4 },
     cells: 0,
     notes: [],
+  };
+}
+
+function reach(mean: number): ReachOfSide {
+  return {
+    mean,
+    standardError: 0.011,
+    quantiles: { p05: mean - 0.8, p50: mean - 0.05, p95: mean + 0.9 },
+    quantileErrors: { p05: 0.02, p50: 0.012, p95: 0.03 },
+    relative: 0.64,
+    meanSquare: { total: 9.5, offset: 3, offsetClosed: 5.1, exclusive: 1.4 },
   };
 }
 

@@ -420,6 +420,7 @@ const STAGES: Record<Progress["stage"], string> = {
   intersection: "Sampling A∩B",
   differences: "Sampling A∖B and B∖A",
   measure: "Measuring",
+  evidence: "Relabelling training shapes",
   done: "Finishing",
 };
 

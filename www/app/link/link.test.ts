@@ -1,11 +1,16 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Preparation } from "../../worker/protocol";
+import { FIRST_DEMO } from "../state/demos";
 import { defaultLink, fitsLink, misread, readLink, SETTING_KEYS, writeLink } from "./link";
 
-test("an empty link is the first comparison", () => {
-  assert.deepEqual(readLink(""), defaultLink());
-  assert.deepEqual(readLink("#"), defaultLink());
+test("an empty link is the first comparison, with the σ that it is stored with", () => {
+  const { settings, ...rest } = defaultLink();
+  const expected = { ...rest, settings: { ...settings, sigma: FIRST_DEMO.sigma } };
+  assert.deepEqual(readLink(""), expected);
+  assert.deepEqual(readLink("v=1&demo=heads-sex&view=mean"), expected);
+  assert.equal(readLink("v=1&seed=1").settings.sigma, null, "who sets one thing leaves σ open");
+  assert.equal(readLink("v=1&demo=planes").settings.sigma, null, "so do other examples");
 });
 
 test("what is written is read back, for every field", () => {

@@ -16,7 +16,7 @@ import { defaultLesson, type LessonState, readLesson, writeLesson } from "../lea
 import { misreadAddresses, readModels, writeModels } from "../models/address/codec";
 import { MEASURE_NAMES, type MeasureName } from "../models/list/measures";
 import { type Camera, HOME } from "../state/camera";
-import { DEMO_MODELS, findDemo } from "../state/demos";
+import { DEMO_MODELS, FIRST_DEMO, findDemo } from "../state/demos";
 import {
   defaultExplorer,
   type ExplorerState,
@@ -200,7 +200,7 @@ export function readLink(fragment: string): LinkState {
     lesson: fallback.lesson,
     demo: findDemo(given.get("demo") ?? "")?.id ?? fallback.demo,
     ...readModels(given),
-    settings: readSettings(given),
+    settings: settingsOfLink(given),
     tab: oneOf(given.get("room"), TABS) ?? fallback.tab,
     map: oneOf(given.get("map"), MAPS) ?? fallback.map,
     mapMode: valid(parseCount(given.get("mode") ?? "", ...MODES), 1) - 1,
@@ -219,6 +219,17 @@ export function readLink(fragment: string): LinkState {
     measure: oneOf(given.get("measure"), MEASURE_NAMES) ?? fallback.measure,
     camera: readCamera(given.get("camera")),
   };
+}
+
+/** A link that says nothing about settings has those of its example, as the comparison that is stored with the page. */
+function settingsOfLink(given: URLSearchParams): Settings {
+  const settings = readSettings(given);
+  const silent = !SETTING_KEYS.some((key) => given.has(key));
+  const isFirst =
+    !given.has("a") && !given.has("b") && !given.has("name-a") && !given.has("name-b");
+  const demo = findDemo(given.get("demo") ?? FIRST_DEMO.id);
+  const sigma = silent && isFirst && demo === FIRST_DEMO ? FIRST_DEMO.sigma : undefined;
+  return sigma === undefined ? settings : { ...settings, sigma };
 }
 
 function readSettings(given: URLSearchParams): Settings {

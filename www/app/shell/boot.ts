@@ -4,7 +4,7 @@ import { storedResult, watchChoices, watchPictures } from "../comparison/run";
 import { titleOf } from "../learn/scenes";
 import { lessonState, scene } from "../learn/state";
 import { apply, keepLink, modelListOf, modelsOf } from "../link/history";
-import { type LinkState, misread, readLink, SETTING_KEYS } from "../link/link";
+import { type LinkState, misread, readLink } from "../link/link";
 import { awaitLink, watchRunFile } from "../link/runfile/run";
 import { watchContent } from "../models/address/checked";
 import { restoreModelList } from "../models/list/actions";
@@ -92,9 +92,7 @@ async function bootComparison(link: LinkState): Promise<void> {
 /** Whether the address opens the stored comparison, as an empty one does. */
 function wants(link: LinkState, storedKey: string): boolean {
   if (link.urls || link.demo !== FIRST_DEMO.id) return false;
-  const asked = new URLSearchParams(location.hash.slice(1));
-  const silent = !SETTING_KEYS.some((key) => asked.has(key));
-  return silent || settingsKey(link.settings) === storedKey;
+  return settingsKey(link.settings) === storedKey;
 }
 
 /** Reports keys and values of a link that this page does not know, as from a newer page. */

@@ -4,10 +4,19 @@
 //! names are camelCase in JSON. New fields may be added; none is renamed or dropped without
 //! [`SCHEMA`] going up. Lengths are in the unit of model A, angles in degrees.
 
-use crate::model::Sides;
+mod evidence;
+
+use crate::model::{Side, Sides};
+use crate::pair::{ReachDraws, ReachOfSide};
+use crate::settings::SigmaSource;
 use serde::{Deserialize, Serialize};
 
 use crate::model::{Kind, LinearModel, Unit};
+
+pub use evidence::{
+    Band, Bands, Chance, EvidenceReport, Hypothesis, LeftOut, MatchedShares, ModeStability,
+    Statistic, StatisticName, ToldApart, VertexEvidence,
+};
 
 /// Version of the report's layout.
 pub const SCHEMA: u32 = 1;
@@ -25,6 +34,15 @@ pub struct Report {
     pub models: Models,
     /// Everything needed to run again.
     pub settings: crate::settings::Settings,
+    /// Where the σ in `settings` comes from; reports of older engines do not say.
+    #[serde(default)]
+    pub sigma_source: Option<SigmaSource>,
+    /// How far the shapes of one model lie from the other, without any tolerance.
+    #[serde(default)]
+    pub reach: Option<ReachReport>,
+    /// Whether the two populations differ by more than chance; absent where the shapes of one are not known.
+    #[serde(default)]
+    pub evidence: Option<EvidenceReport>,
     /// The allowable shapes of both.
     pub intersection: IntersectionReport,
     /// The shapes of one that the other cannot make.
@@ -182,6 +200,53 @@ impl MeanSd {
         let squares: f64 = values.iter().map(|value| (value - mean) * (value - mean)).sum();
         let sd = if values.len() < 2 { 0.0 } else { (squares / (count - 1.0)).sqrt() };
         Self { mean, sd }
+    }
+}
+
+/// How far the shapes of each model lie from the other. Lengths are in the unit of A.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(rename_all = "camelCase")]
+pub struct ReachReport {
+    /// Of shapes of A to B.
+    pub a_to_b: ReachOfSide,
+    /// Of shapes of B to A.
+    pub b_to_a: ReachOfSide,
+    /// Least distance of plausible shapes of the two; absent where B makes all shapes of A.
+    pub meeting: Option<f64>,
+    /// Share of the shapes that count as outside the other model, for every σ.
+    pub curve: ReachCurve,
+}
+
+/// Shares of the soft differences by σ, from the draws of the reach: E[1 − exp(−½(d/σ)²)].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(rename_all = "camelCase")]
+pub struct ReachCurve {
+    /// σ, ascending in equal ratios.
+    pub sigma: Vec<f64>,
+    /// P(A\B | σ).
+    pub a_without_b: Vec<f64>,
+    /// P(B\A | σ).
+    pub b_without_a: Vec<f64>,
+}
+
+impl ReachCurve {
+    /// 41 σ from a tenth of the smaller to ten times the larger median; nothing where no shape has a distance.
+    pub fn of(draws: &Sides<ReachDraws>) -> Self {
+        const STEPS: usize = 40;
+        let medians = draws.as_ref().map(|draws| draws.summary().quantiles.p50);
+        let positive = || medians.into_iter().filter(|median| *median > 0.0);
+        let (Some(low), Some(high)) = (positive().reduce(f64::min), positive().reduce(f64::max))
+        else {
+            return Self { sigma: Vec::new(), a_without_b: Vec::new(), b_without_a: Vec::new() };
+        };
+        let (low, high) = (0.1 * low, 10.0 * high);
+        let ratio = libm::log(high / low);
+        let sigma: Vec<f64> =
+            (0..=STEPS).map(|k| low * libm::exp(ratio * k as f64 / STEPS as f64)).collect();
+        let shares = |side: Side| sigma.iter().map(|&s| draws[side].share_beyond(s)).collect();
+        Self { a_without_b: shares(Side::A), b_without_a: shares(Side::B), sigma }
     }
 }
 

@@ -1,0 +1,146 @@
+//! `shapevenn evidence`: whether two sets of shapes differ by more than chance, and what of that is said in words.
+
+use clap::Args;
+use indicatif::ProgressBar;
+use shapevenn::error::ComparisonError;
+use shapevenn::evidence::{Evidence, Groups, Options};
+use shapevenn::files::Error;
+use shapevenn::model::Side;
+use shapevenn::pair::Pair;
+use shapevenn::report::{EvidenceReport, Hypothesis, StatisticName};
+use shapevenn::settings::Settings;
+
+use crate::{Failure, prepare, sources, to_json};
+
+#[derive(Debug, Args)]
+#[group(skip)]
+pub(crate) struct Arguments {
+    /// First set: a folder of shapes, a file of landmarks of several specimens, or a model with its training shapes
+    a: String,
+    /// Second set
+    b: String,
+    #[command(flatten)]
+    prepare: prepare::Arguments,
+    /// Random relabellings of the shapes
+    #[arg(long, default_value_t = 999)]
+    permutations: usize,
+    /// Seed of the random relabellings
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Print one JSON document
+    #[arg(long)]
+    json: bool,
+}
+
+pub(crate) fn evidence(arguments: &Arguments) -> Result<(), Failure> {
+    let Arguments { permutations, seed, prepare, .. } = arguments;
+    let settings = prepare.settings(Settings {
+        permutations: *permutations,
+        seed: *seed,
+        ..Settings::default()
+    })?;
+    settings.check().map_err(|error| Error::from(ComparisonError::from(error)))?;
+    let [a, b] = [&arguments.a, &arguments.b].map(|source| sources::open(source, prepare.scale));
+    let (a, b) = (a?, b?);
+    for (model, source, side) in [(&a.model, &arguments.a, "A"), (&b.model, &arguments.b, "B")] {
+        if model.training_shapes().is_none() {
+            return Err(Failure::Input {
+                message: format!(
+                    "{source} is a model whose training shapes are not known; the shapes of {side} were expected."
+                ),
+                hint: "Give the folder of the shapes that the model was made from.".to_owned(),
+            });
+        }
+    }
+    let Settings { prepare: steps, align, modes, .. } = &settings;
+    let pair = Pair::prepared(&a.model, &b.model, steps, *align, *modes)
+        .map_err(|error| Error::from(ComparisonError::from(error)))?;
+    let refused = |error: shapevenn::evidence::EvidenceError| Failure::Input {
+        message: error.to_string(),
+        hint: error.hint().to_owned(),
+    };
+    let groups = Groups::of_pair(&pair).transpose().map_err(refused)?;
+    let groups = groups.ok_or_else(|| Failure::System("no training shapes".to_owned()))?;
+    let options = Options { permutations: *permutations, seed: *seed, modes: *modes };
+    let mut run = Evidence::new(groups, options).map_err(refused)?;
+    let bar = ProgressBar::new(1000);
+    while !run.is_done() {
+        run.advance(64);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 1000")]
+        bar.set_position((1000.0 * run.fraction()) as u64);
+    }
+    bar.finish_and_clear();
+    let found = run.report().ok_or_else(|| Failure::System("no evidence".to_owned()))?;
+    if arguments.json {
+        println!("{}", to_json(&found)?);
+    } else {
+        println!("A  {}\nB  {}", a.report.name, b.report.name);
+        print_in_words(&found, pair.a().unit().symbol());
+    }
+    Ok(())
+}
+
+/// What evidence there is, or why there is none.
+pub(crate) fn print_in_words(found: &EvidenceReport, unit: &str) {
+    let means = found.one_population.statistics.iter().find(|one| one.name == StatisticName::Means);
+    let least = found.one_population.statistics.iter().map(|one| one.p_adjusted).reduce(f64::min);
+    println!(
+        "{} and {} shapes: the two {} (smallest adjusted p {:.3}, {} relabellings).",
+        found.shapes.a,
+        found.shapes.b,
+        if least.is_some_and(|p| p <= 0.05) {
+            "differ by more than chance"
+        } else {
+            "do not differ by more than two random groups of one population"
+        },
+        least.unwrap_or(1.0),
+        found.permutations
+    );
+    if let Some(means) = means {
+        println!(
+            "Their means are {:.4} {unit} apart; those of two random groups {:.4} ± {:.4} {unit}.",
+            means.observed, means.chance.mean, means.chance.standard_deviation
+        );
+    }
+    for (side, name) in [(Side::A, "A"), (Side::B, "B")] {
+        let (left_out, apart) = (found.left_out[side], found.told_apart[side]);
+        println!(
+            "A shape of {name} lies {:.4} ± {:.4} {unit} from the model of the others; {:.0} % of them are nearer to it than to the other model ({:.0} % by chance). Stable modes of {name}: {}.",
+            left_out.mean,
+            left_out.standard_deviation,
+            100.0 * apart.share,
+            100.0 * apart.chance.mean,
+            found.stability[side].suggested_modes
+        );
+    }
+    println!(
+        "The means differ at {:.0} % of the points (family-wise p ≤ 0.05), at {:.0} % if one in twenty of these may be false.",
+        100.0 * found.vertices.differ,
+        100.0 * found.vertices.false_discovery
+    );
+    print_hypothesis("One population", &found.one_population);
+    print_hypothesis(
+        "One covariance about different means (exact for Gaussian populations)",
+        &found.one_covariance,
+    );
+    for condition in &found.conditions {
+        println!("! {} {}", condition.message, condition.hint);
+    }
+}
+
+fn print_hypothesis(name: &str, hypothesis: &Hypothesis) {
+    println!("{name}:");
+    println!("    statistic            observed   by chance                  p    adjusted");
+    for one in &hypothesis.statistics {
+        println!(
+            "    {:18} {:10.4}  {:8.4} ± {:8.4}  {:.4} ± {:.4}  {:.4}",
+            one.name.in_json(),
+            one.observed,
+            one.chance.mean,
+            one.chance.standard_deviation,
+            one.p,
+            one.p_error,
+            one.p_adjusted
+        );
+    }
+}

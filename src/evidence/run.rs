@@ -1,0 +1,718 @@
+//! A comparison of two groups of shapes that can be taken piece by piece, cancelled and reported at any time.
+//!
+//! Replicates are independent, each with its own stream of random numbers, and what they give is added up in their
+//! order: neither how the work is cut nor the number of threads changes a bit.
+
+use super::EvidenceError;
+use super::arrangements::{Arrangements, some_of};
+use super::conditions::conditions;
+use super::groups::Groups;
+use super::significance::{chance, holm, is_as_large, p_error, p_value};
+use super::stability::{self, HALVINGS};
+use super::statistics::{Compared, Contrasts, Curves, InnerProducts, STATISTICS, compare};
+use super::told_apart::{self, RELABELLINGS};
+use super::vertices::{self, VertexTest};
+use crate::linalg::parallel;
+use crate::model::{Side, Sides};
+use crate::report::{
+    Band, Bands, EvidenceReport, Hypothesis, LeftOut, MatchedShares, Statistic, StatisticName,
+    ToldApart,
+};
+use crate::sampling::{Stream, stream};
+
+/// Random parts of the larger group at which shares of variance are compared.
+const PARTS: usize = 50;
+
+/// How much is computed, and the seed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Options {
+    /// Random relabellings; all of them are taken where there are no more.
+    pub permutations: usize,
+    /// Seed of the random numbers.
+    pub seed: u64,
+    /// Modes of the two models; all when there is no number.
+    pub modes: Option<usize>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self { permutations: 999, seed: 1, modes: None }
+    }
+}
+
+/// What is done one after another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Stage {
+    LeftOut,
+    ToldApart,
+    Stability,
+    Matched,
+    Permutations,
+}
+
+const STAGES: [Stage; 5] =
+    [Stage::LeftOut, Stage::ToldApart, Stage::Stability, Stage::Matched, Stage::Permutations];
+
+/// A comparison of two groups of shapes, under way.
+#[derive(Debug)]
+pub struct Evidence {
+    groups: Groups,
+    options: Options,
+    /// Modes that are compared.
+    modes: usize,
+    contrasts: Contrasts,
+    relabellings: Arrangements,
+    rearrangements: Arrangements,
+    /// Number of the stage, and replicates of it that are done.
+    stage: usize,
+    done: usize,
+    left_out: Sides<LeftOut>,
+    nearer: Sides<f64>,
+    nearer_by_chance: Sides<Vec<f64>>,
+    /// Sums of the overlaps of halves.
+    overlaps: Sides<Vec<f64>>,
+    halvings: usize,
+    matched: Sides<f64>,
+    parts: usize,
+    observed: [[f64; 7]; 2],
+    curves: Vec<f64>,
+    /// Under relabelling, of one population and of one covariance.
+    replicates: [Vec<[f64; 7]>; 2],
+    curves_by_chance: Vec<Vec<f64>>,
+    vertices: VertexTest,
+}
+
+impl Evidence {
+    /// Prepares a comparison of `groups`.
+    ///
+    /// # Errors
+    /// None that [`Groups::new`] has not found.
+    pub fn new(groups: Groups, options: Options) -> Result<Self, EvidenceError> {
+        let most = options.permutations.max(1);
+        let options = Options { modes: options.modes.map(|modes| modes.max(1)), ..options };
+        let Sides { a, b } = groups.counts();
+        let modes = groups.modes_to_compare(options.modes);
+        let contrasts = Contrasts::new(&groups);
+        let sides = Sides::each(|side| groups.indices(side));
+        let by_labels = InnerProducts::of(groups.gram(), &sides.a, &sides.b);
+        let Compared { statistics, curves } =
+            compare(&by_labels, modes, groups.point_count(), true);
+        let own: Vec<usize> = (0..a + b - 2).collect();
+        let by_contrasts = contrasts.inner_products(&own[..a - 1], &own[a - 1..]);
+        let of_contrasts = compare(&by_contrasts, modes, groups.point_count(), false).statistics;
+        let no_overlap = Sides::each(|side| vec![0.0; most_modes(&groups, side)]);
+        Ok(Self {
+            modes,
+            relabellings: Arrangements::new(a + b, a, most, options.seed, 0),
+            rearrangements: Arrangements::new(a + b - 2, a - 1, most, options.seed, 1),
+            stage: 0,
+            done: 0,
+            left_out: Sides::each(|_| LeftOut { mean: 0.0, standard_deviation: 0.0 }),
+            nearer: Sides::default(),
+            nearer_by_chance: Sides::default(),
+            overlaps: no_overlap,
+            halvings: 0,
+            matched: Sides::default(),
+            parts: 0,
+            observed: [statistics, of_contrasts],
+            curves: curves.map(Curves::into_values).unwrap_or_default(),
+            replicates: [Vec::new(), Vec::new()],
+            curves_by_chance: Vec::new(),
+            vertices: VertexTest::new(&groups),
+            contrasts,
+            groups,
+            options,
+        })
+    }
+
+    /// The two groups.
+    pub fn groups(&self) -> &Groups {
+        &self.groups
+    }
+
+    /// Takes `replicates` more: relabellings, halves, parts; a step that cannot be divided counts as one.
+    pub fn advance(&mut self, replicates: usize) {
+        let mut left = replicates;
+        while left > 0 && !self.is_done() {
+            let stage = STAGES[self.stage];
+            let taken = left.min(self.size(stage) - self.done).min(vertices::TOGETHER);
+            if taken > 0 {
+                self.take(stage, taken);
+            }
+            self.done += taken;
+            left -= taken;
+            if self.done == self.size(stage) && self.stage + 1 < STAGES.len() {
+                self.stage += 1;
+                self.done = 0;
+            }
+        }
+    }
+
+    /// Whether nothing is left to do.
+    pub fn is_done(&self) -> bool {
+        STAGES[self.stage] == Stage::Permutations && self.done == self.size(Stage::Permutations)
+    }
+
+    /// About which share of the work is done, 0 to 1.
+    pub fn fraction(&self) -> f64 {
+        let cost = |stage: Stage| self.size(stage) as f64 * self.cost(stage);
+        let total: f64 = STAGES.into_iter().map(cost).sum();
+        let before: f64 = STAGES[..self.stage].iter().map(|stage| cost(*stage)).sum();
+        let stage = STAGES[self.stage];
+        ((before + self.done as f64 * self.cost(stage)) / total).min(1.0)
+    }
+
+    /// What is known: once a relabelling has been taken, and with all of them once it is done.
+    pub fn report(&self) -> Option<EvidenceReport> {
+        let count = self.replicates[0].len();
+        if count == 0 {
+            return None;
+        }
+        let all = self.relabellings.is_exhaustive() && self.is_done();
+        Some(EvidenceReport {
+            shapes: self.groups.counts(),
+            shared_shapes: self.groups.shared(),
+            modes: self.modes,
+            left_out: self.left_out,
+            permutations: count,
+            one_population: self.hypothesis(0),
+            one_covariance: self.hypothesis(1),
+            bands: self.bands(),
+            matched: self.matched_shares(),
+            told_apart: Sides::each(|side| ToldApart {
+                share: self.nearer[side],
+                chance: chance(&self.nearer_by_chance[side]),
+            }),
+            vertices: self.vertices.report(all),
+            stability: Sides::each(|side| {
+                stability::report(&self.overlaps[side], self.halvings, self.dimensions())
+            }),
+            conditions: conditions(&self.groups),
+        })
+    }
+
+    /// Replicates of a stage.
+    fn size(&self, stage: Stage) -> usize {
+        let Sides { a, b } = self.groups.counts();
+        match stage {
+            Stage::LeftOut => 1,
+            Stage::ToldApart => RELABELLINGS.min(self.relabellings.count()),
+            Stage::Stability => HALVINGS,
+            Stage::Matched => {
+                if a == b {
+                    0
+                } else {
+                    PARTS
+                }
+            }
+            Stage::Permutations => self.relabellings.count().max(self.rearrangements.count()),
+        }
+    }
+
+    /// About how many operations a replicate of a stage takes.
+    fn cost(&self, stage: Stage) -> f64 {
+        let Sides { a, b } = self.groups.counts();
+        let total = (a + b) as f64;
+        let coordinates = self.groups.shapes().nrows() as f64;
+        let cube = total * total * total;
+        let refits = if self.options.modes.is_some() { total } else { 1.0 };
+        match stage {
+            Stage::LeftOut => 4.0 * coordinates * total * total + 4.0 * refits * cube,
+            Stage::ToldApart => {
+                if self.options.modes.is_some() {
+                    12.0 * cube
+                } else {
+                    7.0 * cube
+                }
+            }
+            Stage::Stability => cube,
+            Stage::Matched => 8.0 * cube,
+            Stage::Permutations => 20.0 * cube + 2.0 * coordinates * total,
+        }
+    }
+
+    fn take(&mut self, stage: Stage, count: usize) {
+        let range = self.done..self.done + count;
+        let (groups, modes) = (&self.groups, self.options.modes);
+        match stage {
+            Stage::LeftOut => {
+                let (errors, nearer) = told_apart::observed(groups, modes);
+                self.left_out = errors.map(|errors| summary(&errors));
+                self.nearer = nearer;
+            }
+            Stage::ToldApart => {
+                let shares = parallel::map(count, |item| {
+                    let (a, b) = self.relabellings.get(range.start + item);
+                    told_apart::relabelled(groups.gram(), &a, &b, modes)
+                });
+                for share in shares {
+                    self.nearer_by_chance.a.push(share.a);
+                    self.nearer_by_chance.b.push(share.b);
+                }
+            }
+            Stage::Stability => {
+                let sides = Sides::each(|side| groups.indices(side));
+                let found = parallel::map(count, |item| {
+                    Sides::each(|side| {
+                        let purpose = (self.options.seed, side.index(), range.start + item);
+                        let most = self.overlaps[side].len();
+                        stability::halved(groups.gram(), &sides[side], most, purpose)
+                    })
+                });
+                for overlaps in found {
+                    for (sums, overlaps) in
+                        [&mut self.overlaps.a, &mut self.overlaps.b].into_iter().zip(overlaps)
+                    {
+                        for (sum, overlap) in sums.iter_mut().zip(overlaps) {
+                            *sum += overlap;
+                        }
+                    }
+                }
+                self.halvings = range.end;
+            }
+            Stage::Matched => {
+                let found = parallel::map(count, |item| self.part(range.start + item));
+                for statistics in found {
+                    self.matched.a += statistics[1];
+                    self.matched.b += statistics[2];
+                }
+                self.parts = range.end;
+            }
+            Stage::Permutations => self.relabel(range),
+        }
+    }
+
+    /// Statistics of as many random shapes of the larger group as the smaller has.
+    fn part(&self, index: usize) -> [f64; 7] {
+        let counts = self.groups.counts();
+        let least = counts.a.min(counts.b);
+        let mut random = stream(self.options.seed, Stream::Subsample, 2, index);
+        let chosen = Sides::each(|side| {
+            let of = self.groups.indices(side);
+            if of.len() == least {
+                return of;
+            }
+            some_of(&mut random, of.len(), least).into_iter().map(|place| of[place]).collect()
+        });
+        let products = InnerProducts::of(self.groups.gram(), &chosen.a, &chosen.b);
+        compare(&products, self.modes, self.groups.point_count(), false).statistics
+    }
+
+    /// The relabellings `range` of both hypotheses and of the vertices.
+    fn relabel(&mut self, range: core::ops::Range<usize>) {
+        let points = self.groups.point_count();
+        let found = parallel::map(range.len(), |item| {
+            let index = range.start + item;
+            let labels = (index < self.relabellings.count()).then(|| {
+                let (a, b) = self.relabellings.get(index);
+                let products = InnerProducts::of(self.groups.gram(), &a, &b);
+                (a, compare(&products, self.modes, points, true))
+            });
+            let contrasts = (index < self.rearrangements.count()).then(|| {
+                let (a, b) = self.rearrangements.get(index);
+                let products = self.contrasts.inner_products(&a, &b);
+                compare(&products, self.modes, points, false).statistics
+            });
+            (labels, contrasts)
+        });
+        let mut arrangements = Vec::with_capacity(found.len());
+        for (labels, contrasts) in found {
+            if let Some((a, compared)) = labels {
+                arrangements.push(a);
+                self.replicates[0].push(compared.statistics);
+                self.curves_by_chance.extend(compared.curves.map(Curves::into_values));
+            }
+            self.replicates[1].extend(contrasts);
+        }
+        self.vertices.advance(&self.groups, &arrangements);
+    }
+
+    /// 0: one population, 1: one covariance.
+    fn hypothesis(&self, which: usize) -> Hypothesis {
+        let arrangements = if which == 0 { &self.relabellings } else { &self.rearrangements };
+        let replicates = &self.replicates[which];
+        let count = replicates.len();
+        let exhaustive = arrangements.is_exhaustive() && count == arrangements.count();
+        let mut statistics: Vec<Statistic> = STATISTICS
+            .into_iter()
+            .enumerate()
+            // The means are kept under the second hypothesis.
+            .filter(|(_, name)| which == 0 || *name != StatisticName::Means)
+            .map(|(place, name)| {
+                let observed = self.observed[which][place];
+                let values: Vec<f64> = replicates.iter().map(|row| row[place]).collect();
+                let exceeding = values.iter().filter(|value| is_as_large(**value, observed));
+                let p = p_value(exceeding.count(), count, exhaustive);
+                let p_error = p_error(p, count, exhaustive);
+                Statistic { name, observed, chance: chance(&values), p, p_error, p_adjusted: p }
+            })
+            .collect();
+        let adjusted = holm(&statistics.iter().map(|one| one.p).collect::<Vec<f64>>());
+        for (statistic, adjusted) in statistics.iter_mut().zip(adjusted) {
+            statistic.p_adjusted = adjusted;
+        }
+        Hypothesis { permutations: count, exhaustive, statistics }
+    }
+
+    fn bands(&self) -> Bands {
+        let band = |curve: usize| {
+            let range = curve * self.modes..(curve + 1) * self.modes;
+            let chances: Vec<_> = range
+                .clone()
+                .map(|place| {
+                    let values = self.curves_by_chance.iter().map(|values| values[place]);
+                    chance(&values.collect::<Vec<f64>>())
+                })
+                .collect();
+            Band {
+                observed: self.curves[range].to_vec(),
+                mean: chances.iter().map(|one| one.mean).collect(),
+                p05: chances.iter().map(|one| one.p05).collect(),
+                p95: chances.iter().map(|one| one.p95).collect(),
+            }
+        };
+        let angles = band(2);
+        let degrees = |values: Vec<f64>| values.into_iter().map(f64::to_degrees).collect();
+        Bands {
+            shared_variance: Sides { a: band(0), b: band(1) },
+            principal_angles_degrees: Band {
+                observed: degrees(angles.observed),
+                mean: degrees(angles.mean),
+                p05: degrees(angles.p05),
+                p95: degrees(angles.p95),
+            },
+            standard_deviations: Sides { a: band(3), b: band(4) },
+            exclusive_modes: Sides { a: band(5), b: band(6) },
+        }
+    }
+
+    fn matched_shares(&self) -> Option<MatchedShares> {
+        let counts = self.groups.counts();
+        (self.parts > 0).then(|| MatchedShares {
+            shapes: counts.a.min(counts.b),
+            variance_a_outside_b: self.matched.a / self.parts as f64,
+            variance_b_outside_a: self.matched.b / self.parts as f64,
+        })
+    }
+
+    /// Dimensions in which shapes lie: those that all of them span where more would be possible.
+    fn dimensions(&self) -> usize {
+        let Sides { a, b } = self.groups.counts();
+        let rank = self.groups.rank();
+        if rank + 1 < a + b { rank } else { self.groups.shapes().nrows() }
+    }
+}
+
+/// Modes of a half of a group.
+fn most_modes(groups: &Groups, side: Side) -> usize {
+    stability::most_modes(groups.counts()[side], groups.rank())
+}
+
+fn summary(errors: &[f64]) -> LeftOut {
+    let found = chance(errors);
+    LeftOut { mean: found.mean, standard_deviation: found.standard_deviation }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::OnceLock;
+
+    use nalgebra::DMatrix;
+
+    use super::*;
+    use crate::evidence::samples::{drawn, falling};
+    use crate::model::Alignment;
+    use crate::testing::repetitions;
+
+    fn prepared(a: &DMatrix<f64>, b: &DMatrix<f64>, options: Options) -> Evidence {
+        let groups = Groups::new(3, a, b, Alignment::None).unwrap();
+        Evidence::new(groups, options).unwrap()
+    }
+
+    /// Relabellings alone.
+    fn relabelled(a: &DMatrix<f64>, b: &DMatrix<f64>, options: Options) -> Evidence {
+        let mut evidence = prepared(a, b, options);
+        evidence.nearer_by_chance = Sides { a: vec![0.5], b: vec![0.5] };
+        evidence.halvings = 1;
+        evidence.stage = STAGES.len() - 1;
+        evidence.advance(usize::MAX);
+        evidence
+    }
+
+    fn of(permutations: usize) -> Options {
+        Options { permutations, ..Options::default() }
+    }
+
+    /// What many pairs of groups of one population gave.
+    struct Null {
+        /// p of every statistic, of both hypotheses.
+        p: Vec<Vec<f64>>,
+        /// Pairs with any vertex of family-wise p ≤ 0.05.
+        alarms: usize,
+        /// Pairs with any vertex whose own p ≤ 0.05.
+        alarms_alone: usize,
+        pairs: usize,
+    }
+
+    /// Pairs of 8 and 7 shapes of 10 points, 199 relabellings each.
+    fn null() -> &'static Null {
+        static NULL: OnceLock<Null> = OnceLock::new();
+        NULL.get_or_init(|| {
+            let pairs = repetitions(200);
+            let mut null = Null { p: vec![Vec::new(); 13], alarms: 0, alarms_alone: 0, pairs };
+            for pair in 0..pairs {
+                let a = drawn((30, 8), 0.0, falling, 1000 + 2 * pair);
+                let b = drawn((30, 7), 0.0, falling, 1001 + 2 * pair);
+                let options = Options { permutations: 199, seed: pair as u64, modes: None };
+                let evidence = relabelled(&a, &b, options);
+                let found = evidence.report().unwrap();
+                let both = [&found.one_population, &found.one_covariance];
+                let statistics = both.into_iter().flat_map(|hypothesis| &hypothesis.statistics);
+                for (list, statistic) in null.p.iter_mut().zip(statistics) {
+                    list.push(statistic.p);
+                }
+                null.alarms += usize::from(found.vertices.differ > 0.0);
+                null.alarms_alone += usize::from(evidence.vertices.any_alone());
+            }
+            null
+        })
+    }
+
+    /// Kolmogorov and Smirnov's distance from the uniform law on 1/200, 2/200, …, 1.
+    fn distance_from_uniform(p: &[f64]) -> f64 {
+        let below = |step: i32| p.iter().filter(|p| **p <= f64::from(step) / 200.0 + 1e-12).count();
+        (1..=200)
+            .map(|step| (below(step) as f64 / p.len() as f64 - f64::from(step) / 200.0).abs())
+            .fold(0.0, f64::max)
+    }
+
+    /// Thirteen distances are all below it but for one time in a hundred: √(−½ ln(0.01/26))/√n.
+    fn bound(pairs: usize) -> f64 {
+        (-0.5 * libm::log(0.01 / 26.0) / pairs as f64).sqrt()
+    }
+
+    #[test]
+    fn p_values_of_one_population_are_uniform() {
+        let null = null();
+        for (index, p) in null.p.iter().enumerate() {
+            let found = distance_from_uniform(p);
+            assert!(found < bound(null.pairs), "statistic {index}: {found}");
+        }
+    }
+
+    #[test]
+    fn residuals_that_add_up_to_zero_would_not_have_uniform_p_values() {
+        // The twin: permuted deviations from the means of the groups instead of contrasts. They share a
+        // direction after relabelling, so that independent groups look too different. Most of it is seen with
+        // few shapes whose coordinates vary alike.
+        let mut p = [Vec::new(), Vec::new()];
+        for pair in 0..200 {
+            let a = drawn((30, 6), 0.0, |_| 1.0, 1000 + 2 * pair);
+            let b = drawn((30, 6), 0.0, |_| 1.0, 1001 + 2 * pair);
+            let evidence = prepared(&a, &b, Options { seed: pair as u64, ..of(199) });
+            let groups = &evidence.groups;
+            let mut residuals = groups.shapes().clone();
+            for side in Side::BOTH {
+                let of = groups.indices(side);
+                let mean = groups.shapes().select_columns(&of).column_mean();
+                for shape in of {
+                    let mut column = residuals.column_mut(shape);
+                    column -= &mean;
+                }
+            }
+            let gram = crate::linalg::gram(&residuals);
+            let by_residuals = |index: usize| {
+                let (a, b) = evidence.relabellings.get(index);
+                InnerProducts::of(&gram, &a, &b)
+            };
+            let by_contrasts = |index: usize| {
+                let (a, b) = evidence.rearrangements.get(index);
+                evidence.contrasts.inner_products(&a, &b)
+            };
+            // The share of A's variance outside B.
+            let value = |of: InnerProducts| compare(&of, evidence.modes, 10, false).statistics[1];
+            let observed = evidence.observed[1][1];
+            let exceeding = |values: &mut dyn Iterator<Item = f64>| {
+                values.filter(|value| is_as_large(*value, observed)).count()
+            };
+            let counts = [
+                exceeding(&mut (0..199).map(|index| value(by_contrasts(index)))),
+                exceeding(&mut (0..199).map(|index| value(by_residuals(index)))),
+            ];
+            for (list, count) in p.iter_mut().zip(counts) {
+                list.push(p_value(count, 199, false));
+            }
+        }
+        let [contrasts, residuals] = p.map(|p| distance_from_uniform(&p));
+        assert!(contrasts < bound(200), "contrasts: {contrasts}");
+        assert!(residuals > 2.0 * bound(200), "residuals: {residuals}");
+    }
+
+    #[test]
+    fn false_alarms_of_the_vertices_keep_their_level() {
+        // 5 % of the pairs have any vertex of p ≤ 0.05: within four standard errors of the binomial law. By their
+        // own p some of the ten independent vertices do in 1 − 0.95¹⁰ = 40 %.
+        let null = null();
+        let expected = 0.05 * null.pairs as f64;
+        let bound = 4.0 * (expected * 0.95).sqrt();
+        let off = null.alarms as f64 - expected;
+        assert!(off.abs() < bound.min(expected - 0.5), "{} of {}", null.alarms, null.pairs);
+        let off = null.alarms_alone as f64 - 0.401 * null.pairs as f64;
+        let bound = 4.0 * (0.401 * 0.599 * null.pairs as f64).sqrt();
+        assert!(off.abs() < bound, "alone: {} of {}", null.alarms_alone, null.pairs);
+    }
+
+    #[test]
+    fn groups_that_differ_are_told_apart() {
+        // Means 1.5 apart in every coordinate, whose standard deviations are 2 and less; and the variances of B's
+        // coordinates in reverse order.
+        let a = drawn((30, 12), 0.0, falling, 1);
+        let b = drawn((30, 12), 1.5, |row| falling(29 - row), 2);
+        let mut evidence = prepared(&a, &b, of(199));
+        evidence.advance(usize::MAX);
+        let found = evidence.report().unwrap();
+        for statistic in &found.one_population.statistics {
+            // The total variances are the same.
+            let differs = statistic.name != StatisticName::TotalVariances;
+            assert!(!differs || statistic.p_adjusted <= 0.05, "{statistic:?}");
+        }
+        let shares = &found.one_covariance.statistics[..2];
+        assert!(shares.iter().all(|share| share.p <= 0.01), "{shares:?}");
+        assert_eq!([found.told_apart.a.share, found.told_apart.b.share], [1.0, 1.0], "every shape");
+        assert!(found.told_apart.a.chance.p95 < 0.95, "{:?}", found.told_apart.a);
+        assert!(found.vertices.differ > 0.5, "{:?}", found.vertices);
+        assert!(
+            found.bands.shared_variance.a.observed[0] < found.bands.shared_variance.a.p05[0],
+            "band"
+        );
+        let angles = &found.bands.principal_angles_degrees;
+        assert!(angles.observed.iter().all(|angle| (0.0..=90.0).contains(angle)), "degrees");
+        assert!(found.bands.principal_angles_degrees.observed[0] > 1.0, "degrees, not radians");
+        assert!(found.matched.is_none(), "equal numbers");
+        assert!(found.conditions.is_empty(), "{:?}", found.conditions);
+    }
+
+    #[test]
+    fn different_means_alone_leave_one_covariance() {
+        let a = drawn((30, 12), 0.0, falling, 3);
+        let b = drawn((30, 12), 3.0, falling, 4);
+        let found = relabelled(&a, &b, of(199)).report().unwrap();
+        assert_eq!(found.one_population.statistics[0].p, 1.0 / 200.0, "the means differ");
+        for statistic in &found.one_covariance.statistics {
+            assert!(statistic.p > 0.02, "{statistic:?}");
+        }
+        assert_eq!(found.one_covariance.statistics.len(), 6, "the means are kept");
+    }
+
+    #[test]
+    fn all_arrangements_of_small_groups_equal_a_count_by_hand() {
+        // C(8, 4) = 70 relabellings, C(6, 3) = 20 of the contrasts.
+        let (a, b) = (drawn((12, 4), 0.0, falling, 5), drawn((12, 4), 0.6, falling, 6));
+        let found = relabelled(&a, &b, of(999)).report().unwrap();
+        assert_eq!((found.permutations, found.one_population.exhaustive), (70, true), "all");
+        assert_eq!(found.one_covariance.permutations, 20, "all contrasts");
+        let mut all = a.clone().resize_horizontally(8, 0.0);
+        all.columns_mut(4, 4).copy_from(&b);
+        let apart = |chosen: u32| {
+            let mut difference = nalgebra::DVector::zeros(12);
+            for shape in 0..8 {
+                let sign = if chosen >> shape & 1 == 1 { 0.25 } else { -0.25 };
+                difference += all.column(shape) * sign;
+            }
+            difference.norm()
+        };
+        let observed = apart(0b1111);
+        let chosen = (0..256_u32).filter(|chosen| chosen.count_ones() == 4);
+        let exceeding = chosen.filter(|&chosen| apart(chosen) >= observed * (1.0 - 1e-10)).count();
+        let means = &found.one_population.statistics[0];
+        assert_eq!(means.p, exceeding as f64 / 70.0, "exact p of the means");
+        assert!(exceeding >= 2 && exceeding.is_multiple_of(2), "A and B exchanged count alike");
+        assert_eq!(means.p_error, 0.0, "no error");
+        assert!((means.observed - observed / 2.0).abs() < 1e-12, "four points: root mean square");
+        for statistic in &found.one_covariance.statistics {
+            let twentieths = statistic.p * 20.0;
+            assert!(
+                (twentieths - twentieths.round()).abs() < 1e-12 && twentieths > 0.5,
+                "{statistic:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn the_result_does_not_depend_on_how_the_work_is_cut() {
+        let (a, b) = (drawn((30, 9), 0.0, falling, 7), drawn((30, 6), 0.3, falling, 8));
+        let run = |at_once: usize| {
+            let mut evidence = prepared(&a, &b, Options { modes: Some(4), ..of(130) });
+            let mut fractions = vec![evidence.fraction()];
+            while !evidence.is_done() {
+                assert!(
+                    at_once > 7 || evidence.stage + 1 < STAGES.len() || evidence.done < 130,
+                    "not done"
+                );
+                evidence.advance(at_once);
+                fractions.push(evidence.fraction());
+            }
+            assert!(fractions.is_sorted_by(|one, next| one < next), "{fractions:?}");
+            assert_eq!((fractions[0], fractions[fractions.len() - 1]), (0.0, 1.0), "from 0 to 1");
+            serde_json::to_string(&evidence.report().unwrap()).unwrap()
+        };
+        let whole = run(usize::MAX);
+        assert_eq!(whole, run(7), "seven at a time");
+        assert_eq!(whole, run(100), "a hundred at a time");
+        let other = {
+            let mut evidence =
+                prepared(&a, &b, Options { modes: Some(4), seed: 2, permutations: 130 });
+            evidence.advance(usize::MAX);
+            serde_json::to_string(&evidence.report().unwrap()).unwrap()
+        };
+        assert_ne!(whole, other, "another seed");
+        let read: EvidenceReport = serde_json::from_str(&whole).unwrap();
+        assert_eq!(serde_json::to_string(&read).unwrap(), whole, "read back");
+        let matched = read.matched.unwrap();
+        assert_eq!((matched.shapes, read.modes), (6, 4), "six shapes each, four modes");
+        let shares = &read.one_population.statistics;
+        // Fewer shapes of A, fewer modes: B has more outside. A's own share hardly changes.
+        assert!(matched.variance_b_outside_a > shares[2].observed, "{matched:?}, {shares:?}");
+        for name in ["\"varianceAOutsideB\"", "\"leftOut\"", "\"pAdjusted\"", "\"falseDiscovery\""]
+        {
+            assert!(whole.contains(name), "{name} in {whole}");
+        }
+    }
+
+    #[test]
+    fn a_run_that_is_cancelled_reports_what_it_has() {
+        let (a, b) = (drawn((30, 9), 0.0, falling, 7), drawn((30, 9), 0.3, falling, 8));
+        let mut evidence = prepared(&a, &b, of(199));
+        evidence.advance(1 + RELABELLINGS + HALVINGS);
+        assert!(evidence.report().is_none(), "no relabelling yet");
+        evidence.advance(50);
+        let part = evidence.report().unwrap();
+        assert_eq!((part.permutations, part.one_covariance.permutations), (50, 50), "fifty");
+        let mut short = prepared(&a, &b, of(50));
+        short.advance(usize::MAX);
+        // Fifty relabellings are the same first ones of any number.
+        assert_eq!(short.report().unwrap().one_population, part.one_population, "p of those");
+        assert!(!evidence.is_done() && short.is_done(), "one of them is done");
+        assert!(part.one_population.statistics.iter().all(|one| one.p >= 1.0 / 51.0), "least p");
+    }
+
+    #[test]
+    fn larger_groups_of_one_population_explain_more_and_matched_ones_do_not() {
+        // 40 shapes and 8: the shares at equal numbers differ by their noise alone. Means over ten pairs, whose
+        // matched shares have a standard error of about 0.01 each.
+        let (mut plain, mut matched) = (0.0, 0.0);
+        for pair in 0..10 {
+            let a = drawn((60, 40), 0.0, falling, 2000 + 2 * pair);
+            let b = drawn((60, 8), 0.0, falling, 2001 + 2 * pair);
+            let mut evidence = prepared(&a, &b, of(1));
+            evidence.advance(usize::MAX);
+            let report = evidence.report().unwrap();
+            let shares = &report.one_population.statistics;
+            plain += (shares[2].observed - shares[1].observed) / 10.0;
+            let shares = report.matched.unwrap();
+            matched += (shares.variance_b_outside_a - shares.variance_a_outside_b) / 10.0;
+        }
+        assert!(plain < -0.03, "B has less outside the larger A: {plain}");
+        assert!(matched.abs() < 0.03, "equal numbers: {matched}");
+    }
+}

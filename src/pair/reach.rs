@@ -1,0 +1,254 @@
+//! How far the shapes of one model lie from the other model, without any tolerance: quantiles of the distance, what
+//! the distance is made of, and the share of shapes beyond any tolerance.
+//!
+//! For x = m₁ + U₁ a with a ~ N(0, I) the distance is d(x′, x), the mean over the points of ‖r_v(a)‖ (Weiherer et
+//! al. 2024, eq. 10), whose quantiles are those of draws. In mean squares per point it adds up exactly,
+//!
+//! E‖r‖²/n = ‖r₀⊥‖²/n + ‖r₀∥‖²/n + tr(RᵀR)/n,
+//!
+//! with r₀∥ the part of the offset r₀ of the means that coefficients of the model could close (its projection to the
+//! columns of R) and r₀⊥ the part that none closes. The last term is the sum of the squares of the exclusive
+//! modes' residuals ([`crate::measure::exclusive_modes`]).
+//!
+//! The soft difference at a tolerance σ has P = E[1 − exp(−½(d/σ)²)]: one set of draws gives it for every σ.
+
+use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
+
+use super::difference::about_the_mean;
+use crate::linalg::{eigen, parallel};
+use crate::model::LinearModel;
+use crate::pair::ResidualOperator;
+use crate::sampling::{Stream, fill_normal, stream};
+
+/// Draws are made in blocks, each with a stream of its own.
+const BLOCKS: usize = 16;
+const BLOCK: usize = 128;
+/// Draws whose distance from their own mean is measured, which is what `relative` relates to.
+const OWN_DRAWS: usize = 512;
+/// Eigenvalues of RᵀR below this share of the largest close nothing.
+const SMALLEST_EIGENVALUE: f64 = 1e-9;
+
+/// How far the shapes of one model lie from the other. Lengths are in the unit of the models.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(rename_all = "camelCase")]
+pub struct ReachOfSide {
+    /// Mean distance of the shapes to the other model, over draws.
+    pub mean: f64,
+    /// Its Monte-Carlo standard error.
+    pub standard_error: f64,
+    /// Quantiles of the distance.
+    pub quantiles: Quantiles,
+    /// Their Monte-Carlo standard errors, from order statistics.
+    pub quantile_errors: Quantiles,
+    /// `mean` over the mean distance of the same shapes from the mean shape of their own model.
+    pub relative: f64,
+    /// What the mean square of the distances is made of.
+    pub mean_square: MeanSquare,
+}
+
+/// Quantiles of a quantity over draws.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Quantiles {
+    /// 5 %.
+    pub p05: f64,
+    /// Median.
+    pub p50: f64,
+    /// 95 %.
+    pub p95: f64,
+}
+
+/// Mean squares per point, in closed form. `total` is the sum of the others.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(rename_all = "camelCase")]
+pub struct MeanSquare {
+    /// E‖r‖²/n.
+    pub total: f64,
+    /// Of the offset of the means, what no shape of the model closes.
+    pub offset: f64,
+    /// Of the offset, what some shape of the model closes.
+    pub offset_closed: f64,
+    /// Of the variance of the model, what the other model cannot make.
+    pub exclusive: f64,
+}
+
+/// Distances of draws of one model to the other.
+#[derive(Debug, Clone)]
+pub struct ReachDraws {
+    /// Ascending.
+    distances: Vec<f64>,
+    summary: ReachOfSide,
+}
+
+impl ReachDraws {
+    /// 2,048 draws of `model`, whose residual operator this is; `side` numbers the streams of random numbers.
+    pub fn new(operator: &ResidualOperator, model: &LinearModel, seed: u64, side: usize) -> Self {
+        let modes = model.mode_count();
+        let blocks: Vec<Vec<f64>> = (0..BLOCKS)
+            .map(|block| {
+                let mut coefficients = vec![0.0; BLOCK * modes];
+                fill_normal(&mut stream(seed, Stream::Reach, side, block), &mut coefficients);
+                coefficients
+            })
+            .collect();
+        let targets = about_the_mean(operator);
+        let mut distances: Vec<f64> = blocks.iter().flat_map(|block| targets.of(block)).collect();
+        let states: Vec<&[f64]> =
+            blocks.iter().flat_map(|block| block.chunks_exact(modes)).take(OWN_DRAWS).collect();
+        let own = parallel::map(states.len(), |index| distance_from_mean(model, states[index]));
+        let own_mean = own.iter().sum::<f64>() / own.len() as f64;
+        let count = distances.len() as f64;
+        let mean = distances.iter().sum::<f64>() / count;
+        let squares: f64 = distances.iter().map(|d| (d - mean) * (d - mean)).sum();
+        distances.sort_by(f64::total_cmp);
+        let summary = ReachOfSide {
+            mean,
+            standard_error: (squares / (count - 1.0) / count).sqrt(),
+            quantiles: Quantiles::of(|share| quantile(&distances, share)),
+            quantile_errors: Quantiles::of(|share| quantile_error(&distances, share)),
+            relative: mean / own_mean,
+            mean_square: MeanSquare::of(operator),
+        };
+        Self { distances, summary }
+    }
+
+    /// What the report says of them.
+    pub fn summary(&self) -> ReachOfSide {
+        self.summary
+    }
+
+    /// Share of the shapes that count as outside the other model at a tolerance, E[1 − exp(−½(d/σ)²)].
+    pub fn share_beyond(&self, sigma: f64) -> f64 {
+        let beyond = |d: &f64| -libm::expm1(-0.5 * (d / sigma) * (d / sigma));
+        self.distances.iter().map(beyond).sum::<f64>() / self.distances.len() as f64
+    }
+}
+
+impl Quantiles {
+    fn of(value: impl Fn(f64) -> f64) -> Self {
+        Self { p05: value(0.05), p50: value(0.5), p95: value(0.95) }
+    }
+}
+
+impl MeanSquare {
+    /// Of the shapes whose residual operator this is.
+    pub fn of(operator: &ResidualOperator) -> Self {
+        let points = operator.point_count() as f64;
+        // ‖r₀∥‖² = gᵀ(RᵀR)⁺g with g = Rᵀr₀.
+        let (vectors, values) = eigen(operator.gram().clone());
+        let along: DVector<f64> = vectors.tr_mul(operator.gram_shift());
+        let floor = SMALLEST_EIGENVALUE * values.max();
+        let closed: f64 = along
+            .iter()
+            .zip(values.iter())
+            .filter(|(_, value)| **value > floor)
+            .map(|(along, value)| along * along / value)
+            .sum();
+        let closed = closed.min(operator.gram_constant());
+        let [offset, offset_closed, exclusive] =
+            [operator.gram_constant() - closed, closed, operator.gram().trace()]
+                .map(|square| square.max(0.0) / points);
+        Self { total: offset + offset_closed + exclusive, offset, offset_closed, exclusive }
+    }
+}
+
+/// Mean over the points of ‖U a‖_v.
+fn distance_from_mean(model: &LinearModel, coefficients: &[f64]) -> f64 {
+    let displacement = model.shape(coefficients) - model.mean();
+    let points = displacement.as_slice().chunks_exact(model.dimension());
+    let lengths = points.map(|point| point.iter().map(|x| x * x).sum::<f64>().sqrt());
+    lengths.sum::<f64>() / model.point_count() as f64
+}
+
+/// By linear interpolation between ascending values, as `numpy.quantile`.
+fn quantile(ascending: &[f64], share: f64) -> f64 {
+    let place = share * (ascending.len() - 1) as f64;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 ≤ share ≤ 1")]
+    let below = (place.floor() as usize).min(ascending.len() - 1);
+    let above = (below + 1).min(ascending.len() - 1);
+    ascending[below] + (place - place.floor()) * (ascending[above] - ascending[below])
+}
+
+/// Half the distance of the quantiles one binomial standard deviation of the rank below and above.
+fn quantile_error(ascending: &[f64], share: f64) -> f64 {
+    let deviation = (share * (1.0 - share) / ascending.len() as f64).sqrt();
+    let at = |share: f64| quantile(ascending, share.clamp(0.0, 1.0));
+    0.5 * (at(share + deviation) - at(share - deviation))
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::DMatrix;
+
+    use super::*;
+    use crate::model::{Alignment, Side};
+    use crate::pair::Pair;
+
+    /// A model of eight points in space with `modes` random modes, at a random place.
+    fn model(seed: u64, modes: usize) -> LinearModel {
+        let mut values = vec![0.0; 24 * (modes + 1)];
+        fill_normal(&mut stream(seed, Stream::Display, 9, 0), &mut values);
+        let mean = DVector::from_column_slice(&values[..24]);
+        let basis = DMatrix::from_column_slice(24, modes, &values[24..]);
+        LinearModel::from_scaled_basis(3, mean, basis).unwrap().0
+    }
+
+    #[test]
+    fn the_mean_square_is_that_of_draws_and_of_its_parts() {
+        let pair = Pair::new(&model(1, 4), &model(2, 6), Alignment::None, None).unwrap();
+        let operator = pair.residual_operator(Side::A);
+        let found = MeanSquare::of(&operator);
+        let parts = found.offset + found.offset_closed + found.exclusive;
+        assert!((found.total / parts - 1.0).abs() < 1e-12, "{found:?} adds up");
+        const DRAWS: usize = 20_000;
+        let mut random = stream(3, Stream::Display, 9, 0);
+        let squares: Vec<f64> = (0..DRAWS)
+            .map(|_| {
+                let mut a = [0.0; 4];
+                fill_normal(&mut random, &mut a);
+                operator.residual_at(&a).iter().map(|r| r * r).sum::<f64>() / 8.0
+            })
+            .collect();
+        let mean = squares.iter().sum::<f64>() / DRAWS as f64;
+        let spread = squares.iter().map(|s| (s - mean) * (s - mean)).sum::<f64>() / DRAWS as f64;
+        let error = (spread / DRAWS as f64).sqrt();
+        assert!((mean - found.total).abs() < 4.0 * error, "{mean} ± {error}, not {}", found.total);
+        // No shape of A is nearer, in root mean square, than what no coefficient closes.
+        let nearest = operator.gram().clone().cholesky().unwrap().solve(operator.gram_shift());
+        let residual = operator.residual_at((-nearest).as_slice());
+        let square = residual.iter().map(|r| r * r).sum::<f64>() / 8.0;
+        assert!((square / found.offset - 1.0).abs() < 1e-9, "{square}, not {}", found.offset);
+    }
+
+    #[test]
+    fn a_line_beside_a_point_has_the_quantiles_of_its_normal() {
+        // A moves one point along x with standard deviation 2; B moves it along y: d = |x|.
+        let line = |axis: usize| {
+            let basis = DMatrix::from_fn(2, 1, |row, _| if row == axis { 2.0 } else { 0.0 });
+            LinearModel::from_scaled_basis(2, DVector::zeros(2), basis).unwrap().0
+        };
+        let pair = Pair::new(&line(0), &line(1), Alignment::None, None).unwrap();
+        let reach = ReachDraws::new(&pair.residual_operator(Side::A), pair.a(), 1, 0);
+        let found = reach.summary();
+        // Quantiles of |N(0, 1)|: 0.0627, 0.6745, 1.9600; mean √(2/π).
+        let expected = [0.0627, 0.6745, 1.9600].map(|z| 2.0 * z);
+        let quantiles = [found.quantiles.p05, found.quantiles.p50, found.quantiles.p95];
+        let errors =
+            [found.quantile_errors.p05, found.quantile_errors.p50, found.quantile_errors.p95];
+        for ((found, expected), error) in quantiles.into_iter().zip(expected).zip(errors) {
+            assert!((found - expected).abs() < 4.0 * error, "{found} ± {error}, not {expected}");
+        }
+        let mean = 2.0 * core::f64::consts::FRAC_2_PI.sqrt();
+        assert!((found.mean - mean).abs() < 4.0 * found.standard_error, "{found:?}");
+        assert!((found.relative - 1.0).abs() < 0.1, "all of its own distance: {found:?}");
+        // E[1 − exp(−½ s²z²)] = 1 − 1/√(1 + s²) for z ~ N(0, 1), here with s = 2/σ.
+        for sigma in [0.5, 2.0, 8.0] {
+            let ratio = 2.0 / sigma;
+            let expected = 1.0 - 1.0 / (1.0_f64 + ratio * ratio).sqrt();
+            assert!((reach.share_beyond(sigma) - expected).abs() < 4.0 * 0.5 / 2048.0_f64.sqrt());
+        }
+    }
+}
