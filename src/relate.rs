@@ -149,10 +149,8 @@ pub(crate) fn recommended_sigma(
 /// model has, where it was cut to fewer than its shapes make.
 pub(crate) fn left_out(pair: &Pair) -> Sides<Option<Vec<f64>>> {
     pair.models().map(|model| {
-        let training = model.training_shapes()?;
-        let cut = model.mode_count() + 1 < training.count();
-        let modes = cut.then(|| model.mode_count());
-        Some(left_out_errors(model.dimension(), &training.shapes(), modes))
+        let shapes = model.training_shapes()?.shapes();
+        Some(left_out_errors(model.dimension(), &shapes, model.modes_cut_to()))
     })
 }
 

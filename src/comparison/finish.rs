@@ -9,13 +9,13 @@ use super::run::{
 };
 use super::{Comparison, summary};
 use crate::error::ComparisonError;
-use crate::evidence::{Evidence, Groups, Options};
+use crate::evidence::Evidence;
 use crate::linalg::{Moments, product};
 use crate::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, compactness, linear_split,
     mean_vertex_distance, scaled_modes, unexplained_share, vertex_standard_deviations,
 };
-use crate::model::{LinearModel, Side, Sides};
+use crate::model::{Side, Sides};
 use crate::pair::{Joint, JointModel, ReachDraws};
 use crate::relate::{affine_space, overlap};
 use crate::report::{
@@ -101,18 +101,7 @@ impl Comparison {
         if self.cancelled || permutations == 0 {
             return None;
         }
-        let groups = Groups::of_pair(self.pair())?.ok()?;
-        Evidence::new(groups, Options { permutations, seed, modes: self.modes_of_both() }).ok()
-    }
-
-    /// The number of modes to which a model was cut, the smaller one of both; `None` where both have all that their
-    /// training shapes make.
-    fn modes_of_both(&self) -> Option<usize> {
-        let cut = |model: &LinearModel| {
-            let count = model.training_shapes()?.count();
-            (model.mode_count() + 1 < count).then(|| model.mode_count())
-        };
-        self.prepared.models().into_iter().filter_map(cut).min()
+        Evidence::of_pair(self.pair(), permutations, seed)?.ok()
     }
 
     /// More relabellings; `ended` takes those that were done as all.

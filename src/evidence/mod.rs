@@ -48,5 +48,4 @@ mod vertices;
 pub use error::EvidenceError;
 pub use groups::Groups;
 pub use left_out::left_out_errors;
-pub use of_pair::evidence_of_pair;
 pub use run::{Evidence, Options};

@@ -1,27 +1,31 @@
-//! The two groups of training shapes of a pair of models.
+//! The comparison of the training shapes of two models.
 
 use super::{Evidence, EvidenceError, Groups, Options};
-use crate::model::{Alignment, Kind, Sides};
+use crate::model::{Alignment, Kind, LinearModel, Sides};
 use crate::pair::Pair;
-use crate::report::EvidenceReport;
 
-/// The whole comparison of the training shapes of a pair; `None` where those of one model are not known.
-///
-/// # Errors
-/// As [`Groups::new`].
-pub fn evidence_of_pair(
-    pair: &Pair,
-    options: Options,
-) -> Option<Result<EvidenceReport, EvidenceError>> {
-    let run = Groups::of_pair(pair)?.and_then(|groups| Evidence::new(groups, options));
-    let mut run = match run {
-        Ok(run) => run,
-        Err(error) => return Some(Err(error)),
-    };
-    while !run.is_done() {
-        run.advance(usize::MAX);
+impl Evidence {
+    /// Prepares the comparison of the training shapes of both models, with as many modes as the models have where they
+    /// were cut; `None` where the shapes of one are not known.
+    ///
+    /// # Errors
+    /// As [`Groups::new`].
+    pub fn of_pair(
+        pair: &Pair,
+        permutations: usize,
+        seed: u64,
+    ) -> Option<Result<Self, EvidenceError>> {
+        let modes = pair.models().into_iter().filter_map(LinearModel::modes_cut_to).min();
+        let groups = Groups::of_pair(pair)?;
+        Some(groups.and_then(|groups| Self::new(groups, Options { permutations, seed, modes })))
     }
-    run.report().map(Ok)
+
+    /// Takes all that is left.
+    pub fn run(&mut self) {
+        while !self.is_done() {
+            self.advance(usize::MAX);
+        }
+    }
 }
 
 impl Groups {

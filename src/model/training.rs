@@ -103,6 +103,12 @@ impl LinearModel {
         self.training.as_deref()
     }
 
+    /// How many modes the model has, where it was cut to fewer than its training shapes make.
+    pub fn modes_cut_to(&self) -> Option<usize> {
+        let made = self.training_shapes()?.count() - 1;
+        Some(self.mode_count()).filter(|modes| *modes < made)
+    }
+
     /// The same model, made from shapes with these coefficients in its modes (q × N, lengths along the unit modes).
     ///
     /// # Panics

@@ -3,7 +3,7 @@
 use clap::Args;
 use indicatif::ProgressBar;
 use shapevenn::error::ComparisonError;
-use shapevenn::evidence::{Evidence, Groups, Options};
+use shapevenn::evidence::Evidence;
 use shapevenn::files::Error;
 use shapevenn::model::Side;
 use shapevenn::pair::Pair;
@@ -59,10 +59,8 @@ pub(crate) fn evidence(arguments: &Arguments) -> Result<(), Failure> {
         message: error.to_string(),
         hint: error.hint().to_owned(),
     };
-    let groups = Groups::of_pair(&pair).transpose().map_err(refused)?;
-    let groups = groups.ok_or_else(|| Failure::System("no training shapes".to_owned()))?;
-    let options = Options { permutations: *permutations, seed: *seed, modes: *modes };
-    let mut run = Evidence::new(groups, options).map_err(refused)?;
+    let run = Evidence::of_pair(&pair, *permutations, *seed).transpose().map_err(refused)?;
+    let mut run = run.ok_or_else(|| Failure::System("no training shapes".to_owned()))?;
     let bar = ProgressBar::new(1000);
     while !run.is_done() {
         run.advance(64);

@@ -3,7 +3,7 @@
 use clap::Args;
 use serde::Serialize;
 use shapevenn::error::ComparisonError;
-use shapevenn::evidence::{Options, evidence_of_pair};
+use shapevenn::evidence::Evidence;
 use shapevenn::files::Error;
 use shapevenn::model::LinearModel;
 use shapevenn::pair::Pair;
@@ -100,8 +100,9 @@ impl Matrix {
 fn evidence(a: &LinearModel, b: &LinearModel, settings: &Settings) -> Option<EvidenceReport> {
     let Settings { prepare, align, modes, permutations, seed, .. } = settings;
     let pair = Pair::prepared(a, b, prepare, *align, *modes).ok()?;
-    let options = Options { permutations: *permutations, seed: *seed, modes: *modes };
-    evidence_of_pair(&pair, options)?.ok()
+    let mut run = Evidence::of_pair(&pair, *permutations, *seed)?.ok()?;
+    run.run();
+    run.report()
 }
 
 pub(crate) fn matrix(arguments: &Arguments) -> Result<(), Failure> {

@@ -29,27 +29,22 @@ function thresholdText(value: number, report: Report): string {
   return difference === "outside" ? `${number(value)}\u202fSD` : inUnit(value, report);
 }
 
-const both = (label: string, path: string, show: Row["show"]): Row => ({
-  label,
-  metrics: [`models.a.${path}`, `models.b.${path}`],
-  show,
-});
+/** Makes rows of the same number in several parts of the report, side by side. */
+const inEach =
+  (...parts: string[]) =>
+  (label: string, path: string, show: Row["show"]): Row => ({
+    label,
+    metrics: parts.map((part) => `${part}.${path}`),
+    show,
+  });
+const both = inEach("models.a", "models.b");
 /** A row with a number of each difference. */
-export const eachWay = (label: string, path: string, show: Row["show"]): Row => ({
-  label,
-  metrics: [`differences.aWithoutB.${path}`, `differences.bWithoutA.${path}`],
-  show,
-});
+export const eachWay = inEach("differences.aWithoutB", "differences.bWithoutA");
+const reach = inEach("reach.aToB", "reach.bToA");
 const grassmann = (label: string, end: string): Row => ({
   label,
   metrics: [`intersection.grassmann.${end}`, `intersection.grassmannAffine.${end}`],
   show: radians,
-});
-
-const reach = (label: string, path: string, show: Row["show"]): Row => ({
-  label,
-  metrics: [`reach.aToB.${path}`, `reach.bToA.${path}`],
-  show,
 });
 
 export const GROUPS: Group[] = [
@@ -130,17 +125,12 @@ export const GROUPS: Group[] = [
   },
 ];
 
-const SIDES = [
+const perSide = inEach(
   "intersection.sides.a",
   "intersection.sides.b",
   "differences.aWithoutB.diagnostics",
   "differences.bWithoutA.diagnostics",
-];
-const perSide = (label: string, path: string, show: Row["show"]): Row => ({
-  label,
-  metrics: SIDES.map((side) => `${side}.${path}`),
-  show,
-});
+);
 
 export const DIAGNOSTICS: Group = {
   title: "Diagnostics of the draws",
