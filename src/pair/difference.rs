@@ -289,21 +289,12 @@ impl Target for Difference<'_> {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::DMatrix;
-
     use super::*;
     use crate::measure::mean_vertex_distance;
     use crate::model::Alignment;
     use crate::model::Side;
+    use crate::pair::samples::model;
     use crate::pair::{Intersection, Pair};
-
-    fn model(seed: u64, modes: usize) -> LinearModel {
-        let mut values = vec![0.0; 24 * (modes + 1)];
-        fill_normal(&mut stream(seed, Stream::Display, 9, 0), &mut values);
-        let mean = DVector::from_column_slice(&values[..24]);
-        let basis = DMatrix::from_column_slice(24, modes, &values[24..]);
-        LinearModel::from_scaled_basis(3, mean, basis).unwrap().0
-    }
 
     /// x = m₁ + U₁a and its projection, by the definitions.
     fn projected(pair: &Pair, point: &[f64]) -> (DVector<f64>, DVector<f64>, DVector<f64>) {

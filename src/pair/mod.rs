@@ -15,6 +15,8 @@ mod preparation;
 mod reach;
 mod residual_operator;
 mod residual_rows;
+#[cfg(test)]
+mod samples;
 mod tolerance;
 mod two_models;
 mod vertex_residuals;

@@ -12,11 +12,11 @@
 //!
 //! The soft difference at a tolerance σ has P = E[1 − exp(−½(d/σ)²)]: one set of draws gives it for every σ.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use super::difference::about_the_mean;
-use crate::linalg::{eigen, parallel};
+use crate::linalg::{eigen, product};
 use crate::model::LinearModel;
 use crate::pair::ResidualOperator;
 use crate::sampling::{Stream, fill_normal, stream};
@@ -26,6 +26,8 @@ const BLOCKS: usize = 16;
 const BLOCK: usize = 128;
 /// Draws whose distance from their own mean is measured, which is what `relative` relates to.
 const OWN_DRAWS: usize = 512;
+/// Of these, as many as are displaced at a time.
+const TOGETHER: usize = 32;
 /// Eigenvalues of RᵀR below this share of the largest close nothing.
 const SMALLEST_EIGENVALUE: f64 = 1e-9;
 
@@ -96,10 +98,7 @@ impl ReachDraws {
             .collect();
         let targets = about_the_mean(operator);
         let mut distances: Vec<f64> = blocks.iter().flat_map(|block| targets.of(block)).collect();
-        let states: Vec<&[f64]> =
-            blocks.iter().flat_map(|block| block.chunks_exact(modes)).take(OWN_DRAWS).collect();
-        let own = parallel::map(states.len(), |index| distance_from_mean(model, states[index]));
-        let own_mean = own.iter().sum::<f64>() / own.len() as f64;
+        let own_mean = mean_distance_from_mean(model, &blocks.concat()[..OWN_DRAWS * modes]);
         let count = distances.len() as f64;
         let mean = distances.iter().sum::<f64>() / count;
         let squares: f64 = distances.iter().map(|d| (d - mean) * (d - mean)).sum();
@@ -155,12 +154,19 @@ impl MeanSquare {
     }
 }
 
-/// Mean over the points of ‖U a‖_v.
-fn distance_from_mean(model: &LinearModel, coefficients: &[f64]) -> f64 {
-    let displacement = model.shape(coefficients) - model.mean();
-    let points = displacement.as_slice().chunks_exact(model.dimension());
-    let lengths = points.map(|point| point.iter().map(|x| x * x).sum::<f64>().sqrt());
-    lengths.sum::<f64>() / model.point_count() as f64
+/// Mean over draws a (one after the other) and points of ‖U a‖_v. The basis is read once for every few draws.
+fn mean_distance_from_mean(model: &LinearModel, draws: &[f64]) -> f64 {
+    let modes = model.mode_count();
+    let of_some = draws.chunks(TOGETHER * modes).map(|some| {
+        let mut scaled = DMatrix::from_column_slice(modes, some.len() / modes, some);
+        for mut coefficients in scaled.column_iter_mut() {
+            coefficients.component_mul_assign(model.standard_deviations());
+        }
+        let displacements = product(model.basis(), &scaled);
+        let points = displacements.as_slice().chunks_exact(model.dimension());
+        points.map(|point| point.iter().map(|x| x * x).sum::<f64>().sqrt()).sum::<f64>()
+    });
+    of_some.sum::<f64>() / (draws.len() / modes * model.point_count()) as f64
 }
 
 /// By linear interpolation between ascending values, as `numpy.quantile`.
@@ -181,20 +187,10 @@ fn quantile_error(ascending: &[f64], share: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::DMatrix;
-
     use super::*;
     use crate::model::{Alignment, Side};
     use crate::pair::Pair;
-
-    /// A model of eight points in space with `modes` random modes, at a random place.
-    fn model(seed: u64, modes: usize) -> LinearModel {
-        let mut values = vec![0.0; 24 * (modes + 1)];
-        fill_normal(&mut stream(seed, Stream::Display, 9, 0), &mut values);
-        let mean = DVector::from_column_slice(&values[..24]);
-        let basis = DMatrix::from_column_slice(24, modes, &values[24..]);
-        LinearModel::from_scaled_basis(3, mean, basis).unwrap().0
-    }
+    use crate::pair::samples::model;
 
     #[test]
     fn the_mean_square_is_that_of_draws_and_of_its_parts() {
