@@ -398,6 +398,23 @@ fn distances_displacements_and_ratios_are_what_they_are_called() {
             let expected = sides.iter().map(|&side| to(&mean, side, v)).fold(0.0, f64::max);
             assert!((f64::from(map.values[v]) - expected).abs() < 2e-5, "{region:?} at {v}");
         }
+        // The distance of the mean is one of those that are averaged, and more than the least.
+        let reach = run.map(MapName::Reach, region, 0).unwrap();
+        let offset = run.map(MapName::Offset, region, 0).unwrap();
+        let operators = sides.iter().map(|side| run.pair().residual_operator(side.other()));
+        let expected: Vec<(Vec<f64>, Vec<f64>)> =
+            operators.map(|of| (of.mean_vertex_residuals(), of.vertex_offsets())).collect();
+        for v in 0..POINTS {
+            let most = |part: fn(&(Vec<f64>, Vec<f64>)) -> &Vec<f64>| {
+                expected.iter().map(|both| part(both)[v]).fold(0.0, f64::max)
+            };
+            let off = (f64::from(reach.values[v]) - most(|both| &both.0)).abs();
+            assert!(off < 2e-5, "{region:?}: reach at {v}");
+            let off = (f64::from(offset.values[v]) - most(|both| &both.1)).abs();
+            assert!(off < 2e-5, "{region:?}: offset at {v}");
+        }
+        let chance = run.map(MapName::Chance, region, 0);
+        assert!(matches!(chance, Err(ComparisonError::NothingYet)), "no training shapes");
         let means = run.map(MapName::Means, region, 0).unwrap();
         assert!(means.signed, "{region:?}: in and out");
         let moved = &mean - models[Side::A].mean();

@@ -58,6 +58,18 @@ pub(super) fn conditions(groups: &Groups) -> Vec<Notice> {
             "Compare the means, the variances and the first modes.",
         ));
     }
+    if groups.leading().nrows() < rank {
+        conditions.push(Notice::new(
+            "leading-dimensions",
+            format!(
+                "The {} shapes span {rank} dimensions; relabelled groups are compared in the first {} common modes, which hold {:.1} % of their variance.",
+                counts.a + counts.b,
+                groups.leading().nrows(),
+                100.0 * groups.leading_share()
+            ),
+            "This saves time and favours neither group; differences in the rest are not seen.",
+        ));
+    }
     if groups.shared() > 0 {
         conditions.push(Notice::new(
             "shared-shapes",
@@ -151,6 +163,22 @@ mod tests {
                 assert!(!few.contains(&"shape-space-filled".to_owned()), "8 of {free}: {few:?}");
             }
         }
+    }
+
+    #[test]
+    fn many_shapes_are_compared_in_their_first_common_modes() {
+        let (a, b) = (drawn((150, 60), 0.0, falling, 1), drawn((150, 60), 0.0, falling, 2));
+        let groups = Groups::new(3, &a, &b, Alignment::None).unwrap();
+        let found = conditions(&groups);
+        assert_eq!(found.len(), 1, "{found:?}");
+        let text = "The 120 shapes span 119 dimensions; relabelled groups are compared in the first 100 common modes, which hold";
+        assert!(found[0].message.starts_with(text), "{}", found[0].message);
+        let all: f64 = groups.coordinates().norm_squared();
+        let rest: f64 = groups.coordinates().rows(100, 19).norm_squared();
+        assert!(
+            (groups.leading_share() - (1.0 - rest / all)).abs() < 1e-12,
+            "share of the variance"
+        );
     }
 
     #[test]

@@ -1,10 +1,13 @@
-//! Two groups of shapes in one frame, and the inner products of their deviations from the common mean.
+//! Two groups of shapes in one frame, in coordinates of the space that their deviations from the common mean span.
 //!
-//! X (d·n × N) holds the shapes of A, then those of B, less their common mean. Whatever is made of shapes
-//! by weights (means, modes, residuals of a projection) is X·β with few numbers β, and has the inner
-//! products βᵀ G γ with G = XᵀX (N × N): variances, angles and root mean square distances of the
-//! groups, however relabelled, need G alone and none of the points. G = YᵀY for coordinates Y (r × N)
-//! of the shapes in the space that they span, r ≤ N − 1.
+//! X (d·n × N) holds the shapes of A, then those of B, less their common mean. With XᵀX = V W Vᵀ the
+//! coordinates Y = W^½Vᵀ (r × N, r ≤ N − 1) have the same inner products: whatever is made of shapes by
+//! weights (means, modes, residuals of a projection) has the same lengths and angles in few coordinates, however
+//! the groups are relabelled. Y = QᵀX for the common modes Q = X V W^{-½}, largest first, and a vector y of
+//! coordinates is the shape X (V W^{-½} y).
+//!
+//! Relabelled groups are compared in the first [`MOST_DIMENSIONS`] common modes of all shapes, which no relabelling
+//! changes: an eigendecomposition costs no more than that of so many dimensions, however many shapes there are.
 //!
 //! **Limits.** Shapes are taken as they are or aligned all together, once: a relabelling does not align
 //! them again, as it would be under the hypothesis that they are of one population.
@@ -12,17 +15,16 @@
 use nalgebra::DMatrix;
 
 use super::EvidenceError;
-use super::left_out::centred;
+use super::modes::{SMALLEST_VARIANCE, deviations};
 use crate::linalg::{eigen, gram};
 use crate::model::{Alignment, Side, Sides, generalised_procrustes};
 
 /// Fewer shapes in a group leave no variance outside one mode of it.
 const LEAST_SHAPES: usize = 4;
-/// Directions whose variance is below this share of the largest are rounding errors, also of coordinates in single
-/// precision.
-pub(super) const SMALLEST_VARIANCE: f64 = 1e-9;
+/// Common modes in which relabelled groups are compared.
+pub(super) const MOST_DIMENSIONS: usize = 100;
 /// Two shapes are the same when they are as near to one another as this share of their distance from the mean;
-/// G resolves 10⁻⁸.
+/// inner products resolve 10⁻⁸.
 const SAME_SHAPE: f64 = 1e-6;
 
 /// Shapes of two groups in one frame.
@@ -32,9 +34,47 @@ pub struct Groups {
     alignment: Alignment,
     counts: Sides<usize>,
     shapes: DMatrix<f64>,
-    gram: DMatrix<f64>,
+    /// W, rounding included.
     variances: Vec<f64>,
+    span: Span,
+    /// The first rows of the coordinates.
+    leading: DMatrix<f64>,
     shared: usize,
+}
+
+/// The space that shapes less their mean span.
+#[derive(Debug, Clone)]
+pub(super) struct Span {
+    /// Y (r × N).
+    pub(super) coordinates: DMatrix<f64>,
+    /// V W^{-½} (N × r).
+    weights: DMatrix<f64>,
+}
+
+impl Span {
+    /// From the inner products XᵀX (N × N) of shapes less their mean; W beside it.
+    pub(super) fn of(gram: DMatrix<f64>) -> (Self, Vec<f64>) {
+        let (vectors, values) = eigen(gram);
+        let rank = rank(values.as_slice());
+        let mut weights = vectors.columns(0, rank).into_owned();
+        let mut coordinates = weights.transpose();
+        for (mode, value) in values.iter().take(rank).enumerate() {
+            weights.column_mut(mode).unscale_mut(value.sqrt());
+            coordinates.row_mut(mode).scale_mut(value.sqrt());
+        }
+        (Self { coordinates, weights }, values.iter().copied().collect())
+    }
+
+    /// Weights β (N × any) of the shapes Xβ that have these coordinates (r × any).
+    pub(super) fn weights_of(&self, coordinates: &DMatrix<f64>) -> DMatrix<f64> {
+        crate::linalg::product(&self.weights, coordinates)
+    }
+}
+
+/// How many of the variances, largest first, are not rounding.
+fn rank(variances: &[f64]) -> usize {
+    let least = SMALLEST_VARIANCE * variances[0];
+    variances.iter().take_while(|variance| **variance > least).count()
 }
 
 impl Groups {
@@ -80,17 +120,19 @@ impl Groups {
             shape -= &mean;
         }
         let gram = gram(&shapes);
-        let variances: Vec<f64> = eigen(gram.clone()).1.iter().copied().collect();
-        let mut groups = Self { dimension, alignment, counts, shapes, gram, variances, shared: 0 };
+        let shared = shared_shapes(&gram, counts.a);
+        // Rounding errors of the inner products and of the alignment.
+        let rounding = 1e-13 * gram.trace() + 1e-24 * mean.norm_squared();
+        let (span, variances) = Span::of(gram);
         for side in Side::BOTH {
-            let within = centred(&groups.gram, &groups.indices(side)).trace();
-            // Rounding errors of G and of the alignment.
-            if within <= 1e-13 * groups.gram.trace() + 1e-24 * mean.norm_squared() {
+            let of = indices(counts, side);
+            if deviations(&span.coordinates, &of).1.norm_squared() <= rounding {
                 return Err(EvidenceError::NoVariance { side });
             }
         }
-        groups.shared = groups.shared_shapes();
-        Ok(groups)
+        let dimensions = span.coordinates.nrows().min(MOST_DIMENSIONS);
+        let leading = span.coordinates.rows(0, dimensions).into_owned();
+        Ok(Self { dimension, alignment, counts, shapes, variances, span, leading, shared })
     }
 
     /// Coordinates of a point d, 2 or 3.
@@ -115,8 +157,7 @@ impl Groups {
 
     /// Dimension r of the space that the deviations of all shapes from their mean span, at most N − 1.
     pub fn rank(&self) -> usize {
-        let least = SMALLEST_VARIANCE * self.variances[0];
-        self.variances.iter().take_while(|variance| **variance > least).count()
+        self.span.coordinates.nrows()
     }
 
     /// How many shapes of A there are in B too.
@@ -129,22 +170,34 @@ impl Groups {
         &self.shapes
     }
 
-    /// G = XᵀX (N × N).
-    pub fn gram(&self) -> &DMatrix<f64> {
-        &self.gram
+    /// Y (r × N), the coordinates of the shapes in their common modes, largest first.
+    pub fn coordinates(&self) -> &DMatrix<f64> {
+        &self.span.coordinates
+    }
+
+    pub(super) fn span(&self) -> &Span {
+        &self.span
+    }
+
+    /// The first rows of Y, in which relabelled groups are compared.
+    pub(super) fn leading(&self) -> &DMatrix<f64> {
+        &self.leading
+    }
+
+    /// Share of the variance of all shapes that lies in the leading coordinates.
+    pub(super) fn leading_share(&self) -> f64 {
+        let total: f64 = self.span.coordinates.norm_squared();
+        self.leading.norm_squared() / total
     }
 
     /// The columns of a group.
     pub(super) fn indices(&self, side: Side) -> Vec<usize> {
-        match side {
-            Side::A => (0..self.counts.a).collect(),
-            Side::B => (self.counts.a..self.counts.a + self.counts.b).collect(),
-        }
+        indices(self.counts, side)
     }
 
     /// How many modes of both groups are compared: as many as hold 95 % of the variance of all shapes together,
     /// which no relabelling changes; at most `most`, two less than the smaller group has shapes (so that its
-    /// model leaves out a direction), and one less than all shapes span; at least one.
+    /// model leaves out a direction), and one less than the leading coordinates; at least one.
     pub(super) fn modes_to_compare(&self, most: Option<usize>) -> usize {
         const SHARE: f64 = 0.95;
         let total: f64 = self.variances.iter().sum();
@@ -158,19 +211,26 @@ impl Groups {
             })
             .map_or(self.variances.len(), |index| index + 1);
         let of_groups = self.counts.a.min(self.counts.b) - 2;
-        let all = [of_share, most.unwrap_or(usize::MAX), of_groups, self.rank() - 1];
+        let all = [of_share, most.unwrap_or(usize::MAX), of_groups, self.leading.nrows() - 1];
         all.into_iter().fold(usize::MAX, usize::min).max(1)
     }
+}
 
-    fn shared_shapes(&self) -> usize {
-        let square = |i: usize| self.gram[(i, i)];
-        let is_same = |i: usize, j: usize| {
-            let apart = square(i) + square(j) - 2.0 * self.gram[(i, j)];
-            apart <= SAME_SHAPE * SAME_SHAPE * square(i).min(square(j))
-        };
-        let of_b = self.indices(Side::B);
-        self.indices(Side::A).iter().filter(|&&i| of_b.iter().any(|&j| is_same(i, j))).count()
+fn indices(counts: Sides<usize>, side: Side) -> Vec<usize> {
+    match side {
+        Side::A => (0..counts.a).collect(),
+        Side::B => (counts.a..counts.a + counts.b).collect(),
     }
+}
+
+/// How many of the first `of_a` shapes are among the others too, by the inner products of all.
+fn shared_shapes(gram: &DMatrix<f64>, of_a: usize) -> usize {
+    let square = |i: usize| gram[(i, i)];
+    let is_same = |i: usize, j: usize| {
+        let apart = square(i) + square(j) - 2.0 * gram[(i, j)];
+        apart <= SAME_SHAPE * SAME_SHAPE * square(i).min(square(j))
+    };
+    (0..of_a).filter(|&i| (of_a..gram.nrows()).any(|j| is_same(i, j))).count()
 }
 
 #[cfg(test)]
@@ -219,7 +279,10 @@ mod tests {
                 *value += index as f64;
             }
         }
-        let gram = |b: &DMatrix<f64>, alignment| Groups::new(3, &a, b, alignment).unwrap().gram;
+        let gram = |b: &DMatrix<f64>, alignment| {
+            let groups = Groups::new(3, &a, b, alignment).unwrap();
+            crate::linalg::gram(groups.coordinates())
+        };
         let plain = (gram(&b, Alignment::None) - gram(&moved, Alignment::None)).amax();
         assert!(plain > 1.0, "they are elsewhere: {plain}");
         // Ten rounds of Procrustes analysis come to about 10⁻⁶ of the shapes.

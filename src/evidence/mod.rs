@@ -6,15 +6,16 @@
 //!
 //! | what | in |
 //! |---|---|
-//! | the shapes of both groups in one frame, G = XᵀX of all N | [`Groups`] |
+//! | the shapes of both groups in one frame, in few coordinates | [`Groups`] |
 //! | what the model of all others misses of each shape | [`left_out_errors`] |
 //! | two hypotheses, one population and one covariance: statistics, p, Holm's adjustment, bands | [`crate::report::Hypothesis`], [`crate::report::Bands`] |
 //! | family-wise p and false discoveries of every point | [`crate::report::VertexEvidence`] |
 //! | the share of shapes that is nearer to its own group | [`crate::report::ToldApart`] |
 //! | overlap of the modes of random halves | [`crate::report::ModeStability`] |
 //!
-//! All but the tests of the points and mean distances need only G: a replicate costs O(N³) whatever the number of
-//! points. Beside the shapes, N² numbers and those of the replicates are held.
+//! All but the tests of the points and mean distances need only N − 1 coordinates of each shape: a replicate costs
+//! O(N³) whatever the number of points, and O(N) beyond 100 dimensions. Beside the shapes, N² numbers and those of
+//! the replicates are held.
 //!
 //! At how many modes the groups are compared is chosen once, from all shapes together, so that no relabelling
 //! changes it: as many as hold 95 % of their variance, at most two less than the smaller group has shapes.
@@ -32,9 +33,11 @@
 
 mod arrangements;
 mod conditions;
+mod contrasts;
 mod error;
 mod groups;
 mod left_out;
+mod modes;
 mod of_pair;
 mod run;
 #[cfg(test)]

@@ -6,11 +6,12 @@
 use super::EvidenceError;
 use super::arrangements::{Arrangements, some_of};
 use super::conditions::conditions;
+use super::contrasts::Contrasts;
 use super::groups::Groups;
 use super::significance::{chance, holm, is_as_large, p_error, p_value};
 use super::stability::{self, HALVINGS};
-use super::statistics::{Compared, Contrasts, Curves, InnerProducts, STATISTICS, compare};
-use super::told_apart::{self, RELABELLINGS};
+use super::statistics::{Compared, Curves, Labelled, STATISTICS, compare};
+use super::told_apart;
 use super::vertices::{self, VertexTest};
 use crate::linalg::parallel;
 use crate::model::{Side, Sides};
@@ -94,12 +95,10 @@ impl Evidence {
         let modes = groups.modes_to_compare(options.modes);
         let contrasts = Contrasts::new(&groups);
         let sides = Sides::each(|side| groups.indices(side));
-        let by_labels = InnerProducts::of(groups.gram(), &sides.a, &sides.b);
+        let by_labels = Labelled::of(groups.leading(), &sides.a, &sides.b);
         let Compared { statistics, curves } =
             compare(&by_labels, modes, groups.point_count(), true);
-        let own: Vec<usize> = (0..a + b - 2).collect();
-        let by_contrasts = contrasts.inner_products(&own[..a - 1], &own[a - 1..]);
-        let of_contrasts = compare(&by_contrasts, modes, groups.point_count(), false).statistics;
+        let of_contrasts = compare(&contrasts.own(), modes, groups.point_count(), false).statistics;
         let no_overlap = Sides::each(|side| vec![0.0; most_modes(&groups, side)]);
         Ok(Self {
             modes,
@@ -196,7 +195,9 @@ impl Evidence {
         let Sides { a, b } = self.groups.counts();
         match stage {
             Stage::LeftOut => 1,
-            Stage::ToldApart => RELABELLINGS.min(self.relabellings.count()),
+            Stage::ToldApart => {
+                told_apart::relabellings(&self.groups).min(self.relabellings.count())
+            }
             Stage::Stability => HALVINGS,
             Stage::Matched => {
                 if a == b {
@@ -214,20 +215,19 @@ impl Evidence {
         let Sides { a, b } = self.groups.counts();
         let total = (a + b) as f64;
         let coordinates = self.groups.shapes().nrows() as f64;
-        let cube = total * total * total;
-        let refits = if self.options.modes.is_some() { total } else { 1.0 };
+        let cubes_in = |dimensions: usize| {
+            let size =
+                |count: usize| (count.min(dimensions) * count.min(dimensions) * count) as f64;
+            size(a) + size(b)
+        };
+        let leading = cubes_in(self.groups.leading().nrows());
+        let all = cubes_in(self.groups.rank());
         match stage {
-            Stage::LeftOut => 4.0 * coordinates * total * total + 4.0 * refits * cube,
-            Stage::ToldApart => {
-                if self.options.modes.is_some() {
-                    12.0 * cube
-                } else {
-                    7.0 * cube
-                }
-            }
-            Stage::Stability => cube,
-            Stage::Matched => 8.0 * cube,
-            Stage::Permutations => 20.0 * cube + 2.0 * coordinates * total,
+            Stage::LeftOut => 4.0 * coordinates * total * total + 20.0 * all,
+            Stage::ToldApart => 25.0 * all,
+            Stage::Stability => 5.0 * leading,
+            Stage::Matched => 25.0 * leading,
+            Stage::Permutations => 60.0 * leading + 2.0 * coordinates * total,
         }
     }
 
@@ -243,7 +243,7 @@ impl Evidence {
             Stage::ToldApart => {
                 let shares = parallel::map(count, |item| {
                     let (a, b) = self.relabellings.get(range.start + item);
-                    told_apart::relabelled(groups.gram(), &a, &b, modes)
+                    told_apart::relabelled(groups, &a, &b, modes)
                 });
                 for share in shares {
                     self.nearer_by_chance.a.push(share.a);
@@ -256,7 +256,7 @@ impl Evidence {
                     Sides::each(|side| {
                         let purpose = (self.options.seed, side.index(), range.start + item);
                         let most = self.overlaps[side].len();
-                        stability::halved(groups.gram(), &sides[side], most, purpose)
+                        stability::halved(groups.leading(), &sides[side], most, purpose)
                     })
                 });
                 for overlaps in found {
@@ -294,8 +294,8 @@ impl Evidence {
             }
             some_of(&mut random, of.len(), least).into_iter().map(|place| of[place]).collect()
         });
-        let products = InnerProducts::of(self.groups.gram(), &chosen.a, &chosen.b);
-        compare(&products, self.modes, self.groups.point_count(), false).statistics
+        let labelled = Labelled::of(self.groups.leading(), &chosen.a, &chosen.b);
+        compare(&labelled, self.modes, self.groups.point_count(), false).statistics
     }
 
     /// The relabellings `range` of both hypotheses and of the vertices.
@@ -305,13 +305,13 @@ impl Evidence {
             let index = range.start + item;
             let labels = (index < self.relabellings.count()).then(|| {
                 let (a, b) = self.relabellings.get(index);
-                let products = InnerProducts::of(self.groups.gram(), &a, &b);
-                (a, compare(&products, self.modes, points, true))
+                let labelled = Labelled::of(self.groups.leading(), &a, &b);
+                (a, compare(&labelled, self.modes, points, true))
             });
             let contrasts = (index < self.rearrangements.count()).then(|| {
                 let (a, b) = self.rearrangements.get(index);
-                let products = self.contrasts.inner_products(&a, &b);
-                compare(&products, self.modes, points, false).statistics
+                let labelled = self.contrasts.labelled(&a, &b);
+                compare(&labelled, self.modes, points, false).statistics
             });
             (labels, contrasts)
         });
@@ -520,17 +520,16 @@ mod tests {
                     column -= &mean;
                 }
             }
-            let gram = crate::linalg::gram(&residuals);
             let by_residuals = |index: usize| {
                 let (a, b) = evidence.relabellings.get(index);
-                InnerProducts::of(&gram, &a, &b)
+                Labelled::of(&residuals, &a, &b)
             };
             let by_contrasts = |index: usize| {
                 let (a, b) = evidence.rearrangements.get(index);
-                evidence.contrasts.inner_products(&a, &b)
+                evidence.contrasts.labelled(&a, &b)
             };
             // The share of A's variance outside B.
-            let value = |of: InnerProducts| compare(&of, evidence.modes, 10, false).statistics[1];
+            let value = |of: Labelled| compare(&of, evidence.modes, 10, false).statistics[1];
             let observed = evidence.observed[1][1];
             let exceeding = |values: &mut dyn Iterator<Item = f64>| {
                 values.filter(|value| is_as_large(*value, observed)).count()
@@ -683,7 +682,7 @@ mod tests {
     fn a_run_that_is_cancelled_reports_what_it_has() {
         let (a, b) = (drawn((30, 9), 0.0, falling, 7), drawn((30, 9), 0.3, falling, 8));
         let mut evidence = prepared(&a, &b, of(199));
-        evidence.advance(1 + RELABELLINGS + HALVINGS);
+        evidence.advance(1 + 199 + HALVINGS);
         assert!(evidence.report().is_none(), "no relabelling yet");
         evidence.advance(50);
         let part = evidence.report().unwrap();

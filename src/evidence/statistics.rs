@@ -1,32 +1,15 @@
-//! Statistics of two groups from inner products: variances, shares, distances and principal angles.
+//! Statistics of two groups of shapes: variances, shares, distances and principal angles.
 //!
-//! With A_c (deviations of a group from its mean) and A_cᵀA_c = V S² Vᵀ, the unit vectors of its modes are
-//! A_c V/S. So with the inner products C = A_cᵀB_c, V_A/S_A and V_B/S_B alone: UᵦᵀA_c = (V_B/S_B)ᵀCᵀ has what
-//! B's first k modes explain of A, and U_AᵀUᵦ = (V_A/S_A)ᵀ C (V_B/S_B) the cosines between the modes.
+//! Of each group of a labelling there are the deviations D from its mean (r × m) in the coordinates of [`super::Groups`],
+//! and its first k modes U. What B's modes explain of A is UᵦᵀD_A; the cosines between the modes are U_AᵀUᵦ.
+//! Only the scatter DDᵀ counts, so that contrasts do as well as deviations.
 //!
-//! **One population**: labels are permuted; a replicate takes blocks of G and centres them.
-//!
-//! **One covariance about means that may differ**: n_A deviations from one mean are not exchangeable with those
-//! from another: they add up to zero in each group, so that relabelled groups would share a
-//! direction that independent ones do not. The n − 1 contrasts
-//! zᵢ = xᵢ − (√n x̄ − xₙ)/(√n − 1), i < n, (columns of a Householder reflection) have the same scatter,
-//! Z Zᵀ = A_cA_cᵀ, and are independent with one covariance for Gaussian populations: permuting the n_A + n_B − 2
-//! contrasts is an exact test for them, else approximate. Each is a shape less a vector that they
-//! share, and keeps its tails. The difference of the means stays as it is; where it counts (distances),
-//! so does its square.
-//!
-//! **Limits.** The last shape of each group is treated differently from the others: another order gives
-//! another, equally valid, set of relabellings.
-//!
-//! **References.** Householder, "Unitary triangularization of a nonsymmetric matrix", J. ACM 5 (1958); Theil, "The
-//! analysis of disturbances in regression analysis", J. Am. Stat. Assoc. 60 (1965), for uncorrelated
-//! residuals; Krzanowski, "Between-groups comparison of principal components", J. Am. Stat. Assoc. 74 (1979).
+//! **References.** Krzanowski, "Between-groups comparison of principal components", J. Am. Stat. Assoc. 74 (1979).
 
 use nalgebra::{DMatrix, DVector};
 
-use super::groups::{Groups, SMALLEST_VARIANCE};
-use super::left_out::centred;
-use crate::linalg::eigen;
+use super::modes::{Modes, deviations, outside, scatter_eigenvalues};
+use crate::linalg::cross;
 use crate::model::{Side, Sides};
 use crate::report::StatisticName;
 
@@ -41,140 +24,26 @@ pub(super) const STATISTICS: [StatisticName; 7] = [
     StatisticName::PrincipalAngles,
 ];
 
-/// Inner products of the deviations in two groups from their own means.
+/// Two groups of a labelling.
 #[derive(Debug, Clone)]
-pub(super) struct InnerProducts {
-    /// A_cᵀA_c and B_cᵀB_c.
-    own: Sides<DMatrix<f64>>,
-    /// A_cᵀB_c.
-    cross: DMatrix<f64>,
-    /// A_cᵀδ and B_cᵀδ, δ the difference of the means.
-    offsets: Sides<DVector<f64>>,
-    /// δᵀδ.
-    offset: f64,
+pub(super) struct Labelled {
+    /// Vectors of each group (r × m) whose scatter is that of its shapes about their mean.
+    pub(super) deviations: Sides<DMatrix<f64>>,
+    /// Mean of A less mean of B (r).
+    pub(super) offset: DVector<f64>,
     /// Numbers of shapes.
-    counts: Sides<usize>,
+    pub(super) counts: Sides<usize>,
 }
 
-impl InnerProducts {
-    /// Of the shapes `a` and `b`, by the Gram matrix of all (N × N).
-    pub(super) fn of(gram: &DMatrix<f64>, a: &[usize], b: &[usize]) -> Self {
-        let sides = Sides { a, b };
-        let own = sides.map(|of| centred(gram, of));
-        let mut cross = DMatrix::from_fn(a.len(), b.len(), |i, j| gram[(a[i], b[j])]);
-        let (of_b, of_a) = (cross.row_mean(), cross.column_mean());
-        let mean = of_a.mean();
-        for j in 0..b.len() {
-            for i in 0..a.len() {
-                cross[(i, j)] += mean - of_a[i] - of_b[j];
-            }
-        }
-        let own_means = sides.map(|of| {
-            DVector::from_fn(of.len(), |i, _| {
-                of.iter().map(|&j| gram[(of[i], j)]).sum::<f64>() / of.len() as f64
-            })
-        });
-        let square = own_means.a.mean() + own_means.b.mean() - 2.0 * mean;
-        let along = |own: &DVector<f64>, other: DVector<f64>| {
-            let difference = own - other;
-            let mean = difference.mean();
-            difference.add_scalar(-mean)
-        };
-        let offsets =
-            Sides { a: along(&own_means.a, of_a), b: -along(&own_means.b, of_b.transpose()) };
-        let counts = sides.map(<[usize]>::len);
-        Self { own, cross, offsets, offset: square.max(0.0), counts }
-    }
-
-    fn of_side(&self, side: Side) -> (DMatrix<f64>, f64) {
-        let own = self.own[side].clone();
-        let trace = own.trace();
-        (own, trace)
-    }
-}
-
-/// Contrasts of two groups, which vary alike under one covariance whatever the means.
-#[derive(Debug, Clone)]
-pub(super) struct Contrasts {
-    /// Inner products of all N − 2.
-    gram: DMatrix<f64>,
-    /// Those with the difference of the means.
-    along: DVector<f64>,
-    /// Its square.
-    offset: f64,
-    counts: Sides<usize>,
-}
-
-impl Contrasts {
-    pub(super) fn new(groups: &Groups) -> Self {
-        let counts = groups.counts();
-        let total = counts.a + counts.b;
-        let mut weights = DMatrix::zeros(total, total - 2);
-        let mut difference = DVector::zeros(total);
-        let mut column = 0;
-        for (side, sign) in [(Side::A, 1.0), (Side::B, -1.0)] {
-            let of = groups.indices(side);
-            let count = of.len() as f64;
-            let last = of[of.len() - 1];
-            let shared = 1.0 / (count.sqrt() - 1.0);
-            for &shape in &of {
-                difference[shape] = sign / count;
-                if shape == last {
-                    continue;
-                }
-                for &other in &of {
-                    weights[(other, column)] -= shared / count.sqrt();
-                }
-                weights[(last, column)] += shared;
-                weights[(shape, column)] += 1.0;
-                column += 1;
-            }
-        }
-        let times = groups.gram() * &weights;
-        let towards = groups.gram() * &difference;
+impl Labelled {
+    /// The shapes `a` and `b`, columns of `coordinates` (r × N).
+    pub(super) fn of(coordinates: &DMatrix<f64>, a: &[usize], b: &[usize]) -> Self {
+        let [(mean_a, of_a), (mean_b, of_b)] = [a, b].map(|of| deviations(coordinates, of));
         Self {
-            gram: weights.tr_mul(&times),
-            along: weights.tr_mul(&towards),
-            offset: difference.dot(&towards).max(0.0),
-            counts,
+            deviations: Sides { a: of_a, b: of_b },
+            offset: mean_a - mean_b,
+            counts: Sides { a: a.len(), b: b.len() },
         }
-    }
-
-    /// With `a` and `b` the contrasts that are called A's and B's.
-    pub(super) fn inner_products(&self, a: &[usize], b: &[usize]) -> InnerProducts {
-        let block = |rows: &[usize], columns: &[usize]| {
-            DMatrix::from_fn(rows.len(), columns.len(), |i, j| self.gram[(rows[i], columns[j])])
-        };
-        let along = |of: &[usize]| DVector::from_fn(of.len(), |i, _| self.along[of[i]]);
-        InnerProducts {
-            own: Sides { a: block(a, a), b: block(b, b) },
-            cross: block(a, b),
-            offsets: Sides { a: along(a), b: along(b) },
-            offset: self.offset,
-            counts: self.counts,
-        }
-    }
-}
-
-/// The first modes of a group.
-pub(super) struct Modes {
-    /// S², all of them, largest first.
-    pub(super) squares: Vec<f64>,
-    /// V/S of the first modes: the deviations times these are their unit vectors.
-    pub(super) scaled: DMatrix<f64>,
-}
-
-impl Modes {
-    /// The first `most`, less where the group does not span so many.
-    pub(super) fn of(own: DMatrix<f64>, most: usize) -> Self {
-        let (vectors, values) = eigen(own);
-        let least = SMALLEST_VARIANCE * values[0];
-        let kept = values.iter().take(most).take_while(|value| **value > least).count();
-        let mut scaled = vectors.columns(0, kept).into_owned();
-        for (mut column, value) in scaled.column_iter_mut().zip(values.iter()) {
-            column /= value.sqrt();
-        }
-        Self { squares: values.iter().map(|value| value.max(0.0)).collect(), scaled }
     }
 }
 
@@ -205,29 +74,27 @@ pub(super) struct Compared {
 }
 
 /// Compares two groups of shapes of `points` points.
-pub(super) fn compare(of: &InnerProducts, modes: usize, points: usize, curves: bool) -> Compared {
+pub(super) fn compare(of: &Labelled, modes: usize, points: usize, curves: bool) -> Compared {
     let points = points as f64;
-    let (own_a, total_a) = of.of_side(Side::A);
-    let (own_b, total_b) = of.of_side(Side::B);
-    let totals = Sides { a: total_a, b: total_b };
-    let basis = Sides { a: Modes::of(own_a, modes), b: Modes::of(own_b, modes) };
+    let totals = of.deviations.as_ref().map(|deviations| deviations.norm_squared());
+    let found = of.deviations.as_ref().map(|deviations| Modes::of(deviations, modes));
     // U_BᵀA_c and U_AᵀB_c.
     let explained =
-        Sides { a: (&of.cross * &basis.b.scaled).transpose(), b: basis.a.scaled.tr_mul(&of.cross) };
-    let outside = Sides::each(|side| (totals[side] - explained[side].norm_squared()).max(0.0));
-    let share = |side: Side| ratio(outside[side], totals[side]);
+        Sides::each(|side: Side| cross(&found[side.other()].basis, &of.deviations[side]));
+    let not_explained =
+        Sides::each(|side| (totals[side] - explained[side].norm_squared()).max(0.0));
+    let share = |side: Side| ratio(not_explained[side], totals[side]);
     let distance = |side: Side| {
         // Of the offset of the means, what the modes of the other leave.
-        let other = side.other();
-        let closed = basis[other].scaled.tr_mul(&of.offsets[other]).norm_squared();
-        let offset = (of.offset - closed).max(0.0);
-        ((outside[side] / of.counts[side] as f64 + offset) / points).sqrt()
+        let closed = found[side.other()].basis.tr_mul(&of.offset).norm_squared();
+        let offset = (of.offset.norm_squared() - closed).max(0.0);
+        ((not_explained[side] / of.counts[side] as f64 + offset) / points).sqrt()
     };
-    let cosines = &explained.b * &basis.b.scaled;
+    let cosines = cross(&found.a.basis, &found.b.basis);
     let angles = angles(&cosines);
     let variance = |side: Side| totals[side] / (of.counts[side] - 1) as f64;
     let statistics = [
-        (of.offset / points).sqrt(),
+        of.offset.norm() / points.sqrt(),
         share(Side::A),
         share(Side::B),
         distance(Side::A),
@@ -250,12 +117,11 @@ pub(super) fn compare(of: &InnerProducts, modes: usize, points: usize, curves: b
         principal_angles: filled(modes, angles.iter().copied()),
         standard_deviations: Sides::each(|side| {
             let freedom = (of.counts[side] - 1) as f64;
-            filled(modes, basis[side].squares.iter().map(|square| (square / freedom).sqrt()))
+            filled(modes, found[side].squares.iter().map(|square| (square / freedom).sqrt()))
         }),
         exclusive_modes: Sides::each(|side| {
-            let rest = &of.own[side] - explained[side].tr_mul(&explained[side]);
-            let mut squares: Vec<f64> = rest.symmetric_eigenvalues().iter().copied().collect();
-            squares.sort_unstable_by(|one, other| other.total_cmp(one));
+            let rest = outside(of.deviations[side].clone(), &found[side.other()].basis);
+            let squares = scatter_eigenvalues(&rest);
             let scale = (of.counts[side] - 1) as f64 * points;
             filled(modes, squares.into_iter().map(|square| (square.max(0.0) / scale).sqrt()))
         }),
@@ -277,22 +143,17 @@ fn ratio(part: f64, whole: f64) -> f64 {
 /// Principal angles from the cosines between two orthonormal bases, smallest first. Their squares are accurate to
 /// rounding; angles below 10⁻⁸ are zero.
 fn angles(cosines: &DMatrix<f64>) -> Vec<f64> {
-    if cosines.nrows() < cosines.ncols() {
-        return angles(&cosines.transpose());
-    }
-    if cosines.ncols() == 0 {
+    if cosines.is_empty() {
         return Vec::new();
     }
-    let mut squares: Vec<f64> =
-        cosines.tr_mul(cosines).symmetric_eigenvalues().iter().copied().collect();
-    squares.sort_unstable_by(|one, other| other.total_cmp(one));
+    let squares = scatter_eigenvalues(cosines);
     squares.into_iter().map(|square| libm::acos(square.clamp(0.0, 1.0).sqrt())).collect()
 }
 
 /// ‖U_AᵀU_B‖²/k of the first k modes, k = 1 to `most`; where a group has fewer, that of what it has over k.
-pub(super) fn overlaps(of: &InnerProducts, most: usize) -> Vec<f64> {
-    let basis = Sides::each(|side| Modes::of(of.own[side].clone(), most));
-    let cosines = basis.a.scaled.tr_mul(&(&of.cross * &basis.b.scaled));
+pub(super) fn overlaps(of: &Labelled, most: usize) -> Vec<f64> {
+    let found = of.deviations.as_ref().map(|deviations| Modes::of(deviations, most));
+    let cosines = cross(&found.a.basis, &found.b.basis);
     let mut sum = 0.0;
     (1..=most)
         .map(|modes| {
@@ -313,6 +174,8 @@ pub(super) fn overlaps(of: &InnerProducts, most: usize) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::evidence::Groups;
+    use crate::evidence::contrasts::Contrasts;
     use crate::evidence::samples::{drawn, falling};
     use crate::linalg::thin_svd;
     use crate::measure::principal_angles;
@@ -374,17 +237,17 @@ mod tests {
     }
 
     #[test]
-    fn statistics_from_inner_products_equal_those_in_the_space_of_the_points() {
+    fn statistics_in_few_coordinates_equal_those_in_the_space_of_the_points() {
         const MODES: usize = 3;
         let (a, b) = (drawn((36, 7), 0.0, falling, 10), drawn((36, 6), 0.2, falling, 11));
         let groups = Groups::new(3, &a, &b, Alignment::None).unwrap();
         let (first, second): (Vec<usize>, Vec<usize>) = ((0..7).collect(), (7..13).collect());
         let expected = plain_statistics(&a, &b, MODES, 12.0);
-        let by_labels = InnerProducts::of(groups.gram(), &first, &second);
+        let by_labels = Labelled::of(groups.leading(), &first, &second);
         let (of_a, of_b): (Vec<usize>, Vec<usize>) = ((0..6).collect(), (6..11).collect());
-        let by_contrasts = Contrasts::new(&groups).inner_products(&of_a, &of_b);
-        for (name, products) in [("shapes", &by_labels), ("contrasts", &by_contrasts)] {
-            let found = compare(products, MODES, 12, false).statistics;
+        let by_contrasts = Contrasts::new(&groups).labelled(&of_a, &of_b);
+        for (name, labelled) in [("shapes", &by_labels), ("contrasts", &by_contrasts)] {
+            let found = compare(labelled, MODES, 12, false).statistics;
             for ((found, expected), statistic) in found.iter().zip(expected).zip(STATISTICS) {
                 let off = (found / expected - 1.0).abs();
                 assert!(off < 1e-10, "{statistic:?} of {name}: {found}, not {expected}");
@@ -395,7 +258,7 @@ mod tests {
         let all = groups.shapes();
         let expected =
             plain_statistics(&all.select_columns(&a), &all.select_columns(&b), MODES, 12.0);
-        let relabelled = InnerProducts::of(groups.gram(), &a, &b);
+        let relabelled = Labelled::of(groups.leading(), &a, &b);
         for (found, expected) in
             compare(&relabelled, MODES, 12, false).statistics.iter().zip(expected)
         {
@@ -409,8 +272,8 @@ mod tests {
         let (a, b) = (drawn((36, 7), 0.0, falling, 12), drawn((36, 6), 0.2, falling, 13));
         let groups = Groups::new(3, &a, &b, Alignment::None).unwrap();
         let (first, second): (Vec<usize>, Vec<usize>) = ((0..7).collect(), (7..13).collect());
-        let products = InnerProducts::of(groups.gram(), &first, &second);
-        let curves = compare(&products, MODES, 12, true).curves.unwrap();
+        let labelled = Labelled::of(groups.leading(), &first, &second);
+        let curves = compare(&labelled, MODES, 12, true).curves.unwrap();
         let (a, b) = (plain(&a, MODES), plain(&b, MODES));
         let close = |found: &[f64], expected: Vec<f64>, what: &str| {
             assert_eq!(found.len(), MODES, "{what}");
@@ -450,7 +313,7 @@ mod tests {
         let (a, b) = (drawn((36, 7), 0.0, falling, 14), drawn((36, 6), 0.2, falling, 15));
         let groups = Groups::new(3, &a, &b, Alignment::None).unwrap();
         let (first, second): (Vec<usize>, Vec<usize>) = ((0..7).collect(), (7..13).collect());
-        let found = overlaps(&InnerProducts::of(groups.gram(), &first, &second), 5);
+        let found = overlaps(&Labelled::of(groups.leading(), &first, &second), 5);
         for modes in 1..=5 {
             let angles = principal_angles(&plain(&a, modes).basis, &plain(&b, modes).basis);
             let squares = angles.iter().map(|angle| libm::cos(*angle) * libm::cos(*angle));
@@ -466,8 +329,8 @@ mod tests {
         let (a, b) = (drawn((12, 5), 0.0, plane, 16), drawn((12, 5), 0.5, plane, 17));
         let groups = Groups::new(2, &a, &b, Alignment::None).unwrap();
         let (first, second): (Vec<usize>, Vec<usize>) = ((0..5).collect(), (5..10).collect());
-        let products = InnerProducts::of(groups.gram(), &first, &second);
-        let found = compare(&products, 3, 6, true);
+        let labelled = Labelled::of(groups.leading(), &first, &second);
+        let found = compare(&labelled, 3, 6, true);
         assert!(found.statistics[1] < 1e-14, "both span the plane: {}", found.statistics[1]);
         let values = found.curves.unwrap().into_values();
         assert!(values.iter().all(|value| value.is_finite()), "{values:?}");

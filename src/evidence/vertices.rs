@@ -181,7 +181,7 @@ fn block_of(block: usize, points: usize) -> Range<usize> {
 
 /// Of each arrangement a column with 1 in A.
 fn labels(groups: &Groups, arrangements: &[Vec<usize>]) -> Packed {
-    let mut labels = DMatrix::zeros(groups.gram().nrows(), arrangements.len());
+    let mut labels = DMatrix::zeros(groups.shapes().ncols(), arrangements.len());
     for (column, arrangement) in arrangements.iter().enumerate() {
         for &shape in arrangement {
             labels[(shape, column)] = 1.0;
@@ -237,7 +237,7 @@ mod tests {
 
     /// h by its definition.
     fn plain(groups: &Groups, a: &[usize], vertex: usize) -> f64 {
-        let (dimension, total) = (groups.dimension(), groups.gram().nrows());
+        let (dimension, total) = (groups.dimension(), groups.shapes().ncols());
         let own = groups.shapes().rows(vertex * dimension, dimension).into_owned();
         let mut scatter = &own * own.transpose();
         let ridge = RIDGE * scatter.trace() / dimension as f64;

@@ -12,11 +12,12 @@
 //!
 //! The soft difference at a tolerance σ has P = E[1 − exp(−½(d/σ)²)]: one set of draws gives it for every σ.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::difference::about_the_mean;
-use crate::linalg::{eigen, product};
+use super::expected_norm::NormQuadrature;
+use crate::linalg::{eigen, parallel};
 use crate::model::LinearModel;
 use crate::pair::ResidualOperator;
 use crate::sampling::{Stream, fill_normal, stream};
@@ -24,10 +25,8 @@ use crate::sampling::{Stream, fill_normal, stream};
 /// Draws are made in blocks, each with a stream of its own.
 const BLOCKS: usize = 16;
 const BLOCK: usize = 128;
-/// Draws whose distance from their own mean is measured, which is what `relative` relates to.
-const OWN_DRAWS: usize = 512;
-/// Of these, as many as are displaced at a time.
-const TOGETHER: usize = 32;
+/// Vertices of an item of work.
+const VERTICES: usize = 256;
 /// Eigenvalues of RᵀR below this share of the largest close nothing.
 const SMALLEST_EIGENVALUE: f64 = 1e-9;
 
@@ -44,7 +43,7 @@ pub struct ReachOfSide {
     pub quantiles: Quantiles,
     /// Their Monte-Carlo standard errors, from order statistics.
     pub quantile_errors: Quantiles,
-    /// `mean` over the mean distance of the same shapes from the mean shape of their own model.
+    /// `mean` over the mean distance of shapes of the model from its mean shape.
     pub relative: f64,
     /// What the mean square of the distances is made of.
     pub mean_square: MeanSquare,
@@ -98,7 +97,10 @@ impl ReachDraws {
             .collect();
         let targets = about_the_mean(operator);
         let mut distances: Vec<f64> = blocks.iter().flat_map(|block| targets.of(block)).collect();
-        let own_mean = mean_distance_from_mean(model, &blocks.concat()[..OWN_DRAWS * modes]);
+        let own_mean = match model.dimension() {
+            2 => mean_distance_from_mean::<2>(model),
+            _ => mean_distance_from_mean::<3>(model),
+        };
         let count = distances.len() as f64;
         let mean = distances.iter().sum::<f64>() / count;
         let squares: f64 = distances.iter().map(|d| (d - mean) * (d - mean)).sum();
@@ -136,17 +138,8 @@ impl MeanSquare {
     /// Of the shapes whose residual operator this is.
     pub fn of(operator: &ResidualOperator) -> Self {
         let points = operator.point_count() as f64;
-        // ‖r₀∥‖² = gᵀ(RᵀR)⁺g with g = Rᵀr₀.
-        let (vectors, values) = eigen(operator.gram().clone());
-        let along: DVector<f64> = vectors.tr_mul(operator.gram_shift());
-        let floor = SMALLEST_EIGENVALUE * values.max();
-        let closed: f64 = along
-            .iter()
-            .zip(values.iter())
-            .filter(|(_, value)| **value > floor)
-            .map(|(along, value)| along * along / value)
-            .sum();
-        let closed = closed.min(operator.gram_constant());
+        let closed = -operator.gram_shift().dot(&closing_coefficients(operator));
+        let closed = closed.clamp(0.0, operator.gram_constant());
         let [offset, offset_closed, exclusive] =
             [operator.gram_constant() - closed, closed, operator.gram().trace()]
                 .map(|square| square.max(0.0) / points);
@@ -154,19 +147,48 @@ impl MeanSquare {
     }
 }
 
-/// Mean over draws a (one after the other) and points of ‖U a‖_v. The basis is read once for every few draws.
-fn mean_distance_from_mean(model: &LinearModel, draws: &[f64]) -> f64 {
-    let modes = model.mode_count();
-    let of_some = draws.chunks(TOGETHER * modes).map(|some| {
-        let mut scaled = DMatrix::from_column_slice(modes, some.len() / modes, some);
-        for mut coefficients in scaled.column_iter_mut() {
-            coefficients.component_mul_assign(model.standard_deviations());
+/// The coefficients −(RᵀR)⁺Rᵀr₀ of the shape of least mean square distance.
+fn closing_coefficients(operator: &ResidualOperator) -> DVector<f64> {
+    let (vectors, values) = eigen(operator.gram().clone());
+    let floor = SMALLEST_EIGENVALUE * values.max();
+    let mut along: DVector<f64> = vectors.tr_mul(operator.gram_shift());
+    for (along, value) in along.iter_mut().zip(values.iter()) {
+        *along = if *value > floor { -*along / value } else { 0.0 };
+    }
+    vectors * along
+}
+
+impl ResidualOperator {
+    /// How far every point (n) of the shape of least mean square distance lies from the other model: the part of
+    /// the offset of the means that no shape of the model closes, whose mean square over the points is
+    /// [`MeanSquare::offset`].
+    pub fn vertex_offsets(&self) -> Vec<f64> {
+        self.vertex_residuals(closing_coefficients(self).as_slice())
+    }
+}
+
+/// Mean over the shapes of a model and over its points of the distance from its mean shape, E‖U_v a‖, by quadrature.
+fn mean_distance_from_mean<const D: usize>(model: &LinearModel) -> f64 {
+    let mut covariances = vec![[[0.0; D]; D]; model.point_count()];
+    for (direction, deviation) in
+        model.basis().column_iter().zip(model.standard_deviations().iter())
+    {
+        let variance = deviation * deviation;
+        let points = direction.as_slice().as_chunks::<D>().0;
+        for (covariance, point) in covariances.iter_mut().zip(points) {
+            for (row, x) in covariance.iter_mut().zip(point) {
+                for (entry, y) in row.iter_mut().zip(point) {
+                    *entry += variance * x * y;
+                }
+            }
         }
-        let displacements = product(model.basis(), &scaled);
-        let points = displacements.as_slice().chunks_exact(model.dimension());
-        points.map(|point| point.iter().map(|x| x * x).sum::<f64>().sqrt()).sum::<f64>()
+    }
+    let rule = NormQuadrature::new();
+    let norms = parallel::map(covariances.len().div_ceil(VERTICES), |block| {
+        let of_block = covariances[block * VERTICES..].iter().take(VERTICES);
+        of_block.map(|covariance| rule.moments([0.0; D], *covariance, 0.0).norm).sum::<f64>()
     });
-    of_some.sum::<f64>() / (draws.len() / modes * model.point_count()) as f64
+    norms.iter().sum::<f64>() / covariances.len() as f64
 }
 
 /// By linear interpolation between ascending values, as `numpy.quantile`.
@@ -187,6 +209,8 @@ fn quantile_error(ascending: &[f64], share: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::DMatrix;
+
     use super::*;
     use crate::model::{Alignment, Side};
     use crate::pair::Pair;
@@ -220,6 +244,23 @@ mod tests {
     }
 
     #[test]
+    fn the_maps_have_the_means_of_the_numbers() {
+        let pair = Pair::new(&model(1, 4), &model(2, 6), Alignment::None, None).unwrap();
+        for (number, side) in Side::BOTH.into_iter().enumerate() {
+            let operator = pair.residual_operator(side);
+            let found = ReachDraws::new(&operator, pair.models()[side], 1, number).summary();
+            let misses = operator.mean_vertex_residuals();
+            let mean = misses.iter().sum::<f64>() / misses.len() as f64;
+            let off = (mean - found.mean).abs();
+            assert!(off < 4.0 * found.standard_error, "{mean}, not {found:?}");
+            let offsets = operator.vertex_offsets();
+            let square = offsets.iter().map(|x| x * x).sum::<f64>() / offsets.len() as f64;
+            let off = (square / found.mean_square.offset - 1.0).abs();
+            assert!(off < 1e-9, "{square}, not {found:?}");
+        }
+    }
+
+    #[test]
     fn a_line_beside_a_point_has_the_quantiles_of_its_normal() {
         // A moves one point along x with standard deviation 2; B moves it along y: d = |x|.
         let line = |axis: usize| {
@@ -239,7 +280,8 @@ mod tests {
         }
         let mean = 2.0 * core::f64::consts::FRAC_2_PI.sqrt();
         assert!((found.mean - mean).abs() < 4.0 * found.standard_error, "{found:?}");
-        assert!((found.relative - 1.0).abs() < 0.1, "all of its own distance: {found:?}");
+        let error = found.standard_error / mean;
+        assert!((found.relative - 1.0).abs() < 4.0 * error, "all of its own distance: {found:?}");
         // E[1 − exp(−½ s²z²)] = 1 − 1/√(1 + s²) for z ~ N(0, 1), here with s = 2/σ.
         for sigma in [0.5, 2.0, 8.0] {
             let ratio = 2.0 / sigma;

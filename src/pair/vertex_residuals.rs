@@ -8,6 +8,7 @@
 
 use nalgebra::DVector;
 
+use super::expected_norm::NormQuadrature;
 use super::residual_rows::with_rows;
 use crate::linalg::simd::Real;
 use crate::linalg::{Moments, parallel};
@@ -26,7 +27,33 @@ impl ResidualOperator {
         self.vertex_norms(self.offset().iter().zip(spread).map(|(r, spread)| r * r + spread))
     }
 
-    /// The same over shapes whose coefficients have the given moments; costs d·n·q².
+    /// E‖r_v‖ of every point (n) over all shapes of the model, in its unit, by quadrature
+    /// ([`super::expected_norm`]); its mean over the points is the mean distance to the other model.
+    pub fn mean_vertex_residuals(&self) -> Vec<f64> {
+        match self.dimension() {
+            2 => self.mean_norms::<2>(),
+            _ => self.mean_norms::<3>(),
+        }
+    }
+
+    fn mean_norms<const D: usize>(&self) -> Vec<f64> {
+        let rule = NormQuadrature::new();
+        let scale = self.offset().iter().copied().fold(0.0, |most, r| r.abs().max(most));
+        let modes = self.mode_count();
+        with_rows!(self, rows => parallel::map(self.point_count(), |point| {
+            let row = |axis: usize| {
+                &rows[(point * D + axis) * modes..(point * D + axis + 1) * modes]
+            };
+            let mean = core::array::from_fn(|axis| self.offset()[point * D + axis]);
+            let product = |i: usize, j: usize| {
+                row(i).iter().zip(row(j)).map(|(x, y)| x.double() * y.double()).sum::<f64>()
+            };
+            let covariance = core::array::from_fn(|i| core::array::from_fn(|j| product(i, j)));
+            rule.moments::<D>(mean, covariance, scale).norm
+        }))
+    }
+
+    /// √E‖r_v‖² of every point (n) over shapes whose coefficients have the given moments; costs d·n·q².
     pub fn expected_vertex_residuals_of(&self, coefficients: &Moments) -> Vec<f64> {
         let factor = coefficients.factor();
         let centre = self.residual_at(coefficients.mean.as_slice());
@@ -100,6 +127,29 @@ mod tests {
         for (v, found) in side.vertex_residuals(&point).into_iter().enumerate() {
             let expected = (shape.rows(3 * v, 3) - image.rows(3 * v, 3)).norm();
             assert!((found - expected).abs() < 1e-13, "point {v}: {found}, not {expected}");
+        }
+    }
+
+    #[test]
+    fn mean_residuals_are_means_over_draws() {
+        let pair = pair();
+        let side = pair.residual_operator(Side::A);
+        const DRAWS: usize = 20_000;
+        let (mut sums, mut squares) = ([0.0; 4], [0.0; 4]);
+        let mut random = stream(5, Stream::Display, 9, 1);
+        for _ in 0..DRAWS {
+            let mut a = [0.0; 3];
+            fill_normal(&mut random, &mut a);
+            for (v, r) in side.vertex_residuals(&a).into_iter().enumerate() {
+                sums[v] += r / DRAWS as f64;
+                squares[v] += r * r / DRAWS as f64;
+            }
+        }
+        for (v, found) in side.mean_vertex_residuals().into_iter().enumerate() {
+            let error = ((squares[v] - sums[v] * sums[v]) / DRAWS as f64).sqrt();
+            assert!((found - sums[v]).abs() < 4.0 * error, "point {v}: {found}, not {}", sums[v]);
+            let root = side.expected_vertex_residuals()[v];
+            assert!(found < root - 4.0 * error, "less than the root mean square: {found}, {root}");
         }
     }
 

@@ -18,7 +18,7 @@ use crate::error::ComparisonError;
 use crate::linalg::{Moments, TypedArray, single};
 use crate::measure::{VertexCovariances, scaled_modes, semi_axes};
 use crate::model::{Kind, LinearModel, Sides, vertex_normals};
-use crate::pair::{JointModel, formed, nearest_coefficients};
+use crate::pair::{JointModel, ResidualOperator, formed, nearest_coefficients};
 
 /// What a map shows at every vertex, in the unit of A unless it says otherwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -34,6 +34,13 @@ pub enum MapName {
     /// ‖x_v − x′_v‖ of the region's mean to the other model: of A and A\B to B, of B and B\A to A, of A∩B the
     /// larger of both.
     Distance,
+    /// Mean over the shapes of A of ‖x_v − x′_v‖, x′ the nearest that B can make; of B and B\A the other way round,
+    /// of A∩B the larger of both.
+    Reach,
+    /// Its part that no shape of the model avoids: ‖x_v − x′_v‖ of the shape of least mean square distance.
+    Offset,
+    /// Family-wise p of the difference between the means of the training shapes, the same for all regions.
+    Chance,
     /// From the mean of A to the region's mean, along the normal of the mean of A.
     Means,
     /// log₂ of the variance of A over that of B, the same for all regions.
@@ -98,6 +105,15 @@ impl Comparison {
                 unsigned(root(all.map(|(all, along)| all - along).collect()))
             }
             MapName::Distance => unsigned(self.distance_of_mean(region)?),
+            MapName::Reach => {
+                unsigned(self.of_sides(region, ResidualOperator::mean_vertex_residuals))
+            }
+            MapName::Offset => unsigned(self.of_sides(region, ResidualOperator::vertex_offsets)),
+            MapName::Chance => {
+                let report = self.run.finished().map(|finished| &finished.report);
+                let evidence = report.and_then(|report| report.evidence.as_ref());
+                unsigned(evidence.ok_or(ComparisonError::NothingYet)?.vertices.p.clone())
+            }
             MapName::Means => {
                 let from = self.pair().a().mean();
                 self.displacement(&(self.mean_shape(region)? - from), from)
@@ -213,10 +229,18 @@ impl Comparison {
         Ok(match region {
             Region::A | Region::AWithoutB => to(Side::B),
             Region::B | Region::BWithoutA => to(Side::A),
-            Region::Intersection => {
-                to(Side::A).into_iter().zip(to(Side::B)).map(|(a, b)| a.max(b)).collect()
-            }
+            Region::Intersection => larger(to(Side::A), to(Side::B)),
         })
+    }
+
+    /// A map of the model of a region against the other; of the intersection the larger of both.
+    fn of_sides(&self, region: Region, map: impl Fn(&ResidualOperator) -> Vec<f64>) -> Vec<f64> {
+        let of = |side: Side| map(self.prepared.operator(side));
+        match region {
+            Region::A | Region::AWithoutB => of(Side::A),
+            Region::B | Region::BWithoutA => of(Side::B),
+            Region::Intersection => larger(of(Side::A), of(Side::B)),
+        }
     }
 
     fn ratio(&self) -> VertexMap {
@@ -289,4 +313,9 @@ impl Comparison {
         let points = step.as_slice().chunks_exact(self.pair().a().dimension());
         points.map(|point| point.iter().map(|x| x * x).sum::<f64>().sqrt()).collect()
     }
+}
+
+/// The larger of two numbers at every vertex.
+fn larger(one: Vec<f64>, other: Vec<f64>) -> Vec<f64> {
+    one.into_iter().zip(other).map(|(one, other)| one.max(other)).collect()
 }

@@ -8,7 +8,7 @@ interface MapWords {
   quantity: (map: ShownAs) => string;
   help: string;
   /** Maps of one kind can share a scale. */
-  kind: "deviation" | "distance" | "displacement" | "ratio";
+  kind: "deviation" | "distance" | "displacement" | "ratio" | "chance";
 }
 
 interface ShownAs {
@@ -42,6 +42,24 @@ export const MAP_WORDS: Record<MapName, MapWords> = {
     help: "Distance of each vertex of the mean shape to the same vertex of the nearest shape of the other model: from A and A∖B to B, from B and B∖A to A, from A∩B to the farther of the two.",
     kind: "distance",
   },
+  reach: {
+    label: "Missed by the other",
+    quantity: () => "Mean distance to the nearest shape of the other model",
+    help: "How far a vertex of a shape of this model lies from the nearest shape that the other model can make, on average over all shapes: from A and A∖B to B, from B and B∖A to A, for A∩B the larger of the two.",
+    kind: "distance",
+  },
+  offset: {
+    label: "Missed by every shape",
+    quantity: () => "Distance to the other model that no shape avoids",
+    help: "What is left of the distance between the two models at the shape of this model that comes nearest to the other one. Models of different means may have such a rest, however much they vary.",
+    kind: "distance",
+  },
+  chance: {
+    label: "Chance of the difference of means",
+    quantity: () => "Family-wise p of the difference between the means",
+    help: "Chance that two random groups of these shapes would differ as much anywhere on the shape: below 0.05 the means differ at this vertex. Known where the training shapes of both models are.",
+    kind: "chance",
+  },
   means: {
     label: "Displacement of mean",
     quantity: ({ signed }) =>
@@ -66,7 +84,8 @@ export const MAP_WORDS: Record<MapName, MapWords> = {
 
 /** Unit of a map. */
 export function mapUnit(name: MapName, unit: string): string {
-  return name === "ratio" ? "log₂" : unit;
+  if (name === "ratio") return "log₂";
+  return name === "chance" ? "p" : unit;
 }
 
 export function mapCaption(name: MapName, map: ShownAs, unit: string): string {

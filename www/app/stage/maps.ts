@@ -38,6 +38,9 @@ export interface ShownMap {
   values: Partial<Record<Region, Float32Array>>;
 }
 
+/** Maps that are the same in all regions. */
+const SAME_IN_ALL: MapName[] = ["ratio", "chance"];
+
 const fetched = signal<Fetched | null>(null);
 /** Set by dialogs that need the map while the stage shows none. */
 export const mapIsWanted = signal(false);
@@ -129,7 +132,7 @@ interface Question {
 const ask = latest(async ({ key, name, mode }: Question) => {
   const { signal: never } = new AbortController();
   // A map that is the same in all regions is requested once.
-  const once = name === "ratio" ? engineClient().map(never, name, "a", 0) : null;
+  const once = SAME_IN_ALL.includes(name) ? engineClient().map(never, name, "a", 0) : null;
   const maps: Fetched["maps"] = {};
   let problem: string | null = null;
   await Promise.all(
