@@ -124,7 +124,7 @@ fn declarations() -> String {
         // The report.
         SigmaSource, Quantiles, MeanSquare, ReachOfSide, ReachCurve, ReachReport,
         Chance, StatisticName, Statistic, Hypothesis, Band, Bands, LeftOut, MatchedShares, ToldApart,
-        VertexEvidence, ModeStability, EvidenceReport,
+        VertexEvidence, ModeStability, EvidenceReport, Topic, Quantity, Name, Part, Sentence,
         MeanSd, Diagnostics, ModeDiagnostics, MomentSource, InferenceReport, Accuracy, Disagreement,
         ToleranceReport, Grassmann, IntersectionReport, EnvelopeName, ExclusiveReport,
         LinearSplitReport, DifferenceReport, Differences, KullbackLeibler, Overlap, Compactness,

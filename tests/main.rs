@@ -4,6 +4,7 @@
 
 mod common;
 
+mod answer;
 mod cli;
 mod closed_forms;
 mod conditions;

@@ -4,9 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::accuracy::accuracy;
 use super::inference::Estimate;
-use super::run::{
-    ChainDiagnostics, Drawing, DrawingStep, Drawn, Finished, Measuring, Run, Weighing,
-};
+use super::run::{ChainDiagnostics, Drawing, DrawingStep, Drawn, Finished, Measuring, Run};
 use super::{Comparison, summary};
 use crate::error::ComparisonError;
 use crate::evidence::Evidence;
@@ -20,8 +18,8 @@ use crate::pair::{Joint, JointModel, ReachDraws};
 use crate::relate::{affine_space, overlap};
 use crate::report::{
     Compactness, DifferenceReport, Differences, Disagreement, EnvelopeName, ExclusiveReport,
-    Grassmann, InferenceReport, IntersectionReport, LinearSplitReport, MeanSd, Models, ReachCurve,
-    ReachReport, Report, SCHEMA, Seconds, Spread, ToleranceReport,
+    Grassmann, InferenceReport, IntersectionReport, LinearSplitReport, MeanSd, Models, NoEvidence,
+    ReachCurve, ReachReport, Report, SCHEMA, Seconds, Spread, ToleranceReport, answer,
 };
 use crate::sampling::Envelope;
 use crate::settings::{Pooling, Settings};
@@ -44,7 +42,7 @@ impl Comparison {
         sides.map(|&side| Some((side, estimate(side)?))).collect()
     }
 
-    /// The next piece of the report: diagnostics of either side, either difference, then all the rest.
+    /// The next piece of the report: diagnostics of either side, either difference, reach, then all the rest.
     pub(super) fn measure(&mut self) -> Result<(), ComparisonError> {
         let Run::Drawing(drawing) = &mut self.run else { return Ok(()) };
         let DrawingStep::Measure(measuring) = &mut drawing.step else { return Ok(()) };
@@ -63,18 +61,16 @@ impl Comparison {
             Measuring::BWithoutA { chains, a_without_b } => {
                 let b_without_a = self.difference_report(drawing, Side::B);
                 let differences = Box::new(Sides { a: *a_without_b, b: b_without_a });
-                Measuring::Report { chains, differences }
+                Measuring::Reach { chains, differences }
             }
-            Measuring::Report { chains, differences } => {
-                let (report, intersection) = self.finish(drawing, *chains, *differences)?;
+            Measuring::Reach { chains, differences } => {
+                let reach = Box::new(self.reach(drawing));
+                Measuring::Report { chains, differences, reach }
+            }
+            Measuring::Report { chains, differences, reach } => {
+                let (report, intersection) = self.finish(drawing, *chains, *differences, *reach)?;
                 let evidence = self.evidence();
-                match evidence {
-                    Some(evidence) => {
-                        let weighing = Weighing { report, intersection, evidence };
-                        self.go_on(DrawingStep::Evidence(Box::new(weighing)));
-                    }
-                    None => self.end(report, intersection),
-                }
+                self.end(report, intersection, evidence);
                 return Ok(());
             }
         };
@@ -88,38 +84,35 @@ impl Comparison {
         }
     }
 
-    fn end(&mut self, report: Report, intersection: JointModel) {
+    fn end(
+        &mut self,
+        report: Report,
+        intersection: JointModel,
+        evidence: Result<Evidence, NoEvidence>,
+    ) {
         if let Run::Drawing(drawing) = std::mem::take(&mut self.run) {
-            let drawn = drawing.drawn;
-            self.run = Run::Done(Box::new(Finished { drawn, report, intersection }));
+            let answer = answer(&report, evidence.as_ref().err());
+            let report = Report { answer, ..report };
+            let (drawn, evidence) = (drawing.drawn, evidence.ok().map(Box::new));
+            self.run = Run::Done(Box::new(Finished { drawn, report, intersection, evidence }));
         }
     }
 
     /// The comparison of the training shapes, where those of both models are known and can be compared.
-    fn evidence(&self) -> Option<Evidence> {
+    fn evidence(&self) -> Result<Evidence, NoEvidence> {
         let Settings { permutations, seed, .. } = self.settings;
-        if self.cancelled || permutations == 0 {
-            return None;
+        if self.cancelled {
+            return Err(NoEvidence::Cancelled);
         }
-        Evidence::of_pair(self.pair(), permutations, seed)?.ok()
-    }
-
-    /// More relabellings; `ended` takes those that were done as all.
-    pub(super) fn weigh(&mut self, replicates: usize, ended: bool) {
-        let Run::Drawing(drawing) = &mut self.run else { return };
-        let DrawingStep::Evidence(weighing) = &mut drawing.step else { return };
-        if !ended {
-            weighing.evidence.advance(replicates);
+        let unknown = self.pair().models().map(|model| model.training_shapes().is_none());
+        let sigma = self.sigma().map(|sigma| sigma.value);
+        let Some(evidence) = Evidence::of_pair(self.pair(), permutations, seed, sigma) else {
+            return Err(NoEvidence::Unknown(unknown));
+        };
+        if permutations == 0 {
+            return Err(NoEvidence::NotAsked);
         }
-        if !(ended || weighing.evidence.is_done()) {
-            return;
-        }
-        let step = std::mem::replace(&mut drawing.step, DrawingStep::Fit);
-        if let DrawingStep::Evidence(weighing) = step {
-            let Weighing { report, intersection, evidence } = *weighing;
-            let report = Report { evidence: evidence.report(), ..report };
-            self.end(report, intersection);
-        }
+        evidence.map_err(|error| NoEvidence::Refused(error.notice()))
     }
 
     /// The report, from pieces that are measured already and the rest, and the intersection model.
@@ -128,6 +121,7 @@ impl Comparison {
         drawing: &Drawing,
         chains: Sides<ChainDiagnostics>,
         differences: Sides<DifferenceReport>,
+        reach: ReachReport,
     ) -> Result<(Report, JointModel), ComparisonError> {
         let flat = ComparisonError::FlatIntersection;
         let Drawn { sigma, inferences, .. } = &drawing.drawn;
@@ -150,8 +144,9 @@ impl Comparison {
             models: Models { a: described_a, b: described_b },
             settings: self.settings.with_sigma(*sigma),
             sigma_source: Some(sigma.source),
-            reach: Some(self.reach(drawing)),
+            reach: Some(reach),
             evidence: None,
+            answer: Vec::new(),
             intersection: IntersectionReport {
                 modes: intersection.standard_deviations.len(),
                 standard_deviations: intersection.standard_deviations.as_slice().to_vec(),
@@ -326,6 +321,33 @@ impl Comparison {
             vertex_sd: Spread::of(&joint.vertex_deviations(&split.factor)),
             variance_ratio: split.factor.norm_squared() / drawn.covariance.trace(),
         })
+    }
+}
+
+impl Finished {
+    /// More relabellings; `ended` takes those that were done as all.
+    pub(super) fn weigh(&mut self, replicates: usize, ended: bool) {
+        let Some(evidence) = &mut self.evidence else { return };
+        if !ended {
+            evidence.advance(replicates);
+        }
+        if ended || evidence.is_done() {
+            self.report = self.report_so_far();
+            if self.report.evidence.is_none() {
+                self.report.answer = answer(&self.report, Some(&NoEvidence::Cancelled));
+            }
+            self.evidence = None;
+        }
+    }
+
+    /// The report with the relabellings so far.
+    pub(super) fn report_so_far(&self) -> Report {
+        let mut report = self.report.clone();
+        if let Some(found) = self.evidence.as_ref().and_then(|evidence| evidence.report()) {
+            report.evidence = Some(found);
+            report.answer = answer(&report, None);
+        }
+        report
     }
 }
 

@@ -164,7 +164,8 @@ impl Comparison {
         let pooled = restored.pooled_moments(&drawn).ok_or(ComparisonError::FlatIntersection)?;
         let intersection = restored.prepared.intersection_model(&pooled);
         let intersection = intersection.ok_or(ComparisonError::FlatIntersection)?;
-        restored.run = Run::Done(Box::new(Finished { drawn, report, intersection }));
+        restored.run =
+            Run::Done(Box::new(Finished { drawn, report, intersection, evidence: None }));
         Ok(restored)
     }
 
@@ -187,11 +188,10 @@ impl Comparison {
                     drawing.draw_differences(&self.prepared, self.settings.difference);
                 }
                 DrawingStep::Measure(_) => self.measure()?,
-                DrawingStep::Evidence(_) => {
-                    self.weigh(evaluations.div_ceil(EVALUATIONS_OF_A_RELABELLING), self.cancelled);
-                }
             },
-            Run::Done(_) => {}
+            Run::Done(finished) => {
+                finished.weigh(evaluations.div_ceil(EVALUATIONS_OF_A_RELABELLING), self.cancelled);
+            }
         }
         Ok(self.progress())
     }
@@ -219,10 +219,9 @@ impl Comparison {
                     drawing.step = DrawingStep::Measure(Measuring::default());
                 }
                 DrawingStep::Measure(_) => {}
-                // The draws are complete: only what chance would give is cut short.
-                DrawingStep::Evidence(_) => self.cancelled = true,
             },
-            Run::Done(_) => {}
+            // The draws are complete: only what chance would give is cut short.
+            Run::Done(finished) => self.cancelled |= finished.evidence.is_some(),
         }
     }
 
@@ -269,16 +268,17 @@ impl Comparison {
         Some(Sides { a: a?, b: b? })
     }
 
-    /// The intersection model, once the run is done. Its modes are formed for this: it takes as much
+    /// The intersection model, once there is a report. Its modes are formed for this: it takes as much
     /// memory as the smaller model.
     pub fn intersection(&self) -> Option<LinearModel> {
         let finished = self.run.finished()?;
         Some(self.prepared.dressed(self.prepared.joint().formed(&finished.intersection)))
     }
 
-    /// The report, once the run is done; `seconds` as the caller's clock measured them.
+    /// The report, from [`Stage::Evidence`] on: before [`Stage::Done`] with the relabellings so far; `seconds` as the
+    /// caller's clock measured them.
     pub fn report(&self, seconds: Seconds) -> Option<Report> {
-        self.run.finished().map(|finished| Report { seconds, ..finished.report.clone() })
+        self.run.finished().map(|finished| Report { seconds, ..finished.report_so_far() })
     }
 
     /// All draws so far.

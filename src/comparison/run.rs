@@ -6,7 +6,7 @@ use super::inference::Inference;
 use crate::evidence::Evidence;
 use crate::model::Sides;
 use crate::pair::{Criterion, JointModel, Meeting, Tolerance};
-use crate::report::{Diagnostics, DifferenceReport, ModeDiagnostics, Report};
+use crate::report::{Diagnostics, DifferenceReport, ModeDiagnostics, ReachReport, Report};
 use crate::sampling::Rejection;
 use crate::settings::Sigma;
 
@@ -25,9 +25,9 @@ pub enum Stage {
     Differences,
     /// Principal components and measures.
     Measure,
-    /// Relabellings of the training shapes, where they are known.
+    /// Relabellings of the training shapes, where they are known. There is a report from here on.
     Evidence,
-    /// There is a report.
+    /// The report is complete.
     Done,
 }
 
@@ -36,9 +36,9 @@ pub enum Stage {
 pub(super) enum Run {
     /// [`Stage::Prepare`]; holds the next step.
     Preparing(Preparing),
-    /// From [`Stage::Fit`] to [`Stage::Evidence`].
+    /// From [`Stage::Fit`] to [`Stage::Measure`].
     Drawing(Box<Drawing>),
-    /// [`Stage::Done`].
+    /// [`Stage::Evidence`] and [`Stage::Done`].
     Done(Box<Finished>),
 }
 
@@ -87,15 +87,6 @@ pub(super) enum DrawingStep {
     Intersection,
     Differences,
     Measure(Measuring),
-    Evidence(Box<Weighing>),
-}
-
-/// A run whose report is complete but for what chance would give.
-#[derive(Debug)]
-pub(super) struct Weighing {
-    pub(super) report: Report,
-    pub(super) intersection: JointModel,
-    pub(super) evidence: Evidence,
 }
 
 /// Diagnostics of the chains of one side: the worst, and each coefficient's.
@@ -116,18 +107,25 @@ pub(super) enum Measuring {
         chains: Box<Sides<ChainDiagnostics>>,
         a_without_b: Box<DifferenceReport>,
     },
-    Report {
+    Reach {
         chains: Box<Sides<ChainDiagnostics>>,
         differences: Box<Sides<DifferenceReport>>,
     },
+    Report {
+        chains: Box<Sides<ChainDiagnostics>>,
+        differences: Box<Sides<DifferenceReport>>,
+        reach: Box<ReachReport>,
+    },
 }
 
-/// A run that is over.
+/// A run with a report.
 #[derive(Debug)]
 pub(super) struct Finished {
     pub(super) drawn: Drawn,
     pub(super) report: Report,
     pub(super) intersection: JointModel,
+    /// What chance would give, as long as it is not complete.
+    pub(super) evidence: Option<Box<Evidence>>,
 }
 
 impl Run {
@@ -139,8 +137,8 @@ impl Run {
                 DrawingStep::Intersection => Stage::Intersection,
                 DrawingStep::Differences => Stage::Differences,
                 DrawingStep::Measure(_) => Stage::Measure,
-                DrawingStep::Evidence(_) => Stage::Evidence,
             },
+            Self::Done(finished) if finished.evidence.is_some() => Stage::Evidence,
             Self::Done(_) => Stage::Done,
         }
     }
@@ -188,12 +186,15 @@ impl Run {
                         Measuring::ChainsOfB { .. } => 0.91,
                         Measuring::AWithoutB { .. } => 0.92,
                         Measuring::BWithoutA { .. } => 0.93,
+                        Measuring::Reach { .. } => 0.935,
                         Measuring::Report { .. } => 0.94,
                     },
-                    DrawingStep::Evidence(weighing) => 0.95 + 0.05 * weighing.evidence.fraction(),
                 }
             }
-            Self::Done(_) => 1.0,
+            Self::Done(finished) => {
+                let evidence = finished.evidence.as_ref();
+                evidence.map_or(1.0, |evidence| 0.95 + 0.05 * evidence.fraction())
+            }
         };
         done.clamp(0.0, 1.0)
     }

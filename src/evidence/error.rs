@@ -3,6 +3,7 @@
 use core::fmt;
 
 use crate::model::Side;
+use crate::report::Notice;
 use crate::text::thousands;
 
 /// Why two groups of shapes cannot be compared.
@@ -56,6 +57,11 @@ impl EvidenceError {
             Self::NotFinite { .. } => "not-finite",
             Self::NoVariance { .. } => "no-variance",
         }
+    }
+
+    /// What a report says of it.
+    pub fn notice(&self) -> Notice {
+        Notice::new(self.code(), self.to_string(), self.hint())
     }
 
     /// What to do next.

@@ -6,7 +6,7 @@ use crate::pair::Pair;
 
 impl Evidence {
     /// Prepares the comparison of the training shapes of both models, with as many modes as the models have where they
-    /// were cut; `None` where the shapes of one are not known.
+    /// were cut, and the σ that the models are compared at, if any; `None` where the shapes of one are not known.
     ///
     /// # Errors
     /// As [`Groups::new`].
@@ -14,10 +14,14 @@ impl Evidence {
         pair: &Pair,
         permutations: usize,
         seed: u64,
+        sigma: Option<f64>,
     ) -> Option<Result<Self, EvidenceError>> {
         let modes = pair.models().into_iter().filter_map(LinearModel::modes_cut_to).min();
         let groups = Groups::of_pair(pair)?;
-        Some(groups.and_then(|groups| Self::new(groups, Options { permutations, seed, modes })))
+        Some(
+            groups
+                .and_then(|groups| Self::new(groups, Options { permutations, seed, modes, sigma })),
+        )
     }
 
     /// Takes all that is left.

@@ -16,8 +16,8 @@ use super::vertices::{self, VertexTest};
 use crate::linalg::parallel;
 use crate::model::{Side, Sides};
 use crate::report::{
-    Band, Bands, EvidenceReport, Hypothesis, LeftOut, MatchedShares, Statistic, StatisticName,
-    ToldApart,
+    Band, Bands, EvidenceReport, Hypothesis, LeftOut, MatchedShares, MeanSd, Statistic,
+    StatisticName, ToldApart,
 };
 use crate::sampling::{Stream, stream};
 
@@ -25,7 +25,7 @@ use crate::sampling::{Stream, stream};
 const PARTS: usize = 50;
 
 /// How much is computed, and the seed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
     /// Random relabellings; all of them are taken where there are no more.
     pub permutations: usize,
@@ -33,11 +33,13 @@ pub struct Options {
     pub seed: u64,
     /// Modes of the two models; all when there is no number.
     pub modes: Option<usize>,
+    /// σ of the comparison that this belongs to.
+    pub sigma: Option<f64>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { permutations: 999, seed: 1, modes: None }
+        Self { permutations: 999, seed: 1, modes: None, sigma: None }
     }
 }
 
@@ -106,7 +108,7 @@ impl Evidence {
             rearrangements: Arrangements::new(a + b - 2, a - 1, most, options.seed, 1),
             stage: 0,
             done: 0,
-            left_out: Sides::each(|_| LeftOut { mean: 0.0, standard_deviation: 0.0 }),
+            left_out: Sides::each(|_| summary(&[], None)),
             nearer: Sides::default(),
             nearer_by_chance: Sides::default(),
             overlaps: no_overlap,
@@ -237,7 +239,8 @@ impl Evidence {
         match stage {
             Stage::LeftOut => {
                 let (errors, nearer) = told_apart::observed(groups, modes);
-                self.left_out = errors.map(|errors| summary(&errors));
+                let sigma = self.options.sigma;
+                self.left_out = errors.map(|errors| summary(&errors, sigma));
                 self.nearer = nearer;
             }
             Stage::ToldApart => {
@@ -408,9 +411,13 @@ fn most_modes(groups: &Groups, side: Side) -> usize {
     stability::most_modes(groups.counts()[side], groups.rank())
 }
 
-fn summary(errors: &[f64]) -> LeftOut {
-    let found = chance(errors);
-    LeftOut { mean: found.mean, standard_deviation: found.standard_deviation }
+fn summary(errors: &[f64], sigma: Option<f64>) -> LeftOut {
+    let found = MeanSd::of(errors);
+    let beyond_sigma = sigma.filter(|sigma| *sigma > 0.0).map(|sigma| {
+        let beyond = |d: &f64| -libm::expm1(-0.5 * (d / sigma) * (d / sigma));
+        errors.iter().map(beyond).sum::<f64>() / errors.len() as f64
+    });
+    LeftOut { mean: found.mean, standard_deviation: found.sd, beyond_sigma }
 }
 
 #[cfg(test)]
@@ -463,7 +470,8 @@ mod tests {
             for pair in 0..pairs {
                 let a = drawn((30, 8), 0.0, falling, 1000 + 2 * pair);
                 let b = drawn((30, 7), 0.0, falling, 1001 + 2 * pair);
-                let options = Options { permutations: 199, seed: pair as u64, modes: None };
+                let options =
+                    Options { permutations: 199, seed: pair as u64, ..Options::default() };
                 let evidence = relabelled(&a, &b, options);
                 let found = evidence.report().unwrap();
                 let both = [&found.one_population, &found.one_covariance];
@@ -659,8 +667,7 @@ mod tests {
         assert_eq!(whole, run(7), "seven at a time");
         assert_eq!(whole, run(100), "a hundred at a time");
         let other = {
-            let mut evidence =
-                prepared(&a, &b, Options { modes: Some(4), seed: 2, permutations: 130 });
+            let mut evidence = prepared(&a, &b, Options { modes: Some(4), seed: 2, ..of(130) });
             evidence.advance(usize::MAX);
             serde_json::to_string(&evidence.report().unwrap()).unwrap()
         };

@@ -49,6 +49,10 @@ pub struct LeftOut {
     pub mean: f64,
     /// Standard deviation over the shapes (divisor n − 1).
     pub standard_deviation: f64,
+    /// Share of the shapes that count as outside the model of the others at the σ of the comparison,
+    /// E[1 − exp(−½(d/σ)²)]: what the shares of the differences are to be seen beside. Absent without a σ.
+    #[serde(default)]
+    pub beyond_sigma: Option<f64>,
 }
 
 /// A hypothesis with its statistics.

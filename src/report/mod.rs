@@ -4,6 +4,7 @@
 //! names are camelCase in JSON. New fields may be added; none is renamed or dropped without
 //! [`SCHEMA`] going up. Lengths are in the unit of model A, angles in degrees.
 
+mod answer;
 mod evidence;
 
 use crate::model::{Side, Sides};
@@ -13,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::model::{Kind, LinearModel, Unit};
 
+pub use answer::{LEVEL, Name, NoEvidence, Part, Quantity, Sentence, Topic, answer};
 pub use evidence::{
     Band, Bands, Chance, EvidenceReport, Hypothesis, LeftOut, MatchedShares, ModeStability,
     Statistic, StatisticName, ToldApart, VertexEvidence,
@@ -43,6 +45,9 @@ pub struct Report {
     /// Whether the two populations differ by more than chance; absent where the shapes of one are not known.
     #[serde(default)]
     pub evidence: Option<EvidenceReport>,
+    /// The answer in words.
+    #[serde(default)]
+    pub answer: Vec<Sentence>,
     /// The allowable shapes of both.
     pub intersection: IntersectionReport,
     /// The shapes of one that the other cannot make.

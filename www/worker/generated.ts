@@ -443,7 +443,7 @@ export type ReachOfSide = {
   quantiles: Quantiles,
   /** Their Monte-Carlo standard errors, from order statistics. */
   quantileErrors: Quantiles,
-  /** `mean` over the mean distance of the same shapes from the mean shape of their own model. */
+  /** `mean` over the mean distance of shapes of the model from its mean shape. */
   relative: number,
   /** What the mean square of the distances is made of. */
   meanSquare: MeanSquare,
@@ -545,6 +545,11 @@ export type LeftOut = {
   mean: number,
   /** Standard deviation over the shapes (divisor n − 1). */
   standardDeviation: number,
+  /**
+   * Share of the shapes that count as outside the model of the others at the σ of the comparison,
+   * E[1 − exp(−½(d/σ)²)]: what the shares of the differences are to be seen beside. Absent without a σ.
+   */
+  beyondSigma: number | null,
 };
 
 /** Shares of variance at equal numbers of shapes: means over random parts of the larger group. */
@@ -614,6 +619,36 @@ export type EvidenceReport = {
   stability: Sides<ModeStability>,
   /** What the reader should know before believing the numbers. */
   conditions: Array<Notice>,
+};
+
+/** What a sentence is about. */
+export type Topic = "reach-of-a" | "reach-of-b" | "more-than-chance" | "no-more-than-chance" | "chance-unknown" | "told-apart-a" | "told-apart-b";
+
+/** What a number is, which decides how it is written. */
+export type Quantity = "length" | "share" | "count" | "p-value";
+
+/** A model or its shapes, as a sentence names them. */
+export type Name = "model-a" | "model-b" | "shape-of-a" | "shape-of-b" | "shapes-of-a" | "shapes-of-b";
+
+/** A part of a sentence. */
+export type Part = string | {
+  /** Its path in the report, as `reach.aToB.mean`. */
+  metric: string,
+  /** Its value. */
+  value: number,
+  /** What kind of number it is. */
+  quantity: Quantity,
+} | {
+  /** Which. */
+  name: Name,
+};
+
+/** A sentence of the answer. */
+export type Sentence = {
+  /** What it is about. */
+  about: Topic,
+  /** Its words, numbers and names, in order; the first letter is made a capital. */
+  parts: Array<Part>,
 };
 
 /** Mean and standard deviation of a quantity over draws. */
@@ -922,6 +957,8 @@ export type Report = {
   reach: ReachReport | null,
   /** Whether the two populations differ by more than chance; absent where the shapes of one are not known. */
   evidence: EvidenceReport | null,
+  /** The answer in words. */
+  answer: Array<Sentence>,
   /** The allowable shapes of both. */
   intersection: IntersectionReport,
   /** The shapes of one that the other cannot make. */
@@ -1077,7 +1114,7 @@ export type Explored = {
 };
 
 /** What a map shows at every vertex, in the unit of A unless it says otherwise. */
-export type MapName = "sd" | "sd-normal" | "sd-tangential" | "distance" | "means" | "ratio" | "mode";
+export type MapName = "sd" | "sd-normal" | "sd-tangential" | "distance" | "reach" | "offset" | "chance" | "means" | "ratio" | "mode";
 
 /** A number at every vertex. */
 export type VertexMap = {

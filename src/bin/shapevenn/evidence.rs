@@ -59,7 +59,7 @@ pub(crate) fn evidence(arguments: &Arguments) -> Result<(), Failure> {
         message: error.to_string(),
         hint: error.hint().to_owned(),
     };
-    let run = Evidence::of_pair(&pair, *permutations, *seed).transpose().map_err(refused)?;
+    let run = Evidence::of_pair(&pair, *permutations, *seed, None).transpose().map_err(refused)?;
     let mut run = run.ok_or_else(|| Failure::System("no training shapes".to_owned()))?;
     let bar = ProgressBar::new(1000);
     while !run.is_done() {
@@ -73,42 +73,29 @@ pub(crate) fn evidence(arguments: &Arguments) -> Result<(), Failure> {
         println!("{}", to_json(&found)?);
     } else {
         println!("A  {}\nB  {}", a.report.name, b.report.name);
-        print_in_words(&found, pair.a().unit().symbol());
+        let unit = pair.a().unit().symbol();
+        for sentence in found.answer() {
+            println!("{}", sentence.plain(unit));
+        }
+        print_in_words(&found, unit);
     }
     Ok(())
 }
 
-/// What evidence there is, or why there is none.
+/// The numbers behind the sentences of the answer.
 pub(crate) fn print_in_words(found: &EvidenceReport, unit: &str) {
     let means = found.one_population.statistics.iter().find(|one| one.name == StatisticName::Means);
-    let least = found.one_population.statistics.iter().map(|one| one.p_adjusted).reduce(f64::min);
-    println!(
-        "{} and {} shapes: the two {} (smallest adjusted p {:.3}, {} relabellings).",
-        found.shapes.a,
-        found.shapes.b,
-        if least.is_some_and(|p| p <= 0.05) {
-            "differ by more than chance"
-        } else {
-            "do not differ by more than two random groups of one population"
-        },
-        least.unwrap_or(1.0),
-        found.permutations
-    );
     if let Some(means) = means {
         println!(
-            "Their means are {:.4} {unit} apart; those of two random groups {:.4} ± {:.4} {unit}.",
+            "The means are {:.4} {unit} apart in root mean square; those of two random groups {:.4} ± {:.4} {unit}.",
             means.observed, means.chance.mean, means.chance.standard_deviation
         );
     }
     for (side, name) in [(Side::A, "A"), (Side::B, "B")] {
-        let (left_out, apart) = (found.left_out[side], found.told_apart[side]);
+        let left_out = found.left_out[side];
         println!(
-            "A shape of {name} lies {:.4} ± {:.4} {unit} from the model of the others; {:.0} % of them are nearer to it than to the other model ({:.0} % by chance). Stable modes of {name}: {}.",
-            left_out.mean,
-            left_out.standard_deviation,
-            100.0 * apart.share,
-            100.0 * apart.chance.mean,
-            found.stability[side].suggested_modes
+            "A shape of {name} lies {:.4} ± {:.4} {unit} from the model of the others of {name}. Stable modes of {name}: {}.",
+            left_out.mean, left_out.standard_deviation, found.stability[side].suggested_modes
         );
     }
     println!(

@@ -417,15 +417,15 @@ fn print_in_words(report: &Report) {
     let share = |value: f64| 100.0 * value;
     println!("A  {} ({} modes)", report.models.a.name, report.models.a.modes);
     println!("B  {} ({} modes)", report.models.b.name, report.models.b.modes);
-    print_reach(report);
+    for sentence in &report.answer {
+        println!("{}", sentence.plain(unit));
+    }
     if let Some(sigma) = report.settings.sigma {
         println!("σ = {sigma:.4} {unit}, {}", source_in_words(report.sigma_source));
     }
-    match &report.evidence {
-        Some(found) => evidence::print_in_words(found, unit),
-        None => println!(
-            "Whether this is more than chance cannot be said: the shapes that the models were made from are not known. Give the folders of the shapes instead of the models."
-        ),
+    print_reach(report);
+    if let Some(found) = &report.evidence {
+        evidence::print_in_words(found, unit);
     }
     println!(
         "B can make {:.1} % of A's variance; A can make {:.1} % of B's.",
@@ -482,7 +482,7 @@ fn print_reach(report: &Report) {
     for (this, other, found) in [("A", "B", &reach.a_to_b), ("B", "A", &reach.b_to_a)] {
         let Quantiles { p05, p50, p95 } = found.quantiles;
         println!(
-            "A shape of {this} lies {:.4} ± {:.4} {unit} from the nearest that {other} can make (median {p50:.4}, nine in ten {p05:.4} to {p95:.4}), {:.0} % of its distance from the mean of {this}.",
+            "{this} to {other}  {:.4} ± {:.4} {unit} (median {p50:.4}, 5 to 95 % {p05:.4} to {p95:.4}), {:.0} % of the distance from the mean of {this};",
             found.mean,
             found.standard_error,
             100.0 * found.relative
@@ -490,14 +490,11 @@ fn print_reach(report: &Report) {
         let MeanSquare { total, offset, offset_closed, exclusive } = found.mean_square;
         let share = |part: f64| if total > 0.0 { 100.0 * part / total } else { 0.0 };
         println!(
-            "     of its mean square {:.1} % are an offset of the means that no shape closes, {:.1} % an offset that shapes close, {:.1} % variance that {other} lacks.",
+            "        of the mean square {:.1} % are an offset of the means that no shape closes, {:.1} % an offset that shapes close, {:.1} % variance that {other} lacks.",
             share(offset),
             share(offset_closed),
             share(exclusive)
         );
-    }
-    if let Some(meeting) = reach.meeting {
-        println!("Plausible shapes of the two come within {meeting:.4} {unit} of one another.");
     }
 }
 

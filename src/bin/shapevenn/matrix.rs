@@ -100,7 +100,7 @@ impl Matrix {
 fn evidence(a: &LinearModel, b: &LinearModel, settings: &Settings) -> Option<EvidenceReport> {
     let Settings { prepare, align, modes, permutations, seed, .. } = settings;
     let pair = Pair::prepared(a, b, prepare, *align, *modes).ok()?;
-    let mut run = Evidence::of_pair(&pair, *permutations, *seed)?.ok()?;
+    let mut run = Evidence::of_pair(&pair, *permutations, *seed, None)?.ok()?;
     run.run();
     run.report()
 }

@@ -1,0 +1,412 @@
+//! The answer of a comparison in words: how far the two models lie apart, whether that is more than chance, how well
+//! their shapes are told apart.
+//!
+//! One source for the command line, the page, the report and the methods paragraph. A sentence is a list of parts, so
+//! that a reader can format its numbers, find them in the report and call the models by names: by default A
+//! and B, on the page “the female model” and “a male head” where these are known.
+//!
+//! Nothing here depends on σ: a share of shapes beyond a tolerance is no answer where all shapes are beyond it.
+
+use serde::{Deserialize, Serialize};
+
+use super::{EvidenceReport, Hypothesis, Notice, Report, StatisticName};
+use crate::model::{Side, Sides};
+use crate::pair::ReachOfSide;
+
+/// Level of the answer: below it a difference is called more than chance.
+pub const LEVEL: f64 = 0.05;
+/// Reach over the distance from the own mean below which a model makes all shapes of the other; rounding of single
+/// precision.
+const ROUNDING: f64 = 1e-5;
+
+/// A sentence of the answer.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Sentence {
+    /// What it is about.
+    pub about: Topic,
+    /// Its words, numbers and names, in order; the first letter is made a capital.
+    pub parts: Vec<Part>,
+}
+
+/// What a sentence is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(rename_all = "kebab-case")]
+pub enum Topic {
+    /// How far the shapes of A lie from B.
+    ReachOfA,
+    /// How far the shapes of B lie from A.
+    ReachOfB,
+    /// The difference is more than chance would give.
+    MoreThanChance,
+    /// The difference is no more than chance would give.
+    NoMoreThanChance,
+    /// Whether it is more than chance cannot be said.
+    ChanceUnknown,
+    /// How many left-out shapes of A are nearer to A.
+    ToldApartA,
+    /// How many left-out shapes of B are nearer to B.
+    ToldApartB,
+}
+
+/// A part of a sentence.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(untagged)]
+pub enum Part {
+    /// Words.
+    Words(String),
+    /// A number of the report.
+    Number {
+        /// Its path in the report, as `reach.aToB.mean`.
+        metric: String,
+        /// Its value.
+        value: f64,
+        /// What kind of number it is.
+        quantity: Quantity,
+    },
+    /// A model or its shapes.
+    Name {
+        /// Which.
+        name: Name,
+    },
+}
+
+/// What a number is, which decides how it is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(rename_all = "kebab-case")]
+pub enum Quantity {
+    /// A length in the unit of A.
+    Length,
+    /// A share of a whole, in per cent.
+    Share,
+    /// A whole number.
+    Count,
+    /// A p-value, with two significant digits.
+    PValue,
+}
+
+/// A model or its shapes, as a sentence names them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(rename_all = "kebab-case")]
+pub enum Name {
+    /// “A”, “the male model”.
+    ModelA,
+    /// “B”.
+    ModelB,
+    /// “a shape of A”, “a male head”.
+    ShapeOfA,
+    /// “a shape of B”.
+    ShapeOfB,
+    /// “the shapes of A”, “male heads”.
+    ShapesOfA,
+    /// “the shapes of B”.
+    ShapesOfB,
+}
+
+impl Name {
+    /// In terms of A and B.
+    pub fn plain(self) -> &'static str {
+        match self {
+            Self::ModelA => "A",
+            Self::ModelB => "B",
+            Self::ShapeOfA => "a shape of A",
+            Self::ShapeOfB => "a shape of B",
+            Self::ShapesOfA => "the shapes of A",
+            Self::ShapesOfB => "the shapes of B",
+        }
+    }
+
+    fn model(side: Side) -> Part {
+        Part::Name { name: if side == Side::A { Self::ModelA } else { Self::ModelB } }
+    }
+
+    fn shape(side: Side) -> Part {
+        Part::Name { name: if side == Side::A { Self::ShapeOfA } else { Self::ShapeOfB } }
+    }
+
+    fn shapes(side: Side) -> Part {
+        Part::Name { name: if side == Side::A { Self::ShapesOfA } else { Self::ShapesOfB } }
+    }
+}
+
+/// Why there is no evidence.
+#[derive(Debug, Clone, PartialEq)]
+pub enum NoEvidence {
+    /// The training shapes of these models are not known.
+    Unknown(Sides<bool>),
+    /// No relabellings were asked for.
+    NotAsked,
+    /// The run was ended before.
+    Cancelled,
+    /// The shapes cannot be compared.
+    Refused(Notice),
+}
+
+/// The answer of a report; `missing` says why it has no evidence.
+pub fn answer(report: &Report, missing: Option<&NoEvidence>) -> Vec<Sentence> {
+    let mut sentences = Vec::new();
+    if let Some(reach) = &report.reach {
+        for (side, found) in [(Side::A, &reach.a_to_b), (Side::B, &reach.b_to_a)] {
+            sentences.push(reach_of(side, found, reach.meeting));
+        }
+    }
+    match (&report.evidence, missing) {
+        (Some(evidence), _) => sentences.extend(evidence.answer()),
+        (None, Some(missing)) => sentences.push(unknown(missing)),
+        (None, None) => {}
+    }
+    sentences
+}
+
+impl EvidenceReport {
+    /// Whether the groups differ by more than chance, and how well their shapes are told apart.
+    pub fn answer(&self) -> Vec<Sentence> {
+        vec![chance(self), told_apart(Side::A, self), told_apart(Side::B, self)]
+    }
+}
+
+fn words(text: &str) -> Part {
+    Part::Words(text.to_owned())
+}
+
+fn number(metric: String, value: f64, quantity: Quantity) -> Part {
+    Part::Number { metric, value, quantity }
+}
+
+fn reach_of(side: Side, found: &ReachOfSide, meeting: Option<f64>) -> Sentence {
+    let (about, path) = match side {
+        Side::A => (Topic::ReachOfA, "reach.aToB"),
+        Side::B => (Topic::ReachOfB, "reach.bToA"),
+    };
+    let other = side.other();
+    if found.relative <= ROUNDING {
+        let parts =
+            vec![Name::model(other), words(" can make all of "), Name::shapes(side), words(".")];
+        return Sentence { about, parts };
+    }
+    let length = |name: &str, value: f64| number(format!("{path}.{name}"), value, Quantity::Length);
+    let mut parts = vec![
+        Name::shape(side),
+        words(" lies "),
+        length("mean", found.mean),
+        words(" from the nearest that "),
+        Name::model(other),
+        words(" can make (nine in ten between "),
+        length("quantiles.p05", found.quantiles.p05),
+        words(" and "),
+        length("quantiles.p95", found.quantiles.p95),
+        words(")"),
+    ];
+    if let Some(meeting) = meeting.filter(|meeting| *meeting > ROUNDING * found.mean) {
+        let least = number("reach.meeting".to_owned(), meeting, Quantity::Length);
+        parts.push(words("; "));
+        // A model that varies little is near with shapes that are hardly plausible.
+        if meeting <= found.mean {
+            parts.extend([least, words(" of it no plausible one avoids")]);
+        } else {
+            parts.extend([words("plausible shapes of the two are at least "), least]);
+            parts.push(words(" apart"));
+        }
+    }
+    parts.push(words("."));
+    Sentence { about, parts }
+}
+
+/// What a statistic compares.
+fn compares(name: StatisticName) -> &'static str {
+    match name {
+        StatisticName::Means => "the means",
+        StatisticName::VarianceAOutsideB => "the variance of A that modes of B hold",
+        StatisticName::VarianceBOutsideA => "the variance of B that modes of A hold",
+        StatisticName::DistanceAToB => "the distance of A’s shapes to B",
+        StatisticName::DistanceBToA => "the distance of B’s shapes to A",
+        StatisticName::TotalVariances => "the amount of variance",
+        StatisticName::PrincipalAngles => "the directions of the modes",
+    }
+}
+
+/// Statistics that a hypothesis does not explain.
+fn significant(hypothesis: &Hypothesis) -> impl Iterator<Item = usize> {
+    let found = hypothesis.statistics.iter().enumerate();
+    found.filter(|(_, one)| one.p_adjusted <= LEVEL).map(|(place, _)| place)
+}
+
+fn chance(evidence: &EvidenceReport) -> Sentence {
+    if let Some(shared) = evidence.conditions.iter().find(|one| one.code == "shared-shapes") {
+        return unknown(&NoEvidence::Refused(shared.clone()));
+    }
+    let hypothesis = &evidence.one_population;
+    let differing: Vec<usize> = significant(hypothesis).collect();
+    let about = if differing.is_empty() { Topic::NoMoreThanChance } else { Topic::MoreThanChance };
+    let mut parts = vec![words(if differing.is_empty() {
+        "no more than chance would give: "
+    } else {
+        "more than chance: "
+    })];
+    // The distance that speaks loudest, as it is what the sentences before are about.
+    let distances =
+        [(StatisticName::DistanceAToB, Side::A), (StatisticName::DistanceBToA, Side::B)];
+    let of = |name: StatisticName| hypothesis.statistics.iter().position(|one| one.name == name);
+    let lead = distances.into_iter().filter_map(|(name, side)| Some((of(name)?, side))).min_by(
+        |(one, _), (other, _)| {
+            hypothesis.statistics[*one].p.total_cmp(&hypothesis.statistics[*other].p)
+        },
+    );
+    if let Some((place, side)) = lead {
+        let statistic = &hypothesis.statistics[place];
+        let path = |name: &str| format!("evidence.onePopulation.statistics.{place}.{name}");
+        let length = |name: &str, value| number(path(name), value, Quantity::Length);
+        let count = |name: &str, value: usize| {
+            number(format!("evidence.{name}"), value as f64, Quantity::Count)
+        };
+        let other = side.other();
+        parts.extend([
+            words("from what the first "),
+            count("modes", evidence.modes),
+            words(" modes of "),
+            Name::model(other),
+            words(" make of them, "),
+            Name::shapes(side),
+            words(" lie "),
+            length("observed", statistic.observed),
+            words(" in root mean square; two random groups of "),
+            count("shapes.a", evidence.shapes.a),
+            words(" and "),
+            count("shapes.b", evidence.shapes.b),
+            words(" of all these shapes would lie "),
+            length("chance.mean", statistic.chance.mean),
+            words(" ± "),
+            length("chance.standardDeviation", statistic.chance.standard_deviation),
+            words(" apart"),
+        ]);
+        if !differing.is_empty() && !differing.contains(&place) {
+            parts.push(words(", which they do; but "));
+            parts.push(words(&listed(
+                differing.iter().map(|&place| compares(hypothesis.statistics[place].name)),
+            )));
+            parts.push(words(" differ"));
+        }
+    }
+    let least = hypothesis
+        .statistics
+        .iter()
+        .enumerate()
+        .min_by(|(_, one), (_, other)| one.p_adjusted.total_cmp(&other.p_adjusted));
+    if let Some((place, statistic)) = least {
+        let path = format!("evidence.onePopulation.statistics.{place}.pAdjusted");
+        parts.push(words(" (least p of "));
+        parts.push(words(&hypothesis.statistics.len().to_string()));
+        parts.push(words(" statistics, corrected for their number: "));
+        parts.push(number(path, statistic.p_adjusted, Quantity::PValue));
+        parts.push(words(")"));
+    }
+    parts.push(words("."));
+    Sentence { about, parts }
+}
+
+fn told_apart(side: Side, evidence: &EvidenceReport) -> Sentence {
+    let (about, letter) = match side {
+        Side::A => (Topic::ToldApartA, "a"),
+        Side::B => (Topic::ToldApartB, "b"),
+    };
+    let found = evidence.told_apart[side];
+    let path = format!("evidence.toldApart.{letter}");
+    let share = |name: &str, value| number(format!("{path}.{name}"), value, Quantity::Share);
+    let parts = vec![
+        words("left out of its own group, "),
+        Name::shape(side),
+        words(" is still nearer to it than to "),
+        Name::model(side.other()),
+        words(" in "),
+        share("share", found.share),
+        words(" of the cases (by chance in "),
+        share("chance.mean", found.chance.mean),
+        words(")."),
+    ];
+    Sentence { about, parts }
+}
+
+fn unknown(missing: &NoEvidence) -> Sentence {
+    let why = match missing {
+        NoEvidence::Unknown(unknown) => {
+            let (which, them) = match (unknown.a, unknown.b) {
+                (true, true) => ("the two models", "for both"),
+                (true, false) => ("A", "for A"),
+                _ => ("B", "for B"),
+            };
+            format!(
+                "the shapes that {which} {} made from are not known. Add them {them} to learn it.",
+                if unknown.a && unknown.b { "were" } else { "was" }
+            )
+        }
+        NoEvidence::NotAsked => {
+            "no relabellings were asked for. Set their number above 0 to learn it.".to_owned()
+        }
+        NoEvidence::Cancelled => "the run was ended before. Run it again to learn it.".to_owned(),
+        NoEvidence::Refused(notice) => {
+            let mut message = notice.message.clone();
+            // A message is a sentence of its own.
+            if message.is_char_boundary(1) && !message.starts_with("A ") {
+                message[..1].make_ascii_lowercase();
+            }
+            format!("{message} {}", notice.hint)
+        }
+    };
+    let parts = vec![words("whether this is more than chance cannot be said: "), words(&why)];
+    Sentence { about: Topic::ChanceUnknown, parts }
+}
+
+/// “one, two and three”.
+fn listed<'a>(items: impl Iterator<Item = &'a str>) -> String {
+    let items: Vec<&str> = items.collect();
+    match items.split_last() {
+        Some((last, [])) => (*last).to_owned(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => String::new(),
+    }
+}
+
+impl Sentence {
+    /// The sentence in terms of A and B, lengths in `unit`.
+    pub fn plain(&self, unit: &str) -> String {
+        let text: String = self
+            .parts
+            .iter()
+            .map(|part| match part {
+                Part::Words(words) => words.clone(),
+                Part::Name { name } => name.plain().to_owned(),
+                Part::Number { value, quantity, .. } => quantity.written(*value, unit),
+            })
+            .collect();
+        let mut letters = text.chars();
+        letters
+            .next()
+            .map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+    }
+}
+
+impl Quantity {
+    fn written(self, value: f64, unit: &str) -> String {
+        match self {
+            Self::Length => format!("{} {unit}", crate::text::three_digits(value)),
+            Self::Share => {
+                let percent = 100.0 * value;
+                // Never “100 %” for less than all, nor “0 %” for more than none.
+                if percent > 99.0 && percent < 100.0 || percent > 0.0 && percent < 1.0 {
+                    format!("{percent:.2} %")
+                } else {
+                    format!("{percent:.0} %")
+                }
+            }
+            Self::Count => format!("{value:.0}"),
+            Self::PValue => {
+                let digits = if value < 0.0095 { 3 } else { 2 };
+                format!("{value:.digits$}")
+            }
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! The sentences of the answer, on pairs whose answer is known, both ways each.
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
+use crate::common::{compared, report};
+use nalgebra::DMatrix;
+use shapevenn::comparison::{Comparison, Stage};
+use shapevenn::demos;
+use shapevenn::model::{Alignment, LinearModel, model_of_population};
+use shapevenn::report::{ModelReport, Part, Report, Seconds, Topic};
+use shapevenn::sampling::{Stream, fill_normal, stream};
+use shapevenn::settings::Settings;
+
+const POINTS: usize = 12;
+
+/// `count` shapes whose coordinates vary by one, `shift` away along x.
+fn group(count: usize, shift: f64, seed: u64) -> DMatrix<f64> {
+    let mut values = vec![0.0; 3 * POINTS * count];
+    fill_normal(&mut stream(seed, Stream::Display, 9, 0), &mut values);
+    DMatrix::from_fn(3 * POINTS, count, |row, shape| {
+        let base = 20.0 * libm::sin(1.7 * row as f64);
+        base + values[shape * 3 * POINTS + row] + if row % 3 == 0 { shift } else { 0.0 }
+    })
+}
+
+fn population(shapes: &DMatrix<f64>) -> LinearModel {
+    model_of_population(3, shapes.clone(), Alignment::None).unwrap()
+}
+
+fn few() -> Settings {
+    Settings { draws: 400, difference_draws: 400, permutations: 199, ..Settings::default() }
+}
+
+fn said(found: &Report, about: Topic) -> Option<String> {
+    let sentence = found.answer.iter().find(|sentence| sentence.about == about)?;
+    Some(sentence.plain(found.models.a.unit.symbol()))
+}
+
+/// Numbers of the sentences, by their path, are those of the report.
+fn numbers_are_the_reports(found: &Report) {
+    let json = serde_json::to_value(found).unwrap();
+    let mut count = 0;
+    for part in found.answer.iter().flat_map(|sentence| &sentence.parts) {
+        if let Part::Number { metric, value, .. } = part {
+            let pointer = format!("/{}", metric.replace('.', "/"));
+            let reported = json.pointer(&pointer).and_then(serde_json::Value::as_f64);
+            assert_eq!(reported, Some(*value), "{metric}");
+            count += 1;
+        }
+    }
+    assert!(count >= 4, "{count} numbers");
+}
+
+#[test]
+fn groups_of_one_population_and_of_two_are_called_so() {
+    let a = population(&group(15, 0.0, 1));
+    let null = report(&compared(&a, &population(&group(15, 0.0, 2)), few()));
+    let text = said(&null, Topic::NoMoreThanChance).unwrap();
+    assert!(text.starts_with("No more than chance would give: from what the first "), "{text}");
+    assert!(
+        text.contains("two random groups of 15 and 15 of all these shapes would lie"),
+        "{text}"
+    );
+    assert_eq!(said(&null, Topic::MoreThanChance), None, "one of the two");
+    let two = report(&compared(&a, &population(&group(15, 3.0, 2)), few()));
+    let text = said(&two, Topic::MoreThanChance).unwrap();
+    assert!(text.starts_with("More than chance: from what the first "), "{text}");
+    assert!(text.contains("least p of 7 statistics, corrected for their number: 0.0"), "{text}");
+    assert_eq!(said(&two, Topic::NoMoreThanChance), None, "one of the two");
+    let text = said(&two, Topic::ToldApartA).unwrap();
+    let start = "Left out of its own group, a shape of A is still nearer to it than to B in 100 % of the cases (by chance in ";
+    assert!(text.starts_with(start), "{text}");
+    for found in [&null, &two] {
+        numbers_are_the_reports(found);
+        let read: Report = serde_json::from_str(&serde_json::to_string(found).unwrap()).unwrap();
+        assert_eq!(read.answer, found.answer, "read back");
+    }
+}
+
+#[test]
+fn groups_that_differ_in_something_else_than_distance_are_told_what() {
+    // Both vary in the same four directions and little beside them, B half as much.
+    let flat = |seed: u64, spread: f64| {
+        let mut shapes = group(15, 0.0, seed);
+        let mean = group(2, 0.0, 1).map(|x| (x / 5.0).round()).column_mean();
+        for mut shape in shapes.column_iter_mut() {
+            for (row, value) in shape.iter_mut().enumerate() {
+                let own = *value - 20.0 * libm::sin(1.7 * row as f64);
+                *value = mean[row] + own * if row < 4 { spread } else { 0.3 };
+            }
+        }
+        population(&shapes)
+    };
+    let found = report(&compared(&flat(3, 6.0), &flat(4, 3.0), few()));
+    let text = said(&found, Topic::MoreThanChance).unwrap();
+    assert!(text.contains("the amount of variance"), "{text}");
+}
+
+#[test]
+fn reach_says_what_is_true_of_models_inside_one_another_and_apart() {
+    let star = |name: &str| demos::generated(name).unwrap();
+    let found = report(&compared(&star("stars-1-a"), &star("stars-1-b"), few()));
+    let text = said(&found, Topic::ReachOfA).unwrap();
+    assert!(text.starts_with("A shape of A lies "), "{text}");
+    assert!(text.contains("from the nearest that B can make (nine in ten between "), "{text}");
+    assert!(!text.contains("plausible"), "both make the mean: {text}");
+    numbers_are_the_reports(&found);
+    let same = report(&compared(&star("stars-1-a"), &star("stars-1-a"), few()));
+    assert_eq!(said(&same, Topic::ReachOfA).unwrap(), "B can make all of the shapes of A.", "same");
+    assert_eq!(said(&same, Topic::ReachOfB).unwrap(), "A can make all of the shapes of B.", "same");
+    // Apart by ten of their standard deviations.
+    let apart =
+        report(&compared(&population(&group(6, 0.0, 5)), &population(&group(6, 10.0, 6)), few()));
+    let text = said(&apart, Topic::ReachOfA).unwrap();
+    assert!(text.contains(" of it no plausible one avoids."), "{text}");
+}
+
+#[test]
+fn where_chance_is_not_known_the_reason_and_the_remedy_are_said() {
+    let (a, b) = (population(&group(8, 0.0, 7)), population(&group(8, 0.0, 8)));
+    let plain = |model: &LinearModel| {
+        LinearModel::from_scaled_basis(3, model.mean().clone(), model.scaled_basis()).unwrap().0
+    };
+    let unknown = |found: &Report| said(found, Topic::ChanceUnknown).unwrap();
+    let start = "Whether this is more than chance cannot be said: ";
+    for (pair, reason) in [
+        (
+            [plain(&a), plain(&b)],
+            "the shapes that the two models were made from are not known. Add",
+        ),
+        ([plain(&a), b.clone()], "the shapes that A was made from are not known. Add them for A"),
+        ([a.clone(), plain(&b)], "the shapes that B was made from are not known. Add them for B"),
+    ] {
+        let text = unknown(&report(&compared(&pair[0], &pair[1], few())));
+        assert!(text.starts_with(&format!("{start}{reason}")), "{text}");
+    }
+    let none = report(&compared(&a, &b, Settings { permutations: 0, ..few() }));
+    assert!(unknown(&none).contains("no relabellings were asked for"), "{}", unknown(&none));
+    let three = report(&compared(&a, &population(&group(3, 0.0, 9)), few()));
+    assert!(unknown(&three).contains("group B has 3 shapes"), "{}", unknown(&three));
+    // Shapes that are in both groups.
+    let mut both = group(8, 0.0, 8);
+    both.set_column(2, &group(8, 0.0, 7).column(5));
+    let shared = report(&compared(&a, &population(&both), few()));
+    assert!(
+        unknown(&shared).contains("1 of the 8 shapes of A is also in B"),
+        "{}",
+        unknown(&shared)
+    );
+    assert_eq!(said(&shared, Topic::NoMoreThanChance), None, "nothing else");
+}
+
+#[test]
+fn the_report_stands_before_chance_is_known_and_grows() {
+    let (a, b) = (population(&group(12, 0.0, 10)), population(&group(12, 0.5, 11)));
+    let described = [&a, &b].map(|model| ModelReport::new(model, "test", &[]));
+    let mut run = Comparison::new(&a, &b, described, few()).unwrap();
+    let seconds = Seconds::default();
+    while run.stage() < Stage::Evidence {
+        assert_eq!(run.report(seconds), None, "no report yet");
+        run.advance(1000).unwrap();
+    }
+    let first = run.report(seconds).unwrap();
+    assert_eq!((first.evidence.is_none(), first.answer.len()), (true, 2), "reach alone");
+    let mut counts = Vec::new();
+    while run.stage() != Stage::Done {
+        run.advance(600).unwrap();
+        counts.extend(run.report(seconds).unwrap().evidence.map(|found| found.permutations));
+    }
+    assert!(counts.len() > 2 && counts.is_sorted(), "{counts:?}");
+    let last = run.report(seconds).unwrap();
+    assert_eq!(last.evidence.as_ref().unwrap().permutations, 199, "all");
+    assert_eq!(last.answer.len(), 5, "all sentences");
+    assert_eq!(last.differences, first.differences, "the rest is the same");
+    // The share of own left-out shapes beyond σ, which is their mean distance: E[1 − exp(−½)] for equal ones.
+    let beyond = last.evidence.unwrap().left_out.a.beyond_sigma.unwrap();
+    assert!((beyond - 0.39).abs() < 0.1, "{beyond}");
+}
