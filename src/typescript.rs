@@ -27,8 +27,8 @@ use crate::pair::{MeanSquare, Quantiles, ReachOfSide};
 use crate::relate::RelationReport;
 use crate::report::*;
 use crate::settings::{
-    FIELDS, Field, FieldValue, FitChoice, LEAST_DRAWS_OF_A_CHAIN, Plausibility, Pooling, Sampler,
-    Settings, SigmaSource,
+    FIELDS, Field, FieldValue, FitChoice, LEAST_DRAWS_OF_A_CHAIN, Plausibility, Pooling,
+    SIGMA_SINCE, Sampler, Settings, SigmaSource,
 };
 
 /// Declarations in the order in which they are asked for.
@@ -123,7 +123,7 @@ fn declarations() -> String {
         Method, Evaluation,
         // The report.
         SigmaSource, Quantiles, MeanSquare, ReachOfSide, ReachCurve, ReachReport,
-        Chance, StatisticName, Statistic, Hypothesis, Band, Bands, LeftOut, MatchedShares, ToldApart,
+        Histogram, Chance, StatisticName, Statistic, Hypothesis, Band, Bands, LeftOut, MatchedShares, ToldApart,
         VertexEvidence, ModeStability, EvidenceReport, Topic, Quantity, Name, Part, Sentence,
         MeanSd, Diagnostics, ModeDiagnostics, MomentSource, InferenceReport, Accuracy, Disagreement,
         ToleranceReport, Grassmann, IntersectionReport, EnvelopeName, ExclusiveReport,
@@ -144,7 +144,7 @@ fn declarations() -> String {
     all.text
 }
 
-/// The table of settings, their defaults, and the budget of each sampler.
+/// The table of settings, their defaults, the budget of each sampler, and the versions that links name.
 fn settings() -> String {
     let budget = |sampler: Sampler| {
         let settings = serde_json::to_value(Settings::of(sampler)).unwrap();
@@ -159,6 +159,8 @@ fn settings() -> String {
         "defaults": Settings::default(),
         "budgets": budgets,
         "leastDrawsOfAChain": LEAST_DRAWS_OF_A_CHAIN,
+        "engine": concat!(env!("CARGO_PKG_VERSION_MAJOR"), ".", env!("CARGO_PKG_VERSION_MINOR")),
+        "sigmaSince": SIGMA_SINCE,
     });
     serde_json::to_string_pretty(&table).unwrap() + "\n"
 }

@@ -822,7 +822,7 @@ fn shapes_of_a_set_are_brought_to_one_size_when_it_is_asked_for() {
 
 #[test]
 fn a_link_means_the_comparison_that_its_settings_mean() {
-    let link = "http://localhost:8080/#v=1&demo=stars-2&seed=7&draws=800&chains=4&sampler=independence\
+    let link = "http://localhost:8080/#v=1&engine=0.2&demo=stars-2&seed=7&draws=800&chains=4&sampler=independence\
                 &fit=laplace&sides=a&plaus=idempotent&diff=relative&leaves=60&diffdraws=300&modes=3\
                 &subsample=9&align=rigid&noise=0.02&weighted=2048&view=samples&camera=0.1,0.2,1";
     let arguments = "compare demo:stars-2-a demo:stars-2-b --seed 7 --draws 800 --chains 4 --sampler independence \
@@ -833,10 +833,27 @@ fn a_link_means_the_comparison_that_its_settings_mean() {
     let by_link = printed(&["compare", "--link", link, "--json"]);
     assert_eq!(timeless(&by_link), timeless(&printed(&arguments)), "by link and by arguments");
     // What is “all” or “auto” in a link is left out of a command, and the first of two values counts.
-    let auto = "v=1&demo=planes&sigma=auto&modes=all&draws=400&draws=800";
+    let auto = "v=1&engine=0.2&demo=planes&sigma=auto&modes=all&draws=400&draws=800";
     let plain = ["compare", "demo:planes-a", "demo:planes-b", "--draws", "400", "--json"];
     let by_link = printed(&["compare", "--link", auto, "--json"]);
     assert_eq!(timeless(&by_link), timeless(&printed(&plain)), "auto");
+}
+
+#[test]
+fn a_link_from_before_the_present_rule_of_sigma_says_so() {
+    let (low, high) = (triangles("link-low", 5, 0.0), triangles("link-high", 5, 6.0));
+    let by_link = |link: &str| {
+        let output = shapevenn(&["compare", &low, &high, "--link", link, "--json"]);
+        assert_eq!(output.status.code(), Some(0), "{link}");
+        text(&output.stderr)
+    };
+    let said = by_link("v=1&name-a=low&name-b=high&draws=64&perms=0&sigma=auto");
+    assert!(said.contains("may be from a version before 0.2"), "{said}");
+    assert!(said.contains("training shapes"), "where σ comes from: {said}");
+    for link in ["engine=0.2&name-a=low&draws=64&perms=0", "name-a=low&draws=64&perms=0&sigma=0.1"]
+    {
+        assert_eq!(by_link(link), "", "{link}");
+    }
 }
 
 #[test]
@@ -846,7 +863,7 @@ fn a_link_may_be_about_other_files_and_parts() {
     let refused = shapevenn(&["compare", "--link", link]);
     assert_eq!(refused.status.code(), Some(2), "addresses are not downloaded");
     assert!(text(&refused.stderr).contains("https://example.org/x.h5 as A"), "{refused:?}");
-    let link = "#v=1&a=https://example.org/x.h5&b=https://example.org/y.h5&part-a=expression&part-b=shape&modes=3&draws=64";
+    let link = "#v=1&engine=0.2&a=https://example.org/x.h5&b=https://example.org/y.h5&part-a=expression&part-b=shape&modes=3&draws=64";
     let report = printed(&["compare", &catalog, &catalog, "--link", link, "--json"]);
     let report: Value = serde_json::from_str(&report).unwrap();
     assert_eq!(report["models"]["a"]["name"], "bfm-catalog.h5#expression", "the part of the link");

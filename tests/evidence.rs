@@ -46,7 +46,7 @@ fn two_groups_of_male_heads_read_as_one_population() {
     }
     assert_eq!(found.vertices.differ, 0.0, "no vertex");
     for told_apart in found.told_apart {
-        let chance = told_apart.chance;
+        let chance = &told_apart.chance;
         let within = told_apart.share >= chance.p05 && told_apart.share <= chance.p95;
         assert!(within, "{told_apart:?}");
     }

@@ -10,11 +10,14 @@
 //! sequentially rejective multiple test procedure", Scand. J. Stat. 6 (1979); Benjamini & Hochberg,
 //! "Controlling the false discovery rate", J. R. Stat. Soc. B 57 (1995).
 
-use crate::report::Chance;
+use crate::report::{Chance, Histogram};
 
 /// Numbers that differ by less than this share are equal: the same relabelling with A and B exchanged gives
 /// the same statistic up to rounding, some 10⁻¹³ where eigenvectors are in between.
 const SAME: f64 = 1e-11;
+
+/// Most intervals of a histogram.
+const INTERVALS: usize = 24;
 
 /// Whether a statistic under relabelling is as large as the observed one.
 pub(super) fn is_as_large(relabelled: f64, observed: f64) -> bool {
@@ -37,7 +40,7 @@ pub(super) fn p_error(p: f64, count: usize, all: bool) -> f64 {
     if all { 0.0 } else { (p * (1.0 - p) / count as f64).sqrt() }
 }
 
-/// Mean, standard deviation and quantiles of a statistic under relabelling.
+/// Mean, standard deviation, quantiles and histogram of a statistic under relabelling.
 pub(super) fn chance(values: &[f64]) -> Chance {
     let count = values.len() as f64;
     let mean = values.iter().sum::<f64>() / count;
@@ -49,7 +52,25 @@ pub(super) fn chance(values: &[f64]) -> Chance {
         standard_deviation: (square / (count - 1.0).max(1.0)).sqrt(),
         p05: quantile(&sorted, 0.05),
         p95: quantile(&sorted, 0.95),
+        histogram: histogram(&sorted),
     }
+}
+
+/// Counts ascending numbers in intervals of equal width. Where there are fewer different numbers than intervals, as
+/// of the shares of a few shapes, each number has its own.
+fn histogram(sorted: &[f64]) -> Histogram {
+    let (from, to) = (sorted[0], sorted[sorted.len() - 1]);
+    let different = 1 + sorted.windows(2).filter(|pair| pair[0] < pair[1]).count();
+    let mut counts = vec![0; different.min(INTERVALS)];
+    let last = counts.len() - 1;
+    for value in sorted {
+        let place =
+            if last == 0 { 0.0 } else { (value - from) / (to - from) * counts.len() as f64 };
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to the last")]
+        let interval = (place as usize).min(last);
+        counts[interval] += 1;
+    }
+    Histogram { from, to, counts }
 }
 
 /// Quantile of ascending numbers, linear between neighbours.
@@ -128,5 +149,18 @@ mod tests {
         assert_eq!((found.mean, found.p05, found.p95), (50.0, 5.0, 95.0), "0 to 100");
         // Σ(i − 50)² = 2·50·51·101/6 = 85,850, over 100.
         assert!((found.standard_deviation - 858.5_f64.sqrt()).abs() < 1e-12, "divisor N − 1");
+    }
+
+    #[test]
+    fn histograms_count_every_value_once_in_its_interval() {
+        // 0 to 95 in 24 intervals of 95/24 = 3.96: four numbers in each.
+        let values: Vec<f64> = (0..96).rev().map(f64::from).collect();
+        let found = chance(&values).histogram;
+        assert_eq!((found.from, found.to), (0.0, 95.0), "least and largest");
+        assert_eq!(found.counts, [4; 24], "four each");
+        let shares = [0.5, 0.25, 0.25, 0.75, 0.5, 0.25];
+        assert_eq!(chance(&shares).histogram.counts, [3, 2, 1], "three different shares");
+        let same = chance(&[2.0; 5]).histogram;
+        assert_eq!((same.from, same.to, same.counts), (2.0, 2.0, vec![5]), "one number");
     }
 }

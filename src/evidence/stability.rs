@@ -65,7 +65,7 @@ pub(super) fn report(sums: &[f64], halvings: usize, dimensions: usize) -> ModeSt
         }
     }
     let suggested_modes = best.1;
-    ModeStability { overlap, suggested_modes }
+    ModeStability { overlap, dimensions, suggested_modes }
 }
 
 #[cfg(test)]

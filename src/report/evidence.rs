@@ -69,7 +69,7 @@ pub struct Hypothesis {
 }
 
 /// A statistic; large values speak against the hypothesis.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct Statistic {
@@ -124,7 +124,7 @@ impl StatisticName {
 }
 
 /// A number under relabelling.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct Chance {
@@ -136,6 +136,21 @@ pub struct Chance {
     pub p05: f64,
     /// 95 % quantile.
     pub p95: f64,
+    /// How often it had which values.
+    pub histogram: Histogram,
+}
+
+/// Counts of values in intervals of equal width.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(rename_all = "camelCase")]
+pub struct Histogram {
+    /// Smallest value, where the first interval begins.
+    pub from: f64,
+    /// Largest value, where the last interval ends.
+    pub to: f64,
+    /// Values in each interval; of all values when they are the same.
+    pub counts: Vec<usize>,
 }
 
 /// Curves over the modes, observed and of groups relabelled at random (one population).
@@ -183,7 +198,7 @@ pub struct MatchedShares {
 }
 
 /// How well shapes of a group are told from those of the other.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct ToldApart {
@@ -214,6 +229,8 @@ pub struct VertexEvidence {
 pub struct ModeStability {
     /// Mean squared cosine of the principal angles between the first k modes of two halves, k = 1, 2, …
     pub overlap: Vec<f64>,
+    /// Dimensions r among which modes can turn: random spaces of k dimensions have an overlap of k/r.
+    pub dimensions: usize,
     /// Number of modes up to which each adds more than half of a shared direction, chance deducted; at least one.
     pub suggested_modes: usize,
 }

@@ -12,12 +12,12 @@ use crate::pair::{ReachDraws, ReachOfSide};
 use crate::settings::SigmaSource;
 use serde::{Deserialize, Serialize};
 
-use crate::model::{Kind, LinearModel, Unit};
+use crate::model::{Kind, LinearModel, TrainingShapes, Unit};
 
 pub use answer::{LEVEL, Name, NoEvidence, Part, Quantity, Sentence, Topic, answer};
 pub use evidence::{
-    Band, Bands, Chance, EvidenceReport, Hypothesis, LeftOut, MatchedShares, ModeStability,
-    Statistic, StatisticName, ToldApart, VertexEvidence,
+    Band, Bands, Chance, EvidenceReport, Histogram, Hypothesis, LeftOut, MatchedShares,
+    ModeStability, Statistic, StatisticName, ToldApart, VertexEvidence,
 };
 
 /// Version of the report's layout.
@@ -125,6 +125,10 @@ pub struct ModelReport {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, ts(optional))]
     pub fingerprint: Option<String>,
+    /// How many training shapes of it are known, where they are.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, ts(optional))]
+    pub training_shapes: Option<usize>,
 }
 
 impl ModelReport {
@@ -154,6 +158,7 @@ impl ModelReport {
             unit_guess: None,
             part: None,
             fingerprint: None,
+            training_shapes: model.training_shapes().map(TrainingShapes::count),
         }
     }
 }

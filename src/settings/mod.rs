@@ -11,7 +11,7 @@ use crate::model::{Alignment, Side};
 use crate::pair::{DifferenceDefinition, Preparation};
 
 pub use fields::{FIELDS, Field, FieldValue, LEAST_DRAWS_OF_A_CHAIN};
-pub use sigma::{Sigma, SigmaSource};
+pub use sigma::{SIGMA_SINCE, Sigma, SigmaSource};
 
 /// How the intersection is sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]

@@ -13,6 +13,9 @@ use serde::{Deserialize, Serialize};
 use super::Settings;
 use crate::pair::Tolerance;
 
+/// The first version that chooses σ by these rules. Before, it was always a quarter of the range of distances.
+pub const SIGMA_SINCE: &str = "0.2";
+
 /// Where the σ of a run comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
@@ -37,6 +40,13 @@ pub struct Sigma {
     pub value: f64,
     /// Where it comes from.
     pub source: SigmaSource,
+}
+
+impl SigmaSource {
+    /// Whether versions before [`SIGMA_SINCE`] chose another σ.
+    pub fn is_new(self) -> bool {
+        matches!(self, Self::LeftOut | Self::Noise | Self::Meeting)
+    }
 }
 
 impl Sigma {

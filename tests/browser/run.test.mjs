@@ -207,7 +207,7 @@ test("a link opened again gives the same numbers and the same view", async () =>
     await untilState(other, "done");
     assert.deepEqual(await shownMetrics(other), shown);
     assert.equal(await other.getByRole("radio", { name: "Samples" }).isChecked(), true);
-    assert.match(other.url(), /v=1&demo=stars-2&.*seed=11/);
+    assert.match(other.url(), /v=1&engine=0\.2&demo=stars-2&.*seed=11/);
   });
 });
 

@@ -252,7 +252,10 @@ test("a link of local files waits for the same files, and every number comes bac
     await dialog.getByText("fingerprints of your two files, not the files.").waitFor();
     assert.deepEqual(await accessibilityFaults(page), []);
     const link = await linkIn(dialog);
-    assert.match(link, /#v=1&name-a=double\.h5&name-b=bfm-groups\.h5&hash-a=[0-9a-f]{16}&hash-b=/);
+    assert.match(
+      link,
+      /#v=1&engine=0\.2&name-a=double\.h5&name-b=bfm-groups\.h5&hash-a=[0-9a-f]{16}&hash-b=/,
+    );
     await dialog.getByRole("checkbox", { name: "With the names of the files" }).uncheck();
     const nameless = await linkIn(dialog);
     assert.doesNotMatch(nameless, /double|groups/);
@@ -434,7 +437,7 @@ for (const [width, height] of [
         page.getByRole("link", { name: "Open in Shapevenn" }).click(),
       ]);
       await untilState(whole, "done");
-      assert.match(whole.url(), /#v=1&demo=heads-sex&/);
+      assert.match(whole.url(), /#v=1&engine=0\.2&demo=heads-sex&/);
       await whole.getByRole("button", { name: "Share" }).waitFor();
     });
   });

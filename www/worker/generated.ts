@@ -263,6 +263,8 @@ export type ModelReport = {
   part?: string,
   /** [`LinearModel::fingerprint`] of the model as it was read, before anything was done to it. */
   fingerprint?: string,
+  /** How many training shapes of it are known, where they are. */
+  trainingShapes?: number,
 };
 
 /** What the page is told of a model that was opened; other parts are opened when they are chosen. */
@@ -471,6 +473,16 @@ export type ReachReport = {
   curve: ReachCurve,
 };
 
+/** Counts of values in intervals of equal width. */
+export type Histogram = {
+  /** Smallest value, where the first interval begins. */
+  from: number,
+  /** Largest value, where the last interval ends. */
+  to: number,
+  /** Values in each interval; of all values when they are the same. */
+  counts: Array<number>,
+};
+
 /** A number under relabelling. */
 export type Chance = {
   /** Mean. */
@@ -481,6 +493,8 @@ export type Chance = {
   p05: number,
   /** 95 % quantile. */
   p95: number,
+  /** How often it had which values. */
+  histogram: Histogram,
 };
 
 /** What a statistic measures. */
@@ -587,6 +601,8 @@ export type VertexEvidence = {
 export type ModeStability = {
   /** Mean squared cosine of the principal angles between the first k modes of two halves, k = 1, 2, … */
   overlap: Array<number>,
+  /** Dimensions r among which modes can turn: random spaces of k dimensions have an overlap of k/r. */
+  dimensions: number,
   /** Number of modes up to which each adds more than half of a shared direction, chance deducted; at least one. */
   suggestedModes: number,
 };

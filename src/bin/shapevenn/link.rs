@@ -4,7 +4,7 @@
 //! read, the command line refuses: whoever types a command sees what was wrong with it.
 
 use serde_json::{Map, Value, json};
-use shapevenn::settings::{FIELDS, FieldValue, Settings};
+use shapevenn::settings::{FIELDS, FieldValue, SIGMA_SINCE, Settings};
 
 use crate::Failure;
 
@@ -64,6 +64,14 @@ impl Link {
         self.get("page").unwrap_or("compare")
     }
 
+    /// Whether it leaves σ to the engine and may be from a version that chose σ by another rule: it names an older
+    /// one, or none.
+    pub(crate) fn may_mean_another_sigma(&self) -> bool {
+        let chosen = !matches!(self.get("sigma").unwrap_or("auto"), "auto" | "");
+        let named = self.get("engine").and_then(version);
+        !chosen && !self.is_stored() && named < version(SIGMA_SINCE)
+    }
+
     /// Settings of the comparison.
     pub(crate) fn settings(&self) -> Result<Settings, Failure> {
         let mut found = Map::new();
@@ -75,7 +83,7 @@ impl Link {
                 found.insert(field.name.to_owned(), value);
             }
         }
-        if self.is_silent() && self.demo() == FIRST.0 {
+        if self.is_stored() {
             found.insert("sigma".to_owned(), json!(FIRST.1));
         }
         found.insert("prepare".to_owned(), self.preparation()?);
@@ -113,6 +121,12 @@ impl Link {
             "points": points,
             "subsample": subsample,
         }))
+    }
+
+    /// Whether it asks for the comparison that is stored with the page.
+    fn is_stored(&self) -> bool {
+        let named = ["a", "b", "name-a", "name-b"].into_iter().any(|key| self.get(key).is_some());
+        self.is_silent() && !named && self.demo() == FIRST.0
     }
 
     /// Whether it says nothing of settings, which is how the stored comparison is asked for.
@@ -157,6 +171,12 @@ impl Link {
         }
         Ok(found)
     }
+}
+
+/// Major and minor number of a version such as “0.2” or “0.2.1”.
+fn version(text: &str) -> Option<(u32, u32)> {
+    let mut parts = text.split('.').map(|part| part.parse().ok());
+    Some((parts.next()??, parts.next()??))
 }
 
 /// One value, as a report has it.
@@ -233,6 +253,30 @@ mod tests {
             "whoever sets one thing leaves σ to the engine"
         );
         assert_eq!(settings("v=1&demo=planes").sigma, None, "of other pairs");
+        assert_eq!(settings("v=1&a=x.h5&b=y.h5").sigma, None, "of other models");
+    }
+
+    #[test]
+    fn only_a_link_without_sigma_from_before_the_rule_may_mean_another_one() {
+        let older = |text: &str| Link::parse(text).may_mean_another_sigma();
+        for text in [
+            "v=1&demo=planes",
+            "demo=planes&sigma=auto",
+            "engine=0.1&demo=planes",
+            "engine=x&seed=2",
+        ] {
+            assert!(older(text), "{text}");
+        }
+        let since = format!("engine={SIGMA_SINCE}&demo=planes");
+        for text in [
+            since.as_str(),
+            "engine=0.10.1&demo=planes",
+            "engine=1.0&seed=2",
+            "demo=planes&sigma=0.5",
+            "v=1",
+        ] {
+            assert!(!older(text), "{text}");
+        }
     }
 
     #[test]

@@ -31,7 +31,7 @@ use shapevenn::formats;
 use shapevenn::model::LinearModel;
 use shapevenn::pair::{MeanSquare, Quantiles};
 use shapevenn::report::{ModelReport, Report, Seconds};
-use shapevenn::settings::{Settings, SettingsError, SigmaSource};
+use shapevenn::settings::{SIGMA_SINCE, Settings, SettingsError, SigmaSource};
 
 /// Which shapes can two statistical shape models both make, and which can only one of them make?
 #[derive(Debug, Parser)]
@@ -294,6 +294,9 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
     if let Some(folder) = &arguments.out {
         write_all(&run, seconds, folder, rerun::sources_of(&named))?;
     }
+    if let Some(link) = &arguments.link {
+        warn_of_older_sigma(&Link::parse(link), &report);
+    }
     if arguments.json {
         println!("{}", files::json(&report));
     } else {
@@ -494,6 +497,18 @@ fn print_reach(report: &Report) {
             share(offset),
             share(offset_closed),
             share(exclusive)
+        );
+    }
+}
+
+/// Says on standard error where a link may have meant the σ of an older version.
+fn warn_of_older_sigma(link: &Link, report: &Report) {
+    let is_new = report.sigma_source.is_some_and(SigmaSource::is_new);
+    if let Some(sigma) = report.settings.sigma.filter(|_| is_new && link.may_mean_another_sigma()) {
+        eprintln!(
+            "This link may be from a version before {SIGMA_SINCE}, which chose σ as a quarter of the range of distances. It now gives σ = {sigma:.4} {}, {}. To keep a σ, give it in the link (sigma=).",
+            report.models.a.unit.symbol(),
+            source_in_words(report.sigma_source)
         );
     }
 }

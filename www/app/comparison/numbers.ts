@@ -1,5 +1,5 @@
 /** The tables of numbers under the results: which numbers of the report, in which order, in which format. */
-import type { Report, StatisticName } from "../../worker/protocol";
+import type { Report } from "../../worker/protocol";
 import { count, length, number, percent } from "../text/format";
 
 export interface Row {
@@ -149,65 +149,6 @@ export const DIAGNOSTICS: Group = {
     perSide("Evaluations", "evaluations", (value) => count(value)),
   ],
 };
-
-/** Names of the statistics of the permutation tests. */
-const STATISTICS: Record<StatisticName, string> = {
-  means: "Distance of the means",
-  varianceAOutsideB: "Variance of A outside B",
-  varianceBOutsideA: "Variance of B outside A",
-  distanceAToB: "Distance of A’s shapes to B",
-  distanceBToA: "Distance of B’s shapes to A",
-  totalVariances: "Ratio of the total variances, |log|",
-  principalAngles: "Sum of the squared principal angles",
-};
-
-/** Tables of what chance would give; none where the training shapes are not known. */
-export function evidenceGroups({ evidence }: Report): Group[] {
-  if (!evidence) return [];
-  const tests = (title: string, hypothesis: "onePopulation" | "oneCovariance"): Group => ({
-    title,
-    columns: ["observed", "by chance", "its SD", "p", "adjusted"],
-    rows: evidence[hypothesis].statistics.map(({ name }, index) => ({
-      label: STATISTICS[name],
-      metrics: ["observed", "chance.mean", "chance.standardDeviation", "p", "pAdjusted"].map(
-        (path) => `evidence.${hypothesis}.statistics.${index}.${path}`,
-      ),
-      show: (value) => number(value),
-    })),
-  });
-  const eachSide = (label: string, path: string, show: Row["show"]): Row => ({
-    label,
-    metrics: ["a", "b"].map((side) => path.replace("*", side)),
-    show,
-  });
-  return [
-    {
-      title: "Training shapes",
-      columns: ["A", "B"],
-      rows: [
-        eachSide("Number", "evidence.shapes.*", (value) => count(value)),
-        eachSide("Distance to the model of the others", "evidence.leftOut.*.mean", inUnit),
-        eachSide("its SD", "evidence.leftOut.*.standardDeviation", inUnit),
-        eachSide("Nearer to the others of their own", "evidence.toldApart.*.share", percent),
-        eachSide("by chance", "evidence.toldApart.*.chance.mean", percent),
-        eachSide("Stable modes", "evidence.stability.*.suggestedModes", (value) => count(value)),
-      ],
-    },
-    tests(`One population? ${count(evidence.permutations)} relabellings`, "onePopulation"),
-    tests("One covariance about different means?", "oneCovariance"),
-    {
-      title: "Points where the means differ",
-      columns: ["family-wise p ≤ 0.05", "one in twenty false"],
-      rows: [
-        {
-          label: "Share of the points",
-          metrics: ["evidence.vertices.differ", "evidence.vertices.falseDiscovery"],
-          show: percent,
-        },
-      ],
-    },
-  ];
-}
 
 /** The number at a path such as `intersection.grassmann.toA`; null where the report has none. */
 export function valueAt(report: Report, path: string): number | null {

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { Inspection, ModelReport, Progress } from "../../worker/protocol";
+import type { Inspection, ModelReport, Progress, Report } from "../../worker/protocol";
 import { FIRST_DEMO } from "../state/demos";
 import { completed } from "../state/preparation";
 import { plain } from "../text/phrase";
@@ -293,4 +293,14 @@ test("the settings of a comparison say what was done to the models", () => {
     words.settingsSentence({ ...report, settings: { ...settings, prepare } }),
     / · a region of 10 points$/,
   );
+});
+
+test("a link without σ may have meant another one, unless the rule is the older one", () => {
+  const of = (sigmaSource: Report["sigmaSource"]) => words.olderSigma({ ...report, sigmaSource });
+  assert.match(
+    of("meeting")?.message ?? "",
+    /^This link may be from a version before 0\.2, .* now gives σ = 0\.613.units, the least distance of plausible/,
+  );
+  assert.ok(of("left-out") && of("noise"), "new rules");
+  assert.deepEqual([of("budget"), of("given")], [null, null], "as before");
 });

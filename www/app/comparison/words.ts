@@ -18,6 +18,7 @@ import type {
 import type { Nouns } from "../state/demos";
 import { completed, preparationWords, UNSTATED } from "../state/preparation";
 import { DIFFERENCE_OF, letters } from "../state/regions";
+import { SIGMA_SINCE } from "../state/settings";
 import type { Reading } from "../state/state";
 import { bytes, count, degrees, length, number, percent, plusMinus } from "../text/format";
 import { type Phrase, reported } from "../text/phrase";
@@ -183,6 +184,24 @@ function nearlyAllDiffers(report: Report): boolean {
   const { aWithoutB, bWithoutA } = report.differences;
   const soft = (report.settings.difference ?? "soft") === "soft";
   return soft && Math.min(aWithoutB.probability, bWithoutA.probability) >= NEARLY_ALL;
+}
+
+/** Where a σ comes from that versions before this rule chose otherwise. */
+const NEW_SOURCES: Partial<Record<NonNullable<Report["sigmaSource"]>, string>> = {
+  "left-out": "the mean distance of training shapes to the model of the others",
+  noise: "how far true members lie from their own model",
+  meeting: "the least distance of plausible shapes of the two",
+};
+
+/** Says that a link without σ may have meant that of an older version; null where that is the same. */
+export function olderSigma(report: Report): { message: string; hint: string } | null {
+  const { sigma } = report.settings;
+  const source = report.sigmaSource && NEW_SOURCES[report.sigmaSource];
+  if (!source || sigma === null) return null;
+  return {
+    message: `This link may be from a version before ${SIGMA_SINCE}, which chose σ as a quarter of the range of distances. It now gives σ = ${length(sigma, report.models.a.unit)}, ${source}.`,
+    hint: "To keep a σ, type it in the settings: the link then has it.",
+  };
 }
 
 /** The warnings of a report that are not already stated by the sentences above. */

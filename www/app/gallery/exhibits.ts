@@ -1,10 +1,11 @@
 /** The example comparisons of the gallery: link, picture and explanation of each. */
+import { ENGINE } from "../state/settings";
 
 export interface Exhibit {
   /** Name of its pictures, `gallery/NAME-light.webp` and `-dark.webp`. */
   name: string;
   title: string;
-  /** The link without its version. */
+  /** The link without its versions. */
   link: string;
   see: string;
 }
@@ -96,5 +97,5 @@ export const EXHIBIT_GROUPS: ExhibitGroup[] = [
 export const EXHIBITS: Exhibit[] = EXHIBIT_GROUPS.flatMap(({ exhibits }) => exhibits);
 
 export function linkTo({ link }: Exhibit): string {
-  return `#v=1&${link}`;
+  return `#v=1&engine=${ENGINE}&${link}`;
 }

@@ -45,7 +45,8 @@ import {
   type Wanted,
 } from "../state/state";
 import { joins, type Snapshot, steps } from "../state/undo";
-import { fitsLink, type LinkState, readLink, writeLink } from "./link";
+import { fitsLink, type LinkState, mayMeanAnotherSigma, readLink, writeLink } from "./link";
+import { mayBeOlder } from "./older";
 
 const WRITE_AFTER_MS = 1000;
 
@@ -254,6 +255,7 @@ async function follow(state: unknown, takes: (link: LinkState) => boolean): Prom
   if (snapshot === null) {
     linked.value = link;
     embedded.value = link.embed;
+    mayBeOlder.value = mayMeanAnotherSigma(location.hash);
   }
   if (link.page !== "compare" || !begun.peek()) {
     batch(() => apply(link));

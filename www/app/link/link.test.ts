@@ -2,7 +2,15 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Preparation } from "../../worker/protocol";
 import { FIRST_DEMO } from "../state/demos";
-import { defaultLink, fitsLink, misread, readLink, SETTING_KEYS, writeLink } from "./link";
+import {
+  defaultLink,
+  fitsLink,
+  mayMeanAnotherSigma,
+  misread,
+  readLink,
+  SETTING_KEYS,
+  writeLink,
+} from "./link";
 
 test("an empty link is the first comparison, with the σ that it is stored with", () => {
   const { settings, ...rest } = defaultLink();
@@ -70,9 +78,31 @@ test("what is written is read back, for every field", () => {
 
 test("a link begins with its version, is short and can be read", () => {
   const text = writeLink(defaultLink());
-  assert.match(text, /^v=1&demo=heads-sex&/);
+  assert.match(text, /^v=1&engine=0.2&demo=heads-sex&/);
   assert.ok(text.length < 300, `${text.length} characters`);
   assert.doesNotMatch(text, /%/);
+});
+
+test("only a link without σ from before the rule may mean another one", () => {
+  const cases = {
+    // As older pages wrote it, and by hand.
+    "v=1&demo=planes&sigma=auto": true,
+    "#v=1&demo=planes": true,
+    "v=1&engine=0.1&demo=planes": true,
+    "v=1&engine=x&demo=heads-sex&seed=1": true,
+    "v=1&engine=0.2&demo=planes": false,
+    "v=1&engine=0.10.1&demo=planes": false,
+    "v=1&engine=1.0&demo=planes": false,
+    "v=1&demo=planes&sigma=0.5": false,
+    "v=1&page=learn&scene=step": false,
+    // The stored comparison has a σ.
+    "v=1": false,
+    "": false,
+    [writeLink(defaultLink())]: false,
+  };
+  for (const [text, expected] of Object.entries(cases)) {
+    assert.equal(mayMeanAnotherSigma(text), expected, text);
+  }
 });
 
 test("a link of the page before there were maps shows standard deviations, on their own scale", () => {
@@ -95,7 +125,7 @@ test("addresses of models keep their queries", () => {
 test("two models of different examples, or of one and an address, have a link too", () => {
   const urls = { a: "demo:heads-male", b: "https://b.example/m.npz" };
   const text = writeLink({ ...defaultLink(), urls });
-  assert.match(text, /^v=1&a=demo:heads-male&b=https:/);
+  assert.match(text, /^v=1&engine=0.2&a=demo:heads-male&b=https:/);
   assert.deepEqual(readLink(text).urls, urls);
   assert.equal(readLink("v=1&a=demo:heads-male&b=demo:nobody").urls, null);
 });
@@ -150,7 +180,10 @@ test("files that no link can hold are named by what tells them from others", () 
   const urls = { a: null, b: null };
   const link = { ...defaultLink(), urls, names, hashes, parts: { a: "expression", b: null } };
   const text = writeLink(link);
-  assert.match(text, /^v=1&name-a=male%20head\.h5&name-b=b%26w\.npz&hash-a=0123456789abcdef&/);
+  assert.match(
+    text,
+    /^v=1&engine=0.2&name-a=male%20head\.h5&name-b=b%26w\.npz&hash-a=0123456789abcdef&/,
+  );
   assert.deepEqual(readLink(text), link);
   const nameless = { ...link, names: { a: null, b: null } };
   assert.deepEqual(readLink(writeLink(nameless)), nameless);

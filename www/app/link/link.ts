@@ -30,6 +30,7 @@ import {
   budgetOf,
   choicesOf,
   DEFAULTS,
+  ENGINE,
   FIELDS,
   parseCount,
   parsePercent,
@@ -38,6 +39,7 @@ import {
   percentText,
   rangeOf,
   rangeOfDraws,
+  SIGMA_SINCE,
   SUBSAMPLE,
 } from "../state/settings";
 import {
@@ -110,7 +112,7 @@ function pagePairs(state: LinkState): [string, string | number][] {
 
 function comparisonPairs(state: LinkState): [string, string | number][] {
   const { settings, camera } = state;
-  const pairs: [string, string | number][] = [];
+  const pairs: [string, string | number][] = [["engine", ENGINE]];
   if (state.urls) pairs.push(...writeModels(state));
   else pairs.push(["demo", state.demo]);
   pairs.push(
@@ -288,6 +290,25 @@ function readPreparation(given: URLSearchParams): Preparation {
       points === "map" ? { by: "map" } : ranges === "invalid" ? null : { by: "region", ranges },
     subsample: count("subsample", SUBSAMPLE),
   };
+}
+
+/**
+ * Whether a link leaves σ to the engine and may be from a version that chose σ by another rule: it names an older
+ * one, or none. An empty address is no link.
+ */
+export function mayMeanAnotherSigma(fragment: string): boolean {
+  const given = new URLSearchParams(fragment.replace(/^#/, ""));
+  const { page, settings } = readLink(fragment);
+  if (given.size === 0 || page !== "compare" || settings.sigma !== null) return false;
+  const [major, minor] = versionOf(given.get("engine") ?? "");
+  const [sinceMajor, sinceMinor] = versionOf(SIGMA_SINCE);
+  return major < sinceMajor || (major === sinceMajor && minor < sinceMinor);
+}
+
+/** Major and minor number of a version such as “0.2”; that before all others for anything else. */
+function versionOf(text: string): [number, number] {
+  const [, major, minor] = /^(\d+)\.(\d+)/.exec(text) ?? [];
+  return major === undefined || minor === undefined ? [-1, 0] : [Number(major), Number(minor)];
 }
 
 /** The keys and values of an address that this page does not know, as `key=value`. */

@@ -73,6 +73,7 @@ const RARE = [
   "plausibility",
   "noise",
   "weighted",
+  "permutations",
   "difference",
   "differenceQuantile",
   "differenceThreshold",
@@ -128,6 +129,14 @@ function More() {
         range={rangeOf("weighted")}
         suffix="draws"
         help="Weighted draws with gradients, for each model, that correct the mean and variance of the fit. Four times as many halve the standard errors."
+      />
+      <CountField
+        label="Relabellings"
+        name="permutations"
+        standard={DEFAULTS.permutations}
+        range={rangeOf("permutations")}
+        suffix="of the shapes"
+        help="How often the training shapes are dealt at random into two groups, to see what chance would give; 0 for none. With more the p-values are more exact: 99 are too few for a small p, 999 are usual."
       />
       <h3>Differences</h3>
       <DifferenceFields />
@@ -217,7 +226,7 @@ function ModesField() {
 interface CountFieldProps {
   label: string;
   accessibleLabel?: string;
-  name: "chains" | "draws" | "weighted" | "differenceDraws";
+  name: "chains" | "draws" | "weighted" | "permutations" | "differenceDraws";
   standard: number;
   range: readonly [number, number];
   onChange?: (value: number) => void;

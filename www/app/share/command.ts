@@ -36,6 +36,7 @@ const FLAGS = {
   differenceDraws: "difference-draws",
   modes: "modes",
   align: "align",
+  permutations: "permutations",
 } as const;
 
 export function commandOf(settings: Settings, models: Sides<CommandModel>): Command {

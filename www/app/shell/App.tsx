@@ -12,6 +12,7 @@ import { ShareDialog } from "../share/ShareDialog";
 import { demo, embedded, page, result, spoken, tab } from "../state/state";
 import { wide } from "../state/wide";
 import { Diagnostics } from "../tabs/diagnostics/Diagnostics";
+import { Evidence } from "../tabs/evidence/Evidence";
 import { Explorer } from "../tabs/explore/Explorer";
 import { ExploreStage } from "../tabs/explore/ExploreStage";
 import { Measures } from "../tabs/measures/Measures";
@@ -75,6 +76,7 @@ function Comparison() {
       <div class="centre">
         <Notices place="page" />
         <Notices place="link" />
+        <Notices place="older-link" />
         <Notices place="content" />
         <Consent />
         {linkIsAll && <RunFileCard />}
@@ -84,6 +86,7 @@ function Comparison() {
         {explores && <ExploreStage />}
         {explores && !wide.value && <Explorer />}
         {tab.value === "measures" && <Measures />}
+        {tab.value === "evidence" && <Evidence />}
         {tab.value === "diagnostics" && <Diagnostics />}
         {tab.value === "models" && <ModelTable />}
       </div>

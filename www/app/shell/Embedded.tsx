@@ -6,6 +6,7 @@ import { MAP_WORDS } from "../stage/map-words";
 import { regionLabel } from "../stage/names";
 import { alone, inspection, nouns, run, tab, vertexMap, view } from "../state/state";
 import { Diagnostics } from "../tabs/diagnostics/Diagnostics";
+import { Evidence } from "../tabs/evidence/Evidence";
 import { ExploreStage } from "../tabs/explore/ExploreStage";
 import { Measures } from "../tabs/measures/Measures";
 import { ModelTable } from "../tabs/models/ModelTable";
@@ -28,6 +29,7 @@ export function Embedded() {
         <Stage />
         {tab.value === "explore" && <ExploreStage />}
         {tab.value === "measures" && <Measures />}
+        {tab.value === "evidence" && <Evidence />}
         {tab.value === "diagnostics" && <Diagnostics />}
         {tab.value === "models" && <ModelTable />}
       </div>

@@ -6,11 +6,12 @@ const NAMES: Record<Tab, string> = {
   regions: "Regions",
   explore: "Explore",
   measures: "Measures",
+  evidence: "Evidence",
   diagnostics: "Diagnostics",
   models: "Models",
 };
 
-/** The tabs of a comparison: regions, explore, measures, diagnostics, models. */
+/** The tabs of a comparison: regions, explore, measures, evidence, diagnostics, models. */
 export function Tabs() {
   const list = useRef<HTMLElement>(null);
   const shown = tab.value;

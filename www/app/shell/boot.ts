@@ -4,7 +4,8 @@ import { storedResult, watchChoices, watchPictures } from "../comparison/run";
 import { titleOf } from "../learn/scenes";
 import { lessonState, scene } from "../learn/state";
 import { apply, keepLink, modelListOf, modelsOf } from "../link/history";
-import { type LinkState, misread, readLink } from "../link/link";
+import { type LinkState, mayMeanAnotherSigma, misread, readLink } from "../link/link";
+import { mayBeOlder, watchOlderLink } from "../link/older";
 import { awaitLink, watchRunFile } from "../link/runfile/run";
 import { watchContent } from "../models/address/checked";
 import { restoreModelList } from "../models/list/actions";
@@ -66,6 +67,7 @@ const waits = (link: LinkState) => awaitLink(link) !== null;
 async function bootComparison(link: LinkState): Promise<void> {
   begun.value = true;
   tellMisread();
+  mayBeOlder.value = mayMeanAnotherSigma(location.hash);
   engineClient();
   const models = openModels(link);
   const stored = await fetchStored();
@@ -86,6 +88,7 @@ async function bootComparison(link: LinkState): Promise<void> {
   watchMatrix();
   watchRunFile();
   watchContent();
+  watchOlderLink();
   await models;
 }
 

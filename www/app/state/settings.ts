@@ -15,6 +15,9 @@ import { completed } from "./preparation";
 /** Every setting that has a key in links, in their order (src/settings/fields.rs). */
 export const FIELDS = table.fields as Field[];
 
+/** Version of the engine, as links name it; and the first that chooses σ as this one does. */
+export const { engine: ENGINE, sigmaSince: SIGMA_SINCE } = table;
+
 export const DEFAULTS: Settings = defaults();
 
 function defaults(): Settings {

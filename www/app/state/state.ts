@@ -84,7 +84,7 @@ export interface RunState {
 
 export interface ShownNotice {
   id: number;
-  place: Side | "pair" | "run" | "page" | "link" | "content";
+  place: Side | "pair" | "run" | "page" | "link" | "older-link" | "content";
   code: string;
   message: string;
   hint: string;
@@ -279,11 +279,14 @@ export const recommended = computed(() => {
   return report.intersection.tolerance?.recommended ?? (sigmaRecommended ? sigma : null);
 });
 
+/** Places of notices about the link, which are no errors of the page. */
+const ABOUT_LINKS = new Set<ShownNotice["place"]>(["link", "older-link", "content"]);
+
 /** State of the page, as in `document.documentElement.dataset.state`. */
 export const pageState = computed(() => {
   if (run.value) return "running";
   if (opening.a.value !== null || opening.b.value !== null) return "loading";
-  if (notices.value.some(({ place }) => place !== "link" && place !== "content")) return "error";
+  if (notices.value.some(({ place }) => !ABOUT_LINKS.has(place))) return "error";
   if (inspection.value?.problem) return "error";
   if (!slots.a.value || !slots.b.value) return "idle";
   return result.value && !outOfDate.value && shapes.value.intersection ? "done" : "ready";

@@ -10,8 +10,8 @@ export const VIEW_MODES: ViewMode[] = ["mean", "samples", "sd"];
 export type PageName = "compare" | "learn" | "gallery";
 export const PAGES: PageName[] = ["compare", "learn", "gallery"];
 /** The tabs of a comparison. */
-export type Tab = "regions" | "explore" | "measures" | "diagnostics" | "models";
-export const TABS: Tab[] = ["regions", "explore", "measures", "diagnostics", "models"];
+export type Tab = "regions" | "explore" | "measures" | "evidence" | "diagnostics" | "models";
+export const TABS: Tab[] = ["regions", "explore", "measures", "evidence", "diagnostics", "models"];
 /** The maps of the view "sd"; older links have only that of standard deviations. */
 export const MAPS: MapName[] = [
   "sd",

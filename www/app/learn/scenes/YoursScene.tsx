@@ -1,3 +1,4 @@
+import { ENGINE } from "../../state/settings";
 import { useDone } from "../asked";
 import { TRY_OUT, type TryOut } from "./yours/questions";
 import { VennStars } from "./yours/VennStars";
@@ -21,7 +22,7 @@ export function YoursScene() {
             says="Which heads can both models make, and which only one of them?"
           />
           <Door
-            href="#v=1&demo=heads-expression"
+            href={`#v=1&engine=${ENGINE}&demo=heads-expression`}
             name="Identity and expression"
             says="Two models of the same face that should have little in common."
           />

@@ -1,4 +1,4 @@
-import { DIAGNOSTICS, evidenceGroups, GROUPS } from "../../comparison/numbers";
+import { DIAGNOSTICS, GROUPS } from "../../comparison/numbers";
 import {
   belief,
   differences,
@@ -63,9 +63,6 @@ export function Results() {
         </p>
       ))}
       {GROUPS.map((group) => (
-        <Numbers key={group.title} group={group} report={report} />
-      ))}
-      {evidenceGroups(report).map((group) => (
         <Numbers key={group.title} group={group} report={report} />
       ))}
       <Sweep />

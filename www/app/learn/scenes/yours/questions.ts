@@ -1,4 +1,6 @@
 /** Questions about the comparison of heads, with answers; the numbers are those of `shapevenn compare`. */
+import { ENGINE } from "../../../state/settings";
+
 export interface TryOut {
   ask: string;
   href: string;
@@ -27,7 +29,7 @@ export const TRY_OUT: readonly TryOut[] = [
   },
   {
     ask: "What do identity and expression have in common?",
-    href: "#v=1&demo=heads-expression",
+    href: `#v=1&engine=${ENGINE}&demo=heads-expression`,
     link: "Identity and expression",
     answer:
       "Little: expression can make about a fifth of the variance of identity, and identity less than " +

@@ -1,0 +1,211 @@
+/** Tests the sentences about chance, each with both of its outcomes. */
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import type { EvidenceReport, Hypothesis, Report } from "../../worker/protocol";
+import { type Phrase, plain } from "../text/phrase";
+import * as said from "./evidence";
+import { madeUpChance, madeUpEvidence, reportWith } from "./evidence.fixture";
+import { valueAt } from "./numbers";
+
+const null_ = madeUpEvidence();
+const differing = madeUpEvidence({ means: 0.001, principalAngles: 0.002 });
+const few = (found: EvidenceReport, hypothesis: Partial<Hypothesis>): EvidenceReport => ({
+  ...found,
+  onePopulation: { ...found.onePopulation, ...hypothesis },
+});
+
+test("the verdict is yes, no, or that it cannot be said", () => {
+  const yes = said.verdict(differing);
+  assert.equal(yes.differs, true);
+  assert.match(plain(yes.phrase), /^The groups differ by more than chance, by 20 shapes of A/);
+  const no = said.verdict(null_);
+  assert.equal(no.differs, false);
+  assert.match(plain(no.phrase), /^The groups differ by no more than chance/);
+  const shared = said.verdict({ ...differing, sharedShapes: 3 });
+  assert.equal(shared.differs, null, "shapes in both groups are no independent samples");
+  assert.match(plain(shared.phrase), /cannot be said, because shapes are in both: 3 of 20/);
+  // Of 99 relabellings the smallest p is 0.01, adjusted for seven statistics 0.07.
+  const early = said.verdict(few(null_, { permutations: 99 }));
+  assert.equal(early.differs, null);
+  assert.match(plain(early.phrase), /cannot be said of so few relabellings/);
+});
+
+test("an adjusted p of exactly 0.05 differs, one above does not", () => {
+  const at = (pAdjusted: number) =>
+    said.outcome({
+      ...null_.onePopulation,
+      statistics: null_.onePopulation.statistics.map((one) => ({ ...one, pAdjusted })),
+    });
+  assert.deepEqual([at(0.05), at(0.0501)], ["differs", "chance"]);
+});
+
+test("both hypotheses are answered in words, with the smallest adjusted p and its error", () => {
+  assert.equal(
+    plain(said.hypothesisSentence(differing, "onePopulation")),
+    "No: the distance of the means and the principal angles are larger than relabelling gives. " +
+      "Smallest adjusted p (Holm, 7 statistics) 0.007, of the distance of the means; before adjustment 0.001 ± 0.001, of 999 relabellings.",
+  );
+  assert.match(
+    plain(said.hypothesisSentence(differing, "oneCovariance")),
+    /^No: the principal angles are larger than relabelling gives.* 6 statistics\) 0\.012/,
+  );
+  assert.match(
+    plain(said.hypothesisSentence(null_, "onePopulation")),
+    /^They may be: none of the 7 statistics is larger than relabelling gives\. .*1\.00.*0\.30 ± 0\.014/,
+  );
+  assert.match(plain(said.hypothesisSentence(null_, "oneCovariance")), /^They may: none of the 6/);
+});
+
+test("a p that chance could have put on the other side of 0.05 says so, another one does not", () => {
+  // 7 × 0.0065 = 0.0455, whose error is 7 × 0.0025.
+  const near = madeUpEvidence({ means: 0.0065 });
+  assert.match(plain(said.hypothesisSentence(near, "onePopulation")), /ask for more relabellings/);
+  assert.doesNotMatch(plain(said.hypothesisSentence(differing, "onePopulation")), /ask for more/);
+});
+
+test("too few relabellings are told from too few shapes", () => {
+  const words = (hypothesis: Partial<Hypothesis>) =>
+    plain(said.hypothesisSentence(few(null_, hypothesis), "onePopulation"));
+  assert.equal(
+    words({ permutations: 99 }),
+    "Cannot be said: of 99 relabellings the smallest adjusted p is 0.070. Set Relabellings to 999.",
+  );
+  assert.match(
+    words({ permutations: 70, exhaustive: true }),
+    /only 70 ways to relabel.*0\.10\. Add shapes/,
+  );
+  // C(10, 5) = 252, of which one makes 7/252 = 0.028.
+  assert.match(words({ permutations: 252, exhaustive: true }), /exact, of all 252 relabellings/);
+});
+
+test("a statistic is within chance or more than that", () => {
+  assert.equal(
+    plain(said.statisticSentence(null_, "onePopulation", 0, "mm")),
+    "Within chance: 1.50\u202fmm, by chance 1.00\u202fmm to 1.40\u202fmm; adjusted p 1.00.",
+  );
+  assert.match(
+    plain(said.statisticSentence(differing, "onePopulation", 0, "mm")),
+    /^More than chance: .*adjusted p 0\.007\.$/,
+  );
+  assert.equal(said.statisticText("principalAngles", 2, "mm"), "2.00\u202frad²");
+  assert.equal(said.statisticText("varianceAOutsideB", 0.25, "mm"), "25\u202f%");
+  assert.equal(said.statisticText("totalVariances", 0.25, "mm"), "0.250");
+});
+
+test("shapes can be told apart or not", () => {
+  const apart: EvidenceReport = {
+    ...null_,
+    toldApart: { ...null_.toldApart, b: { share: 1, chance: madeUpChance(0.42, 0.2) } },
+  };
+  assert.equal(
+    plain(said.toldApartSentence(apart, "b")),
+    "In 20 of 20 cases a left-out shape of B is nearer to B’s model than to A’s; by chance in 42\u202f% (5–95 %: 22\u202f% to 62\u202f%): shapes of B can be told from those of A.",
+  );
+  assert.match(
+    plain(said.toldApartSentence(apart, "a")),
+    /^In 10 of 20.*A cannot be told from those of B/,
+  );
+  const tie = {
+    ...null_,
+    toldApart: { ...null_.toldApart, a: { ...null_.toldApart.a, share: 0.525 } },
+  };
+  assert.match(plain(said.toldApartSentence(tie, "a")), /^In 10\.5 of 20/);
+});
+
+test("the means differ at some points or at none", () => {
+  assert.match(plain(said.pointsSentence(null_)), /^The means differ at no point/);
+  const some = { ...null_, vertices: { p: [0.01, 0.4], differ: 0.5, falseDiscovery: 0.6 } };
+  assert.equal(
+    plain(said.pointsSentence(some)),
+    "The means differ at 50\u202f% of the points by more than chance (family-wise p ≤ 0.05), at 60\u202f% if one in twenty of these may be false.",
+  );
+});
+
+test("modes are stable up to one, all of them, one alone, or not even that", () => {
+  const of = (overlap: number[], suggestedModes: number) =>
+    plain(
+      said.stabilitySentence(
+        {
+          ...null_,
+          stability: { ...null_.stability, a: { overlap, dimensions: 300, suggestedModes } },
+        },
+        "a",
+      ),
+    );
+  assert.equal(of([0.9, 0.8, 0.4], 2), "Modes 1 to 2 of A are stable; from 3 on they are chance.");
+  assert.equal(of([0.9, 0.2], 1), "Mode 1 of A is stable; from 2 on they are chance.");
+  assert.match(of([0.9, 0.8], 2), /are stable: as many as halves of its shapes can show\.$/);
+  assert.match(of([0.2, 0.2], 1), /^No mode of A is stable/);
+});
+
+test("a curve is inside its band, below or above it somewhere, or everywhere", () => {
+  const [p05, p95] = [
+    [1, 1, 1],
+    [2, 2, 2],
+  ];
+  const of = (observed: number[]) =>
+    said.bandSentence({ observed, mean: observed, p05: p05 ?? [], p95: p95 ?? [] });
+  assert.equal(of([1, 1.5, 2]), "Inside the band of chance everywhere.");
+  assert.match(
+    of([1, 0.5, 2]),
+    /^Below the band of chance at 1 of 3 places, first at 2; one in ten/,
+  );
+  assert.equal(of([3, 3, 3]), "Above the band of chance everywhere.");
+});
+
+test("groups of different sizes have their shares at equal numbers beside", () => {
+  assert.equal(said.matchedSentence(null_), null);
+  const matched = { shapes: 8, varianceAOutsideB: 0.2, varianceBOutsideA: 0.3 };
+  assert.match(
+    plain(said.matchedSentence({ ...null_, matched }) ?? []),
+    /^With 8 shapes of each group, 20\u202f% of the variance of A lies outside B, and 30\u202f%/,
+  );
+});
+
+test("where there is no evidence, the reason and what to do are said", () => {
+  const known = (a: number | undefined, b: number | undefined): Report => {
+    const report = reportWith(null);
+    const { models } = report;
+    return {
+      ...report,
+      models: {
+        a: { ...models.a, ...(a === undefined ? {} : { trainingShapes: a }) },
+        b: { ...models.b, ...(b === undefined ? {} : { trainingShapes: b }) },
+      },
+    };
+  };
+  const neither = said.noEvidence(known(undefined, undefined), false);
+  assert.match(neither.message, /the models of A and of B were made are not known/);
+  assert.match(neither.hint, /^Drop the folder of the shapes of A and of B/);
+  const one = said.noEvidence(known(20, undefined), false);
+  assert.match(one.message, /the model of B was made are not known/);
+  assert.match(one.hint, /^Drop the folder of the shapes of B in place of the model/);
+  assert.match(said.noEvidence(known(20, 20), true).hint, /^Run it again/);
+  assert.match(said.noEvidence(known(3, 20), false).message, /at least 4 shapes/);
+  const off = known(20, 20);
+  const none = { ...off, settings: { ...off.settings, permutations: 0 } };
+  assert.match(said.noEvidence(none, false).hint, /^Set Relabellings to 999/);
+});
+
+test("every number in a sentence is the report's own", () => {
+  const matched = { shapes: 8, varianceAOutsideB: 0.2, varianceBOutsideA: 0.3 };
+  for (const evidence of [null_, differing, { ...null_, sharedShapes: 2, matched }]) {
+    const report = reportWith(evidence);
+    const phrases: Phrase[] = [
+      said.verdict(evidence).phrase,
+      ...said.HYPOTHESES.map((name) => said.hypothesisSentence(evidence, name)),
+      said.statisticSentence(evidence, "oneCovariance", 2, "mm"),
+      said.leftOutSentence(evidence, "mm"),
+      said.matchedSentence(evidence) ?? [],
+      said.pointsSentence(evidence),
+      ...(["a", "b"] as const).flatMap((side) => [
+        said.toldApartSentence(evidence, side),
+        said.stabilitySentence(evidence, side),
+      ]),
+    ];
+    for (const part of phrases.flat()) {
+      if (typeof part !== "string")
+        assert.equal(part.value, valueAt(report, part.metric), part.metric);
+    }
+  }
+});
