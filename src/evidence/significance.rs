@@ -56,21 +56,40 @@ pub(super) fn chance(values: &[f64]) -> Chance {
     }
 }
 
-/// Counts ascending numbers in intervals of equal width. Where there are fewer different numbers than intervals, as
-/// of the shares of a few shapes, each number has its own.
+/// Counts ascending numbers in at most [`INTERVALS`] intervals of equal width. Of multiples of a step, such as shares of
+/// a few shapes, every interval holds equally many possible values.
 fn histogram(sorted: &[f64]) -> Histogram {
-    let (from, to) = (sorted[0], sorted[sorted.len() - 1]);
-    let different = 1 + sorted.windows(2).filter(|pair| pair[0] < pair[1]).count();
-    let mut counts = vec![0; different.min(INTERVALS)];
+    let (least, largest) = (sorted[0], sorted[sorted.len() - 1]);
+    if least == largest {
+        return Histogram { from: least, to: largest, counts: vec![sorted.len()] };
+    }
+    let (from, to, intervals) = match step_between(sorted) {
+        Some(step) => {
+            let possible = libm::round((largest - least) / step) + 1.0;
+            let together = libm::ceil(possible / INTERVALS as f64);
+            let intervals = libm::ceil(possible / together);
+            let from = least - 0.5 * step;
+            (from, from + intervals * together * step, intervals)
+        }
+        None => (least, largest, INTERVALS as f64),
+    };
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to INTERVALS")]
+    let mut counts = vec![0; intervals as usize];
     let last = counts.len() - 1;
     for value in sorted {
-        let place =
-            if last == 0 { 0.0 } else { (value - from) / (to - from) * counts.len() as f64 };
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to the last")]
-        let interval = (place as usize).min(last);
-        counts[interval] += 1;
+        let interval = ((value - from) / (to - from) * intervals) as usize;
+        counts[interval.min(last)] += 1;
     }
     Histogram { from, to, counts }
+}
+
+/// The step of which all differences of ascending numbers, not all the same, are multiples; `None` where there is none.
+fn step_between(sorted: &[f64]) -> Option<f64> {
+    let range = sorted[sorted.len() - 1] - sorted[0];
+    let gaps = || sorted.windows(2).map(|pair| pair[1] - pair[0]).filter(|gap| *gap > 1e-9 * range);
+    let step = gaps().fold(range, f64::min);
+    gaps().all(|gap| (gap / step - libm::round(gap / step)).abs() < 1e-6).then_some(step)
 }
 
 /// Quantile of ascending numbers, linear between neighbours.
@@ -153,14 +172,28 @@ mod tests {
 
     #[test]
     fn histograms_count_every_value_once_in_its_interval() {
-        // 0 to 95 in 24 intervals of 95/24 = 3.96: four numbers in each.
-        let values: Vec<f64> = (0..96).rev().map(f64::from).collect();
-        let found = chance(&values).histogram;
-        assert_eq!((found.from, found.to), (0.0, 95.0), "least and largest");
-        assert_eq!(found.counts, [4; 24], "four each");
-        let shares = [0.5, 0.25, 0.25, 0.75, 0.5, 0.25];
-        assert_eq!(chance(&shares).histogram.counts, [3, 2, 1], "three different shares");
+        // Roots of 0 to 100: below 10/24 that of 0 alone, from 23·10/24 = 9.58 on those of 92 to 100.
+        let roots: Vec<f64> = (0..=100).rev().map(|i| f64::from(i).sqrt()).collect();
+        let found = chance(&roots).histogram;
+        assert_eq!((found.from, found.to, found.counts.len()), (0.0, 10.0, 24), "roots");
+        assert_eq!((found.counts[0], found.counts[23]), (1, 9), "ends: {:?}", found.counts);
+        assert_eq!(found.counts.iter().sum::<usize>(), 101, "each once");
         let same = chance(&[2.0; 5]).histogram;
         assert_eq!((same.from, same.to, same.counts), (2.0, 2.0, vec![5]), "one number");
+    }
+
+    #[test]
+    fn histograms_of_shares_hold_equally_many_of_them_in_each_interval() {
+        // 96 whole numbers, four an interval; 30 of them two an interval.
+        for (values, width) in [(96, 4), (30, 2)] {
+            let all: Vec<f64> = (0..values).map(f64::from).collect();
+            let found = chance(&all).histogram;
+            assert_eq!((found.from, found.to), (-0.5, f64::from(values) - 0.5), "{values}");
+            assert!(found.counts.iter().all(|count| *count == width), "{:?}", found.counts);
+        }
+        // Twentieths without 0.4: its interval is empty.
+        let found = chance(&[0.35, 0.3, 0.45, 0.35, 0.5]).histogram;
+        assert_eq!(found.counts, [1, 2, 0, 1, 1], "each its own");
+        assert!((found.from - 0.275).abs() < 1e-12 && (found.to - 0.525).abs() < 1e-12, "centred");
     }
 }

@@ -145,11 +145,11 @@ pub struct Chance {
 #[cfg_attr(test, derive(ts_rs::TS))]
 #[serde(rename_all = "camelCase")]
 pub struct Histogram {
-    /// Smallest value, where the first interval begins.
+    /// Where the first interval begins.
     pub from: f64,
-    /// Largest value, where the last interval ends.
+    /// Where the last interval ends; that is where it begins when all values are the same.
     pub to: f64,
-    /// Values in each interval; of all values when they are the same.
+    /// Values in each interval.
     pub counts: Vec<usize>,
 }
 

@@ -475,11 +475,11 @@ export type ReachReport = {
 
 /** Counts of values in intervals of equal width. */
 export type Histogram = {
-  /** Smallest value, where the first interval begins. */
+  /** Where the first interval begins. */
   from: number,
-  /** Largest value, where the last interval ends. */
+  /** Where the last interval ends; that is where it begins when all values are the same. */
   to: number,
-  /** Values in each interval; of all values when they are the same. */
+  /** Values in each interval. */
   counts: Array<number>,
 };
 

@@ -17,7 +17,10 @@ const few = (found: EvidenceReport, hypothesis: Partial<Hypothesis>): EvidenceRe
 test("the verdict is yes, no, or that it cannot be said", () => {
   const yes = said.verdict(differing);
   assert.equal(yes.differs, true);
-  assert.match(plain(yes.phrase), /^The groups differ by more than chance, by 20 shapes of A/);
+  assert.match(
+    plain(yes.phrase),
+    /^The groups differ by more than chance, as 20 shapes of A and 20 of B show\.$/,
+  );
   const no = said.verdict(null_);
   assert.equal(no.differs, false);
   assert.match(plain(no.phrase), /^The groups differ by no more than chance/);
@@ -78,15 +81,20 @@ test("too few relabellings are told from too few shapes", () => {
   assert.match(words({ permutations: 252, exhaustive: true }), /exact, of all 252 relabellings/);
 });
 
-test("a statistic is within chance or more than that", () => {
+test("a statistic is within chance, less, more, or more only before the adjustment", () => {
+  const of = (observed: number, pAdjusted: number) => {
+    const [first, ...rest] = null_.onePopulation.statistics;
+    assert.ok(first);
+    const statistics = [{ ...first, observed, pAdjusted }, ...rest];
+    return plain(said.statisticSentence(few(null_, { statistics }), "onePopulation", 0, "mm"));
+  };
   assert.equal(
-    plain(said.statisticSentence(null_, "onePopulation", 0, "mm")),
-    "Within chance: 1.50\u202fmm, by chance 1.00\u202fmm to 1.40\u202fmm; adjusted p 1.00.",
+    of(1.3, 1),
+    "Within chance: 1.30\u202fmm, by chance 1.00 to 1.40\u202fmm; adjusted p 1.00.",
   );
-  assert.match(
-    plain(said.statisticSentence(differing, "onePopulation", 0, "mm")),
-    /^More than chance: .*adjusted p 0\.007\.$/,
-  );
+  assert.match(of(1.5, 0.007), /^More than chance: .*adjusted p 0\.007\.$/);
+  assert.match(of(1.5, 0.1), /^Not more than chance for one of 7 statistics: /);
+  assert.match(of(0.9, 1), /^Less than chance: /);
   assert.equal(said.statisticText("principalAngles", 2, "mm"), "2.00\u202frad²");
   assert.equal(said.statisticText("varianceAOutsideB", 0.25, "mm"), "25\u202f%");
   assert.equal(said.statisticText("totalVariances", 0.25, "mm"), "0.250");
@@ -146,11 +154,13 @@ test("a curve is inside its band, below or above it somewhere, or everywhere", (
   const of = (observed: number[]) =>
     said.bandSentence({ observed, mean: observed, p05: p05 ?? [], p95: p95 ?? [] });
   assert.equal(of([1, 1.5, 2]), "Inside the band of chance everywhere.");
-  assert.match(
-    of([1, 0.5, 2]),
-    /^Below the band of chance at 1 of 3 places, first at 2; one in ten/,
+  assert.equal(
+    of([0.9, 1.5, 2.1]),
+    "Outside the band of chance at 2 of 3 places: below it at 1, above it at 1. By chance alone one in ten is outside.",
   );
+  assert.match(of([1.5, 1.5, 0.5]), /at 1 of 3 places: below it at 1\. By/);
   assert.equal(of([3, 3, 3]), "Above the band of chance everywhere.");
+  assert.equal(of([0, 0, 0]), "Below the band of chance everywhere.");
 });
 
 test("groups of different sizes have their shares at equal numbers beside", () => {

@@ -36,13 +36,13 @@ export const QUESTIONS: Record<HypothesisName, Question> = {
   onePopulation: {
     question: "Are both groups of one population?",
     about:
-      "The shapes are dealt at random into two groups of the same sizes, again and again; every difference counts.",
+      "All shapes are divided at random into two groups of the same sizes, again and again; every difference counts.",
     answers: { differs: "No", chance: "They may be" },
   },
   oneCovariance: {
     question: "Do they vary alike about means that may differ?",
     about:
-      "The means stay as they are, and what the shapes of both groups deviate from them is dealt anew: only how they vary counts. Exact for Gaussian populations, else approximate.",
+      "The means stay as they are; the deviations from them are divided at random into two groups, again and again: only how the shapes vary counts. Exact for Gaussian populations, else approximate.",
     answers: { differs: "No", chance: "They may" },
   },
 };
@@ -127,7 +127,7 @@ export function verdict(evidence: EvidenceReport): { differs: boolean | null; ph
     case "differs":
       return {
         differs: true,
-        phrase: ["The groups differ by more than chance, by ", ...counts, "."],
+        phrase: ["The groups differ by more than chance, as ", ...counts, " show."],
       };
     case "chance":
       return {
@@ -237,11 +237,20 @@ export function statisticSentence(
   const path = `evidence.${name}.statistics.${index}`;
   const { chance } = one;
   const show = (value: number) => statisticText(one.name, value, unit);
+  const many = evidence[name].statistics.length;
+  const judged =
+    one.pAdjusted <= LEVEL
+      ? "More than chance: "
+      : one.observed > chance.p95
+        ? `Not more than chance for one of ${many} statistics: `
+        : one.observed < chance.p05
+          ? "Less than chance: "
+          : "Within chance: ";
   return [
-    one.pAdjusted <= LEVEL ? "More than chance: " : "Within chance: ",
+    judged,
     reported(`${path}.observed`, one.observed, show(one.observed)),
     ", by chance ",
-    reported(`${path}.chance.p05`, chance.p05, show(chance.p05)),
+    reported(`${path}.chance.p05`, chance.p05, show(chance.p05).replace(`\u202f${unit}`, "")),
     " to ",
     reported(`${path}.chance.p95`, chance.p95, show(chance.p95)),
     "; adjusted p ",
@@ -367,17 +376,19 @@ export function stabilitySentence(evidence: EvidenceReport, side: Side): Phrase 
     : [...first, `; from ${count(modes + 1)} on they are chance.`];
 }
 
-/** Whether an observed curve leaves the band of chance, and where. */
+/** Whether an observed curve leaves the band of chance, on which side and how often. */
 export function bandSentence({ observed, p05, p95 }: Band): string {
-  const outside = observed.flatMap((value, i) =>
-    value < (p05[i] ?? value) || value > (p95[i] ?? value) ? [i + 1] : [],
-  );
-  const [first] = outside;
-  if (first === undefined) return "Inside the band of chance everywhere.";
-  const above = (observed[first - 1] ?? 0) > (p95[first - 1] ?? 0);
-  const way = above ? "Above" : "Below";
-  if (outside.length === observed.length) return `${way} the band of chance everywhere.`;
-  return `${way} the band of chance at ${count(outside.length)} of ${count(observed.length)} places, first at ${count(first)}; one in ten is outside by chance alone.`;
+  const below = observed.filter((value, i) => value < (p05[i] ?? value)).length;
+  const above = observed.filter((value, i) => value > (p95[i] ?? value)).length;
+  const all = observed.length;
+  if (below + above === 0) return "Inside the band of chance everywhere.";
+  if (below === all) return "Below the band of chance everywhere.";
+  if (above === all) return "Above the band of chance everywhere.";
+  const parts = [
+    ...(below > 0 ? [`below it at ${count(below)}`] : []),
+    ...(above > 0 ? [`above it at ${count(above)}`] : []),
+  ];
+  return `Outside the band of chance at ${count(below + above)} of ${count(all)} places: ${parts.join(", ")}. By chance alone one in ten is outside.`;
 }
 
 /** Why there is no evidence, and what to do to get an answer. */

@@ -18,9 +18,10 @@ interface Props {
 /** Plot of a number under relabelling: bars of its values, the band of 5 to 95 %, and the observed value. */
 export function Histogram({ width, height, chance, observed, acrossName, show }: Props) {
   const { from, to, counts } = chance.histogram;
-  const box = { left: 8, right: width - 8, top: 22, bottom: height - 34 };
+  // Room for half a tick label on either side.
+  const box = { left: 20, right: width - 20, top: 22, bottom: height - 34 };
   const [least, most] = [Math.min(from, observed), Math.max(to, observed)];
-  const x = linear(least, most, box.left + 6, box.right - 6);
+  const x = linear(least, most, box.left, box.right);
   const y = linear(0, Math.max(...counts, 1), box.bottom, box.top + 2);
   const step = (to - from) / counts.length;
   const at = x(observed);

@@ -94,7 +94,7 @@ function BandChart({ plot }: { plot: BandPlot }) {
     <CurveChart
       name={`band-${path.replace(".", "-")}`}
       title={title}
-      about={`${about} ${sentence}`}
+      about={about}
       label={`${title}. ${sentence}`}
       plot={{
         height: 206,
@@ -120,6 +120,8 @@ function BandChart({ plot }: { plot: BandPlot }) {
           }))}
         />
       )}
-    />
+    >
+      <p class="small">{sentence}</p>
+    </CurveChart>
   );
 }

@@ -10,6 +10,7 @@ import {
   verdict,
 } from "../../comparison/evidence";
 import { outOfDate, type Result, result, SIDES } from "../../state/state";
+import { count } from "../../text/format";
 import { Phrase } from "../../ui/Phrase";
 import { BandCharts } from "./BandCharts";
 import { Stability } from "./Stability";
@@ -105,9 +106,10 @@ function OfShapes({ report, evidence }: { report: Report; evidence: EvidenceRepo
       <section class="evidence-part">
         <h3>Curves of the groups, and their band of chance</h3>
         <p class="small">
-          Of models of the groups in one alignment, each with as many modes; the curves of the tab
-          Measures are of the models as they are compared, and may differ. Grey: where 5 to 95 % of
-          the relabelled groups lie.
+          Of models of the two groups in one alignment, with{" "}
+          {evidence.modes === 1 ? "1 mode" : `${count(evidence.modes)} modes`} each; the curves of
+          the tab Measures are of the models as they are compared, and may differ. Grey: 5 to 95 %
+          of the relabelled groups.
         </p>
         <div class="charts">
           <BandCharts evidence={evidence} unit={unit} />

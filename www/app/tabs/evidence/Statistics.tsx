@@ -1,4 +1,4 @@
-import type { EvidenceReport, Statistic } from "../../../worker/protocol";
+import type { EvidenceReport, Statistic, StatisticName } from "../../../worker/protocol";
 import {
   type HypothesisName,
   pText,
@@ -6,7 +6,7 @@ import {
   statisticSentence,
   statisticText,
 } from "../../comparison/evidence";
-import { number } from "../../text/format";
+import { number, percent } from "../../text/format";
 import { plain } from "../../text/phrase";
 import { tickText } from "../../text/plots";
 import { Chart } from "../../ui/Chart";
@@ -46,7 +46,7 @@ export function Statistics({ evidence, name, unit }: Props) {
                   chance={one.chance}
                   observed={one.observed}
                   acrossName={axisName(one, unit)}
-                  show={tickText}
+                  show={isShare(one.name) ? percent : tickText}
                 />
               )}
               table={() => (
@@ -102,8 +102,11 @@ const COLUMNS: StatisticColumn[] = [
   { title: "adjusted", path: "pAdjusted", of: (one) => one.pAdjusted, show: pText },
 ];
 
+const isShare = (name: StatisticName) =>
+  name === "varianceAOutsideB" || name === "varianceBOutsideA";
+
 function axisName({ name }: Statistic, unit: string): string {
   if (name === "means" || name === "distanceAToB" || name === "distanceBToA") return unit;
   if (name === "principalAngles") return "rad²";
-  return name === "totalVariances" ? "|log|" : "share";
+  return isShare(name) ? "share of the variance" : "|log|";
 }
