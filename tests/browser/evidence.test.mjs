@@ -38,9 +38,9 @@ test("models whose shapes are not known have no evidence, and what to drop is sa
     assert.equal(await verdict(page).getAttribute("data-answer"), "none");
     assert.match(
       await verdict(page).innerText(),
-      /not known.\s+Drop the folder of the shapes of A/,
+      /not known.\s+Drop the folders of the shapes of A/,
     );
-    await dropFiles(page, "body", [...sample("one", 1, 12), ...sample("two", 2, 12)]);
+    await dropFiles(page, "body", [...sample("one", 11, 12), ...sample("two", 12, 12)]);
     await untilCompared(page, { a: "one", b: "two" });
     assert.notEqual(await verdict(page).getAttribute("data-answer"), "none");
     // None are asked for.
@@ -55,7 +55,7 @@ test("models whose shapes are not known have no evidence, and what to drop is sa
 
 test("two samples of one population differ by no more than chance, and every number is the report's", async () => {
   await withPage({}, async ({ url, page }) => {
-    await openSamples(page, url, [...sample("one", 1, 20), ...sample("two", 2, 20)]);
+    await openSamples(page, url, [...sample("one", 11, 20), ...sample("two", 12, 20)]);
     assert.equal(await verdict(page).getAttribute("data-answer"), "chance");
     assert.match(await part(page, "onePopulation").innerText(), /They may be: none of the 7/);
     assert.match(await part(page, "oneCovariance").innerText(), /They may: none of the 6/);
@@ -94,7 +94,7 @@ test("two samples of one population differ by no more than chance, and every num
 
 test("samples of two populations differ, unequal and small groups are told, and the modes suggested are taken", async () => {
   await withPage({}, async ({ url, page }) => {
-    await openSamples(page, url, [...sample("one", 3, 22), ...sample("two", 4, 7, true)]);
+    await openSamples(page, url, [...sample("one", 13, 22), ...sample("two", 14, 7, true)]);
     assert.equal(await verdict(page).getAttribute("data-answer"), "differs");
     assert.match(await part(page, "onePopulation").innerText(), /No: the distance of the means/);
     assert.equal(await metric(page, "evidence.toldApart.b.share"), 1);

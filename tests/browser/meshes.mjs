@@ -79,6 +79,6 @@ export function sample(folder, seed, count, other = false) {
   const deviations = other ? [0.6, 2.5, 1.5, 0.8] : [2.5, 1.5, 1, 0.6];
   return Array.from({ length: count }, (_, i) => ({
     name: `${folder}/${String(i + 1).padStart(2, "0")}.obj`,
-    bytes: sheet(normal, deviations, other ? 4 : 0),
+    bytes: sheet(normal, deviations, other ? 9 : 0),
   }));
 }

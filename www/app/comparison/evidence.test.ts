@@ -185,10 +185,10 @@ test("where there is no evidence, the reason and what to do are said", () => {
     };
   };
   const neither = said.noEvidence(known(undefined, undefined), false);
-  assert.match(neither.message, /the models of A and of B were made are not known/);
-  assert.match(neither.hint, /^Drop the folder of the shapes of A and of B/);
+  assert.match(neither.message, /from which models A and B were made are not known/);
+  assert.match(neither.hint, /^Drop the folders of the shapes of A and B in place of the models/);
   const one = said.noEvidence(known(20, undefined), false);
-  assert.match(one.message, /the model of B was made are not known/);
+  assert.match(one.message, /from which model B was made are not known/);
   assert.match(one.hint, /^Drop the folder of the shapes of B in place of the model/);
   assert.match(said.noEvidence(known(20, 20), true).hint, /^Run it again/);
   assert.match(said.noEvidence(known(3, 20), false).message, /at least 4 shapes/);

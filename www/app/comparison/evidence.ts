@@ -404,10 +404,12 @@ export function noEvidence(report: Report, cancelled: boolean): { message: strin
     (side) => report.models[side].trainingShapes == null,
   );
   if (unknown.length > 0) {
-    const of = unknown.map((side) => side.toUpperCase()).join(" and of ");
+    const of = unknown.map((side) => side.toUpperCase()).join(" and ");
+    const [model, was, folder] =
+      unknown.length === 1 ? ["model", "was", "folder"] : ["models", "were", "folders"];
     return {
-      message: `Whether the difference is more than chance cannot be said: the shapes from which the ${unknown.length === 1 ? "model" : "models"} of ${of} ${unknown.length === 1 ? "was" : "were"} made are not known.`,
-      hint: `Drop the folder of the shapes of ${of} in place of the ${unknown.length === 1 ? "model" : "models"} (meshes or landmarks with the same points in the same order), or a file that has its training coefficients.`,
+      message: `Whether the difference is more than chance cannot be said: the shapes from which ${model} ${of} ${was} made are not known.`,
+      hint: `Drop the ${folder} of the shapes of ${of} in place of the ${model} (meshes or landmarks with the same points in the same order), or a file that has its training coefficients.`,
     };
   }
   if (cancelled) {

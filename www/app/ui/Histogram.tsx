@@ -26,7 +26,7 @@ export function Histogram({ width, height, chance, observed, acrossName, show }:
   const step = (to - from) / counts.length;
   const at = x(observed);
   const end = at > (box.left + box.right) / 2;
-  const across = ticks(least, most, Math.max(2, Math.floor(width / 110))).filter(
+  const across = ticks(least, most, Math.max(3, Math.floor(width / 80))).filter(
     (value) => value >= least && value <= most,
   );
   return (
