@@ -1,5 +1,5 @@
 import type { Band, EvidenceReport } from "../../../worker/protocol";
-import { bandSentence } from "../../comparison/evidence";
+import { bandSentence } from "../../comparison/groups";
 import { degrees, number, percent } from "../../text/format";
 import { CurveChart } from "../../ui/Curves";
 import { DataTable } from "../../ui/DataTable";

@@ -2,13 +2,11 @@ import type { EvidenceReport, Report } from "../../../worker/protocol";
 import {
   HYPOTHESES,
   hypothesisSentence,
-  leftOutSentence,
-  matchedSentence,
   noEvidence,
-  pointsSentence,
   QUESTIONS,
   verdict,
 } from "../../comparison/evidence";
+import { leftOutSentence, matchedSentence, pointsSentence } from "../../comparison/groups";
 import { outOfDate, type Result, result, SIDES } from "../../state/state";
 import { count } from "../../text/format";
 import { Phrase } from "../../ui/Phrase";
@@ -47,7 +45,7 @@ function OfResult({ found: { report, cancelled } }: { found: Result }) {
 
 function OfShapes({ report, evidence }: { report: Report; evidence: EvidenceReport }) {
   const { unit } = report.models.a;
-  const { differs, phrase } = verdict(evidence);
+  const { differs, phrase, caution } = verdict(evidence);
   const matched = matchedSentence(evidence);
   return (
     <>
@@ -55,6 +53,7 @@ function OfShapes({ report, evidence }: { report: Report; evidence: EvidenceRepo
         <h2>
           <Phrase parts={phrase} />
         </h2>
+        {caution && <p>{caution}</p>}
         <p>
           <Phrase parts={pointsSentence(evidence)} />
         </p>

@@ -1,5 +1,5 @@
 import type { EvidenceReport, Report, Side } from "../../../worker/protocol";
-import { stabilitySentence } from "../../comparison/evidence";
+import { stabilitySentence } from "../../comparison/groups";
 import { keptModes } from "../../state/preparation";
 import { change, settings, slots, spoken } from "../../state/state";
 import { count, percent } from "../../text/format";

@@ -1,5 +1,5 @@
 import type { EvidenceReport, Side } from "../../../worker/protocol";
-import { toldApartSentence } from "../../comparison/evidence";
+import { toldApartSentence } from "../../comparison/groups";
 import { percent } from "../../text/format";
 import { plain } from "../../text/phrase";
 import { Chart } from "../../ui/Chart";
