@@ -34,7 +34,14 @@ async function openSamples(page, url, samples) {
 
 test("models whose shapes are not known have no evidence, and what to drop is said", async () => {
   await withPage({}, async ({ url, page }) => {
-    await openLink(page, url, LINK);
+    await openLink(page, url, LINK.replace("&room=evidence", ""));
+    const views = page.getByRole("navigation", { name: "Views" });
+    await views.getByRole("button", { name: "Evidence" }).click();
+    assert.match(page.url(), /room=evidence/);
+    await page.goBack();
+    await tab(page).waitFor({ state: "detached" });
+    await page.goForward();
+    await tab(page).waitFor();
     assert.equal(await verdict(page).getAttribute("data-answer"), "none");
     assert.match(
       await verdict(page).innerText(),
@@ -78,6 +85,23 @@ test("two samples of one population differ by no more than chance, and every num
       "every relabelling once",
     );
     assert.deepEqual([rows[0][0], rows.at(-1)[1]], [from, to], "from the least to the largest");
+    // As tall as they say, with the observed value where it is among them.
+    const drawn = await means.locator("svg").evaluate((svg) => ({
+      bars: [...svg.querySelectorAll(".chance-bars rect")].map(({ x, width, height }) => ({
+        left: x.baseVal.value,
+        right: x.baseVal.value + width.baseVal.value + 1,
+        height: height.baseVal.value,
+      })),
+      observed: svg.querySelector(".observed line").x1.baseVal.value,
+    }));
+    const [tallest, most] = [Math.max(...drawn.bars.map((bar) => bar.height)), Math.max(...counts)];
+    counts.forEach((count, i) => {
+      const { height } = drawn.bars[i];
+      assert.ok(Math.abs(height / tallest - count / most) < 1e-6, `bar ${i}: ${height}`);
+    });
+    const [first, last] = [drawn.bars[0].left, drawn.bars.at(-1).right];
+    const at = (evidence.onePopulation.statistics[0].observed - from) / (to - from);
+    assert.ok(Math.abs(drawn.observed - (first + at * (last - first))) < 0.5, "observed");
     const saved = await saveCsv(page, means.getByRole("button", { name: /^CSV/ }));
     assert.equal(saved.name, "chance-onePopulation-means.csv");
     assert.equal(saved.rows.length, counts.length + 1);

@@ -140,7 +140,7 @@ export function verdict(evidence: EvidenceReport): Verdict {
     case "chance":
       return {
         differs: false,
-        phrase: ["The groups differ by no more than chance, by ", ...counts, "."],
+        phrase: ["The groups differ by no more than chance, as far as ", ...counts, " show."],
         caution:
           outcome(evidence.oneCovariance) === "differs"
             ? "About their means, though, they vary differently: see the second question."

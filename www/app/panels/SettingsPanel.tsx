@@ -135,8 +135,7 @@ function More() {
         name="permutations"
         standard={DEFAULTS.permutations}
         range={rangeOf("permutations")}
-        suffix="of the shapes"
-        help="How often the training shapes are dealt at random into two groups, to see what chance would give; 0 for none. With more the p-values are more exact: 99 are too few for a small p, 999 are usual."
+        help="How often the training shapes are divided at random into two groups, to see what chance would give; 0 for none. With more the p-values are more exact: 99 are too few for a small p, 999 are usual."
       />
       <h3>Differences</h3>
       <DifferenceFields />
