@@ -55,16 +55,13 @@ fn groups_of_one_population_and_of_two_are_called_so() {
     let a = population(&group(15, 0.0, 1));
     let null = report(&compared(&a, &population(&group(15, 0.0, 2)), few()));
     let text = said(&null, Topic::NoMoreThanChance).unwrap();
-    assert!(text.starts_with("No more than chance would give: from what the first "), "{text}");
-    assert!(
-        text.contains("two random groups of 15 and 15 of all these shapes would lie"),
-        "{text}"
-    );
+    assert!(text.starts_with("No more than chance would give: the shapes of "), "{text}");
+    assert!(text.contains(", two random groups of 15 and 15 of all these shapes "), "{text}");
     assert_eq!(said(&null, Topic::MoreThanChance), None, "one of the two");
     let two = report(&compared(&a, &population(&group(15, 3.0, 2)), few()));
     let text = said(&two, Topic::MoreThanChance).unwrap();
-    assert!(text.starts_with("More than chance: from what the first "), "{text}");
-    assert!(text.contains("least p of 7 statistics, corrected for their number: 0.0"), "{text}");
+    assert!(text.starts_with("More than chance: the shapes of "), "{text}");
+    assert!(text.contains(" (root mean squares; corrected p 0.0"), "{text}");
     assert_eq!(said(&two, Topic::NoMoreThanChance), None, "one of the two");
     let text = said(&two, Topic::ToldApartA).unwrap();
     let start = "Left out of its own group, a shape of A is still nearer to it than to B in 100 % of the cases (by chance in ";
@@ -92,7 +89,10 @@ fn groups_that_differ_in_something_else_than_distance_are_told_what() {
     };
     let found = report(&compared(&flat(3, 6.0), &flat(4, 3.0), few()));
     let text = said(&found, Topic::MoreThanChance).unwrap();
-    assert!(text.contains("the amount of variance"), "{text}");
+    assert!(
+        text.contains("the amounts of variance differ (corrected p ") && text.contains("though "),
+        "{text}"
+    );
 }
 
 #[test]
@@ -135,6 +135,12 @@ fn where_chance_is_not_known_the_reason_and_the_remedy_are_said() {
     }
     let none = report(&compared(&a, &b, Settings { permutations: 0, ..few() }));
     assert!(unknown(&none).contains("no relabellings were asked for"), "{}", unknown(&none));
+    let few_of_them = report(&compared(&a, &b, Settings { permutations: 99, ..few() }));
+    let text = unknown(&few_of_them);
+    assert!(text.contains("99 relabellings are too few for a corrected p of 0.05. Set"), "{text}");
+    let (four, other) = (population(&group(4, 0.0, 12)), population(&group(4, 0.0, 13)));
+    let text = unknown(&report(&compared(&four, &other, few())));
+    assert!(text.contains("only 70 ways to divide so few shapes"), "{text}");
     let three = report(&compared(&a, &population(&group(3, 0.0, 9)), few()));
     assert!(unknown(&three).contains("group B has 3 shapes"), "{}", unknown(&three));
     // Shapes that are in both groups.

@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::{EvidenceReport, Hypothesis, Notice, Report, StatisticName};
 use crate::model::{Side, Sides};
 use crate::pair::ReachOfSide;
+use crate::text::three_digits;
 
 /// Level of the answer: below it a difference is called more than chance.
 pub const LEVEL: f64 = 0.05;
@@ -80,6 +81,8 @@ pub enum Part {
 pub enum Quantity {
     /// A length in the unit of A.
     Length,
+    /// The same where its unit follows.
+    LengthWithoutUnit,
     /// A share of a whole, in per cent.
     Share,
     /// A whole number.
@@ -142,6 +145,13 @@ pub enum NoEvidence {
     NotAsked,
     /// The run was ended before.
     Cancelled,
+    /// So few relabellings cannot speak against chance, whatever the shapes.
+    TooFew {
+        /// How many there are.
+        relabellings: usize,
+        /// Whether there are no more.
+        all: bool,
+    },
     /// The shapes cannot be compared.
     Refused(Notice),
 }
@@ -224,15 +234,15 @@ fn compares(name: StatisticName) -> &'static str {
         StatisticName::VarianceBOutsideA => "the variance of B that modes of A hold",
         StatisticName::DistanceAToB => "the distance of A’s shapes to B",
         StatisticName::DistanceBToA => "the distance of B’s shapes to A",
-        StatisticName::TotalVariances => "the amount of variance",
+        StatisticName::TotalVariances => "the amounts of variance",
         StatisticName::PrincipalAngles => "the directions of the modes",
     }
 }
 
-/// Statistics that a hypothesis does not explain.
-fn significant(hypothesis: &Hypothesis) -> impl Iterator<Item = usize> {
-    let found = hypothesis.statistics.iter().enumerate();
-    found.filter(|(_, one)| one.p_adjusted <= LEVEL).map(|(place, _)| place)
+/// The smallest adjusted p that so many relabellings can give.
+fn least_possible(hypothesis: &Hypothesis) -> f64 {
+    let labellings = hypothesis.permutations + usize::from(!hypothesis.exhaustive);
+    (hypothesis.statistics.len() as f64 / labellings as f64).min(1.0)
 }
 
 fn chance(evidence: &EvidenceReport) -> Sentence {
@@ -240,72 +250,88 @@ fn chance(evidence: &EvidenceReport) -> Sentence {
         return unknown(&NoEvidence::Refused(shared.clone()));
     }
     let hypothesis = &evidence.one_population;
-    let differing: Vec<usize> = significant(hypothesis).collect();
-    let about = if differing.is_empty() { Topic::NoMoreThanChance } else { Topic::MoreThanChance };
-    let mut parts = vec![words(if differing.is_empty() {
-        "no more than chance would give: "
-    } else {
-        "more than chance: "
-    })];
-    // The distance that speaks loudest, as it is what the sentences before are about.
-    let distances =
-        [(StatisticName::DistanceAToB, Side::A), (StatisticName::DistanceBToA, Side::B)];
-    let of = |name: StatisticName| hypothesis.statistics.iter().position(|one| one.name == name);
-    let lead = distances.into_iter().filter_map(|(name, side)| Some((of(name)?, side))).min_by(
-        |(one, _), (other, _)| {
-            hypothesis.statistics[*one].p.total_cmp(&hypothesis.statistics[*other].p)
-        },
-    );
-    if let Some((place, side)) = lead {
-        let statistic = &hypothesis.statistics[place];
-        let path = |name: &str| format!("evidence.onePopulation.statistics.{place}.{name}");
-        let length = |name: &str, value| number(path(name), value, Quantity::Length);
-        let count = |name: &str, value: usize| {
-            number(format!("evidence.{name}"), value as f64, Quantity::Count)
-        };
-        let other = side.other();
-        parts.extend([
-            words("from what the first "),
-            count("modes", evidence.modes),
-            words(" modes of "),
-            Name::model(other),
-            words(" make of them, "),
-            Name::shapes(side),
-            words(" lie "),
-            length("observed", statistic.observed),
-            words(" in root mean square; two random groups of "),
-            count("shapes.a", evidence.shapes.a),
-            words(" and "),
-            count("shapes.b", evidence.shapes.b),
-            words(" of all these shapes would lie "),
-            length("chance.mean", statistic.chance.mean),
-            words(" ± "),
-            length("chance.standardDeviation", statistic.chance.standard_deviation),
-            words(" apart"),
-        ]);
-        if !differing.is_empty() && !differing.contains(&place) {
-            parts.push(words(", which they do; but "));
-            parts.push(words(&listed(
-                differing.iter().map(|&place| compares(hypothesis.statistics[place].name)),
-            )));
-            parts.push(words(" differ"));
-        }
+    let differing: Vec<usize> = (0..hypothesis.statistics.len())
+        .filter(|&place| hypothesis.statistics[place].p_adjusted <= LEVEL)
+        .collect();
+    if differing.is_empty() && least_possible(hypothesis) > LEVEL {
+        return unknown(&NoEvidence::TooFew {
+            relabellings: hypothesis.permutations,
+            all: hypothesis.exhaustive,
+        });
     }
-    let least = hypothesis
-        .statistics
-        .iter()
-        .enumerate()
-        .min_by(|(_, one), (_, other)| one.p_adjusted.total_cmp(&other.p_adjusted));
-    if let Some((place, statistic)) = least {
+    let adjusted = |place: usize| {
         let path = format!("evidence.onePopulation.statistics.{place}.pAdjusted");
-        parts.push(words(" (least p of "));
-        parts.push(words(&hypothesis.statistics.len().to_string()));
-        parts.push(words(" statistics, corrected for their number: "));
-        parts.push(number(path, statistic.p_adjusted, Quantity::PValue));
-        parts.push(words(")"));
-    }
-    parts.push(words("."));
+        number(path, hypothesis.statistics[place].p_adjusted, Quantity::PValue)
+    };
+    let least = |among: &mut dyn Iterator<Item = usize>| {
+        among.min_by(|&one, &other| {
+            let p = |place: usize| hypothesis.statistics[place].p;
+            p(one).total_cmp(&p(other))
+        })
+    };
+    let Some(strongest) = least(&mut (0..hypothesis.statistics.len())) else {
+        return unknown(&NoEvidence::NotAsked);
+    };
+    // The distance that speaks loudest, as distances are what the sentences before are about.
+    let is_distance =
+        |name| matches!(name, StatisticName::DistanceAToB | StatisticName::DistanceBToA);
+    let mut distances = (0..hypothesis.statistics.len())
+        .filter(|&place| is_distance(hypothesis.statistics[place].name));
+    let lead = least(&mut distances).unwrap_or(strongest);
+    let clause = distance_clause(evidence, lead);
+    let (about, parts) = if differing.is_empty() {
+        let many = hypothesis.statistics.len();
+        let end = format!(" (root mean squares; least corrected p of {many} statistics ");
+        let start = vec![words("no more than chance would give: ")];
+        (
+            Topic::NoMoreThanChance,
+            [start, clause, vec![words(&end), adjusted(strongest), words(").")]].concat(),
+        )
+    } else if differing.contains(&lead) {
+        let end = vec![words(" (root mean squares; corrected p "), adjusted(lead), words(").")];
+        (Topic::MoreThanChance, [vec![words("more than chance: ")], clause, end].concat())
+    } else {
+        let what =
+            listed(differing.iter().map(|&place| compares(hypothesis.statistics[place].name)));
+        let start = vec![
+            words(&format!("more than chance: {what} differ (corrected p ")),
+            adjusted(strongest),
+            words("), though "),
+        ];
+        (Topic::MoreThanChance, [start, clause, vec![words(".")]].concat())
+    };
     Sentence { about, parts }
+}
+
+/// How far the shapes of a group lie from the other's modes, beside random groups.
+fn distance_clause(evidence: &EvidenceReport, place: usize) -> Vec<Part> {
+    let statistic = &evidence.one_population.statistics[place];
+    let side = if statistic.name == StatisticName::DistanceBToA { Side::B } else { Side::A };
+    let path = |name: &str| format!("evidence.onePopulation.statistics.{place}.{name}");
+    let count = |name: &str, value: usize| {
+        number(format!("evidence.{name}"), value as f64, Quantity::Count)
+    };
+    vec![
+        Name::shapes(side),
+        words(" lie "),
+        number(path("observed"), statistic.observed, Quantity::Length),
+        words(" from the first "),
+        count("modes", evidence.modes),
+        words(" modes of "),
+        Name::model(side.other()),
+        words(", two random groups of "),
+        count("shapes.a", evidence.shapes.a),
+        words(" and "),
+        count("shapes.b", evidence.shapes.b),
+        words(" of all these shapes "),
+        number(path("chance.mean"), statistic.chance.mean, Quantity::LengthWithoutUnit),
+        words(" ± "),
+        number(
+            path("chance.standardDeviation"),
+            statistic.chance.standard_deviation,
+            Quantity::Length,
+        ),
+    ]
 }
 
 fn told_apart(side: Side, evidence: &EvidenceReport) -> Sentence {
@@ -313,7 +339,7 @@ fn told_apart(side: Side, evidence: &EvidenceReport) -> Sentence {
         Side::A => (Topic::ToldApartA, "a"),
         Side::B => (Topic::ToldApartB, "b"),
     };
-    let found = evidence.told_apart[side];
+    let found = &evidence.told_apart[side];
     let path = format!("evidence.toldApart.{letter}");
     let share = |name: &str, value| number(format!("{path}.{name}"), value, Quantity::Share);
     let parts = vec![
@@ -346,6 +372,12 @@ fn unknown(missing: &NoEvidence) -> Sentence {
         NoEvidence::NotAsked => {
             "no relabellings were asked for. Set their number above 0 to learn it.".to_owned()
         }
+        NoEvidence::TooFew { relabellings, all: true } => format!(
+            "there are only {relabellings} ways to divide so few shapes into two groups, too few for a corrected p of {LEVEL}. Add shapes to learn it."
+        ),
+        NoEvidence::TooFew { relabellings, all: false } => format!(
+            "{relabellings} relabellings are too few for a corrected p of {LEVEL}. Set their number to 999 to learn it."
+        ),
         NoEvidence::Cancelled => "the run was ended before. Run it again to learn it.".to_owned(),
         NoEvidence::Refused(notice) => {
             let mut message = notice.message.clone();
@@ -392,7 +424,8 @@ impl Sentence {
 impl Quantity {
     fn written(self, value: f64, unit: &str) -> String {
         match self {
-            Self::Length => format!("{} {unit}", crate::text::three_digits(value)),
+            Self::Length => format!("{} {unit}", three_digits(value)),
+            Self::LengthWithoutUnit => three_digits(value),
             Self::Share => {
                 let percent = 100.0 * value;
                 // Never “100 %” for less than all, nor “0 %” for more than none.

@@ -62,7 +62,7 @@ interface Pending {
   onRead?: OnRead;
 }
 
-type OnProgress = (progress: Progress, seconds: number) => void;
+type OnProgress = (progress: Progress, seconds: number, report?: string) => void;
 type OnRead = (bytes: number, of: number) => void;
 
 type Request = ToEngine extends infer M
@@ -387,7 +387,9 @@ export class EngineClient {
         break;
       case "progress":
         this.#restarts = 0;
-        this.#pending.get(message.id)?.onProgress?.(message.progress, message.seconds);
+        this.#pending
+          .get(message.id)
+          ?.onProgress?.(message.progress, message.seconds, message.report);
         break;
       case "reading":
         // Making the model of what was read is one piece of work.

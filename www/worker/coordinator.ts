@@ -285,7 +285,8 @@ export class Coordinator {
       if (changed || now - run.posted >= POST_EVERY_MS) {
         run.posted = now;
         const seconds = (now - run.begun) / 1000;
-        this.#post({ t: "progress", id: run.id, progress, seconds });
+        const known = changed && progress.stage === "evidence" && { report: this.#report(run) };
+        this.#post({ t: "progress", id: run.id, progress, seconds, ...known });
       } else {
         this.#post({ t: "beat" });
       }
@@ -295,10 +296,14 @@ export class Coordinator {
 
   #finish(run: Run, cancelled: boolean): void {
     this.#busy("measuring");
-    const total = (performance.now() - run.begun) / 1000;
-    const report = this.#engine.report(total, run.drawing / 1000, run.loading);
+    const report = this.#report(run);
     this.#run = null;
     this.#post({ t: "done", id: run.id, cancelled, report });
+  }
+
+  #report(run: Run): string {
+    const total = (performance.now() - run.begun) / 1000;
+    return this.#engine.report(total, run.drawing / 1000, run.loading);
   }
 
   #busy(what: string): void {

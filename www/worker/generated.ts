@@ -641,7 +641,7 @@ export type EvidenceReport = {
 export type Topic = "reach-of-a" | "reach-of-b" | "more-than-chance" | "no-more-than-chance" | "chance-unknown" | "told-apart-a" | "told-apart-b";
 
 /** What a number is, which decides how it is written. */
-export type Quantity = "length" | "share" | "count" | "p-value";
+export type Quantity = "length" | "length-without-unit" | "share" | "count" | "p-value";
 
 /** A model or its shapes, as a sentence names them. */
 export type Name = "model-a" | "model-b" | "shape-of-a" | "shape-of-b" | "shapes-of-a" | "shapes-of-b";

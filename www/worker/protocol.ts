@@ -163,7 +163,8 @@ export type FromEngine =
   | { t: "inspected"; id: number; inspection: Inspection }
   | { t: "points"; id: number; points: PointSelection }
   | ({ t: "compared"; id: number } & Sides<Geometry>)
-  | { t: "progress"; id: number; progress: Progress; seconds: number }
+  /** `report` once, as soon as it stands but for the evidence. */
+  | { t: "progress"; id: number; progress: Progress; seconds: number; report?: string }
   /** Also after cancel: partial results are results. `report` is the JSON text, as downloaded. */
   | { t: "done"; id: number; cancelled: boolean; report: string }
   | { t: "restored"; id: number }

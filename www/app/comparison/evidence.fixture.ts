@@ -64,8 +64,8 @@ export function madeUpEvidence(
     sharedShapes: 0,
     modes: 3,
     leftOut: {
-      a: { mean: 1.21, standardDeviation: 0.31 },
-      b: { mean: 1.44, standardDeviation: 0.28 },
+      a: { mean: 1.21, standardDeviation: 0.31, beyondSigma: 0.39 },
+      b: { mean: 1.44, standardDeviation: 0.28, beyondSigma: 0.44 },
     },
     permutations: 999,
     onePopulation: hypothesis(NAMES),

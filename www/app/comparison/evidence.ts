@@ -8,6 +8,7 @@ import type {
 } from "../../worker/protocol";
 import { count, length, number, percent } from "../text/format";
 import { type Phrase, reported } from "../text/phrase";
+import { pText } from "./answer";
 
 /** Chance of a false alarm that is accepted, over all statistics of a hypothesis together. */
 const LEVEL = 0.05;
@@ -74,12 +75,6 @@ export function statisticText(name: StatisticName, value: number, unit: string):
   }
   if (name === "varianceAOutsideB" || name === "varianceBOutsideA") return percent(value);
   return name === "principalAngles" ? `${number(value)}\u202frad²` : number(value);
-}
-
-/** A p-value, with as many digits as it is judged by. */
-export function pText(p: number): string {
-  if (p >= 0.1) return p.toFixed(2);
-  return p >= 0.0005 ? p.toFixed(3) : number(p, 1);
 }
 
 export function outcome(hypothesis: Hypothesis): Outcome {

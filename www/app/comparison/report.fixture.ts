@@ -51,6 +51,20 @@ export function madeUpReport(settings: Partial<Settings> = {}, names = { a: "a",
       curve: { sigma: [0.3, 3, 30], aWithoutB: [1, 0.4, 0.01], bWithoutA: [1, 0.38, 0.01] },
     },
     evidence: null,
+    answer: [
+      {
+        about: "reach-of-a",
+        parts: [
+          { name: "shape-of-a" },
+          " lies ",
+          { metric: "reach.aToB.mean", value: 3.02, quantity: "length" },
+          " from the nearest that ",
+          { name: "model-b" },
+          " can make.",
+        ],
+      },
+      { about: "chance-unknown", parts: ["whether this is more than chance cannot be said."] },
+    ],
     intersection: {
       modes: 31,
       standardDeviations: deviations,

@@ -146,29 +146,36 @@ export async function start(): Promise<void> {
   const restoreShapes = keepShapes();
   const refine = refiner(running);
   const begun = performance.now();
+  let early = false;
   try {
     const done = await engineClient().run(
       controller.signal,
       a.model,
       b.model,
       settings.value,
-      (progress, seconds) => {
+      (progress, seconds, known) => {
         if (runController !== controller) return;
         run.value = { progress, seconds, cancelling: controller.signal.aborted };
-        refine(progress, performance.now() - begun);
+        // The report stands while what chance would give is still computed.
+        if (known !== undefined) {
+          early = true;
+          show(running, { report: known, cancelled: false }, sources);
+          void showRegions(REGIONS);
+        } else if (!early) {
+          refine(progress, performance.now() - begun);
+        }
       },
     );
     if (runController !== controller) return;
-    const report = JSON.parse(done.report) as Report;
-    const nothing = done.cancelled && report.intersection.diagnostics.draws === 0;
-    if (nothing && result.value !== null) {
+    const { draws } = (JSON.parse(done.report) as Report).intersection.diagnostics;
+    if (done.cancelled && draws === 0 && result.value !== null) {
       failedKey.value = key;
       restoreShapes();
       spoken.value = "Cancelled before there were any draws. The previous result is still shown.";
       return;
     }
-    finish(running, report, done, sources);
-    await showRegions(REGIONS);
+    finish(running, done, sources);
+    if (!early) await showRegions(REGIONS);
   } catch (thrown) {
     if (runController !== controller) return;
     failedKey.value = key;
@@ -216,18 +223,33 @@ function giveUp(): void {
   controller?.abort();
 }
 
-function finish(
+interface Reported {
+  /** The report as text. */
+  report: string;
+  cancelled: boolean;
+}
+
+/** Shows the numbers of a run. */
+function show(
   ran: Held,
-  report: Report,
-  { report: text, cancelled }: { report: string; cancelled: boolean },
+  { report: text, cancelled }: Reported,
   sources: Sides<string | null>,
-): void {
+): Report {
+  const report = JSON.parse(text) as Report;
   const { key } = ran;
   batch(() => {
     preview.value = null;
     held.value = ran;
     result.value = { report, text, key, sources, nouns: nouns.value, stored: false, cancelled };
+  });
+  return report;
+}
+
+function finish(ran: Held, done: Reported, sources: Sides<string | null>): void {
+  const { cancelled } = done;
+  const report = batch(() => {
     run.value = null;
+    return show(ran, done, sources);
   });
   const verdict = plain(belief(report).phrase);
   spoken.value = cancelled

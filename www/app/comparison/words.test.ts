@@ -11,9 +11,19 @@ import * as words from "./words";
 const report = madeUpReport();
 const { nouns } = FIRST_DEMO;
 
-test("the headline says what each can make of the other", () => {
+test("the headline says how far the shapes of one lie from the other", () => {
   assert.equal(
     plain(words.headline(report, nouns)),
+    "A male head lies 3.02\u202fmm from the nearest that the female model can make.",
+  );
+  const { answer: _, ...older } = report;
+  assert.deepEqual(
+    words.headline(older as Report, nouns),
+    words.variances(report, nouns),
+    "a report of an older engine",
+  );
+  assert.equal(
+    plain(words.variances(report, nouns)),
     "Female heads can make 83\u202f% of the variance of male heads; the other way round it is 80\u202f%.",
   );
 });
@@ -21,6 +31,7 @@ test("the headline says what each can make of the other", () => {
 test("every number in a sentence is the report's own", () => {
   const phrases = [
     words.headline(report, nouns),
+    words.variances(report, nouns),
     words.shared(report),
     words.spaces(report),
     words.differences(report, nouns),

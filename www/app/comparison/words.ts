@@ -22,6 +22,7 @@ import { SIGMA_SINCE } from "../state/settings";
 import type { Reading } from "../state/state";
 import { bytes, count, degrees, length, number, percent, plusMinus } from "../text/format";
 import { type Phrase, reported } from "../text/phrase";
+import { said } from "./answer";
 
 /** The thresholds of src/report.rs. */
 export const R_HAT = 1.01;
@@ -30,7 +31,13 @@ export const ESS = 400;
 /** Share of a model outside the other from which on the page says “nearly everything differs”. */
 const NEARLY_ALL = 0.99;
 
+/** The first sentence: how far a shape of A lies from B, of any σ; in older reports the shared variance. */
 export function headline(report: Report, nouns: Nouns): Phrase {
+  return said(report, nouns, "reach-of-a") ?? variances(report, nouns);
+}
+
+/** How much of the variance of each the other model can make. */
+export function variances(report: Report, nouns: Nouns): Phrase {
   const { varianceOfAInB, varianceOfBInA } = report.overlap;
   return [
     `${capital(nouns.b)} can make `,

@@ -4,12 +4,47 @@
 export interface Nouns {
   a: string;
   b: string;
+  modelA: string;
+  modelB: string;
+  shapeOfA: string;
+  shapeOfB: string;
   shapesOfA: string;
   shapesOfB: string;
 }
 
+/** `a` and `b` name models or shapes, as “model A” and “star A”. */
 export function nounsOf(a: string, b: string): Nouns {
-  return { a, b, shapesOfA: `the shapes of ${a}`, shapesOfB: `the shapes of ${b}` };
+  return { a, b, ...nounsOfModels(a, b) };
+}
+
+/** `a` and `b` say what a model is of, as “identity” and “expression”. */
+export function nounsOfParts(a: string, b: string): Nouns {
+  return { a, b, ...nounsOfModels(`the ${a} model`, `the ${b} model`) };
+}
+
+function nounsOfModels(a: string, b: string): Omit<Nouns, "a" | "b"> {
+  return {
+    modelA: a,
+    modelB: b,
+    shapeOfA: `a shape of ${a}`,
+    shapeOfB: `a shape of ${b}`,
+    shapesOfA: `the shapes of ${a}`,
+    shapesOfB: `the shapes of ${b}`,
+  };
+}
+
+/** The same with A and B exchanged. */
+export function exchanged(nouns: Nouns): Nouns {
+  return {
+    a: nouns.b,
+    b: nouns.a,
+    modelA: nouns.modelB,
+    modelB: nouns.modelA,
+    shapeOfA: nouns.shapeOfB,
+    shapeOfB: nouns.shapeOfA,
+    shapesOfA: nouns.shapesOfB,
+    shapesOfB: nouns.shapesOfA,
+  };
 }
 
 export interface Demo {
@@ -36,6 +71,10 @@ const heads: Demo[] = [
     nouns: {
       a: "male heads",
       b: "female heads",
+      modelA: "the male model",
+      modelB: "the female model",
+      shapeOfA: "a male head",
+      shapeOfB: "a female head",
       shapesOfA: "male heads",
       shapesOfB: "female heads",
     },
@@ -47,7 +86,7 @@ const heads: Demo[] = [
     label: "Heads: identity and expression",
     a: "heads-identity",
     b: "heads-expression",
-    nouns: nounsOf("identity", "expression"),
+    nouns: nounsOfParts("identity", "expression"),
     note: HEADS_NOTE,
   },
 ];

@@ -18,7 +18,15 @@ import type {
   Sides,
 } from "../../worker/protocol";
 import { type Camera, HOME } from "./camera";
-import { DEMO_GROUPS, FIRST_DEMO, findDemo, type Nouns, nounsOf } from "./demos";
+import {
+  DEMO_GROUPS,
+  exchanged,
+  FIRST_DEMO,
+  findDemo,
+  type Nouns,
+  nounsOf,
+  nounsOfParts,
+} from "./demos";
 import type { LinkedModels } from "./linked-models";
 import { patched } from "./preparation";
 import { DEFAULTS, settingsKey } from "./settings";
@@ -186,7 +194,7 @@ export const nouns = computed<Nouns>(() => {
   const turned = a && b && turnedNouns(a.source, b.source);
   if (turned) return turned;
   const one = a && b && sourceKey(a.source) === sourceKey(b.source) && a.part !== b.part;
-  return one ? nounsOf(partName(a.part), partName(b.part)) : nounsOf("model A", "model B");
+  return one ? nounsOfParts(partName(a.part), partName(b.part)) : nounsOf("model A", "model B");
 });
 
 /** Names of an example pair with A and B exchanged. */
@@ -196,8 +204,7 @@ function turnedNouns(a: Source, b: Source): Nouns | null {
     (pair) => pair.a === b.name && pair.b === a.name,
   );
   if (!found) return null;
-  const { nouns } = found;
-  return { a: nouns.b, b: nouns.a, shapesOfA: nouns.shapesOfB, shapesOfB: nouns.shapesOfA };
+  return exchanged(found.nouns);
 }
 
 /** Name of a part of a file in a sentence. */

@@ -1,7 +1,7 @@
 import type { EvidenceReport, Statistic, StatisticName } from "../../../worker/protocol";
+import { pText } from "../../comparison/answer";
 import {
   type HypothesisName,
-  pText,
   STATISTICS,
   statisticSentence,
   statisticText,

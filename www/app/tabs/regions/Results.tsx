@@ -1,3 +1,5 @@
+import type { Report } from "../../../worker/protocol";
+import { CHANCE, chanceTopic, said } from "../../comparison/answer";
 import { DIAGNOSTICS, GROUPS } from "../../comparison/numbers";
 import {
   belief,
@@ -8,8 +10,9 @@ import {
   R_HAT,
   shared,
   spaces,
+  variances,
 } from "../../comparison/words";
-import { linked, opening, outOfDate, result, SIDES, slots } from "../../state/state";
+import { linked, opening, outOfDate, result, run, SIDES, slots } from "../../state/state";
 import { count, degrees } from "../../text/format";
 import { Metric, Phrase } from "../../ui/Phrase";
 import { Inferred, ModePlots } from "./Inference";
@@ -18,14 +21,34 @@ import { Numbers } from "./Numbers";
 import { Sweep } from "./Sweep";
 import { TwoSides } from "./TwoSides";
 
-/** The first sentence of the results: how much of the variance each model can make of the other. */
+/** The answer, whatever σ: how far either model lies from the other, and whether that is more than chance. */
 export function Headline() {
   const held = result.value;
+  const stale = outOfDate.value;
+  if (!held) return <h2 class="headline">{waiting()}</h2>;
+  const { report, nouns } = held;
+  const other = said(report, nouns, "reach-of-b");
+  const chance = said(report, nouns, ...CHANCE);
   return (
-    <h2 class="headline" data-stale={outOfDate.value}>
-      {held ? <Phrase parts={headline(held.report, held.nouns)} /> : waiting()}
-    </h2>
+    <div class="answer-first" data-stale={stale}>
+      <h2 class="headline" data-stale={stale}>
+        <Phrase parts={headline(report, nouns)} />
+      </h2>
+      {other && (
+        <p class="headline-other">
+          <Phrase parts={other} />
+        </p>
+      )}
+      <p class="chance" data-answer={chanceTopic(report) ?? "pending"}>
+        {chance ? <Phrase parts={chance} /> : pending(report)}
+      </p>
+    </div>
   );
+}
+
+/** While shapes are relabelled, and for reports of engines that did not. */
+function pending(report: Report): string {
+  return run.value && report.answer ? "Whether this is more than chance is being computed." : "";
 }
 
 function waiting(): string {
@@ -34,6 +57,8 @@ function waiting(): string {
     ? "Waiting for the models of the link."
     : "Comparing two shape models.";
 }
+
+const TOLD_APART = ["told-apart-a", "told-apart-b"] as const;
 
 /** Sentences, warnings and tables of the comparison. */
 export function Results() {
@@ -44,6 +69,16 @@ export function Results() {
   return (
     <section class="results" aria-label="Results" data-stale={outOfDate.value}>
       <ul class="says">
+        {TOLD_APART.map((topic) => {
+          const sentence = said(report, nouns, topic);
+          return (
+            sentence && (
+              <li key={topic} data-about={topic}>
+                <Phrase parts={sentence} />
+              </li>
+            )
+          );
+        })}
         <li data-about="intersection">
           <Phrase parts={shared(report)} />
         </li>
@@ -51,7 +86,8 @@ export function Results() {
           <Phrase parts={differences(report, nouns)} />
         </li>
         <li data-about="spaces">
-          <Phrase parts={spaces(report)} />
+          <Phrase parts={spaces(report)} />{" "}
+          {report.answer && <Phrase parts={variances(report, nouns)} />}
         </li>
         <li data-about="belief" data-converged={converged}>
           <Phrase parts={phrase} />
