@@ -11,9 +11,9 @@ use crate::error::ComparisonError;
 use crate::evidence::left_out_errors;
 use crate::measure::{
     AffineSpace, Displacement, affine_grassmann_distance, bhattacharyya_distance, kullback_leibler,
-    mean_vertex_distance, principal_angles,
+    mean_vertex_distance, principal_angles, projection_distances,
 };
-use crate::model::LinearModel;
+use crate::model::{LinearModel, ShapesRole};
 use crate::pair::{
     Joint, Meeting, Pair, ResidualOperator, nearest_meeting, plausible_radius,
     recommended_tolerance,
@@ -145,12 +145,22 @@ pub(crate) fn recommended_sigma(
     Sigma::recommended(&tolerance, mean_left_out(&left_out(pair), pair.scale()), meeting)
 }
 
-/// The leave-one-out errors of the training shapes of either model, where they are known: with as many modes as the
-/// model has, where it was cut to fewer than its shapes make.
+/// What either model misses of shapes that it has not seen, where such shapes are known: of test shapes as it is, of each
+/// training shape when it is made without it, with as many modes as the model has where it was cut to fewer than its
+/// shapes make. Nothing is known from training shapes of which only what the modes hold is.
 pub(crate) fn left_out(pair: &Pair) -> Sides<Option<Vec<f64>>> {
     pair.models().map(|model| {
-        let shapes = model.training_shapes()?.shapes();
-        Some(left_out_errors(model.dimension(), &shapes, model.modes_cut_to()))
+        let known = model.training_shapes()?;
+        match known.role() {
+            ShapesRole::WithinModes => None,
+            ShapesRole::Training => {
+                Some(left_out_errors(model.dimension(), &known.shapes(), model.modes_cut_to()))
+            }
+            ShapesRole::Test => {
+                let missed = projection_distances(model, &known.shapes(), &[model.mode_count()]);
+                Some(missed.into_iter().flatten().collect())
+            }
+        }
     })
 }
 

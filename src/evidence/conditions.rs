@@ -25,6 +25,17 @@ pub(super) fn conditions(groups: &Groups) -> Vec<Notice> {
             ));
         }
     }
+    for side in Side::BOTH.into_iter().filter(|side| groups.within_modes()[*side]) {
+        let name = side.name();
+        conditions.push(Notice::new(
+            "shapes-within-modes",
+            format!(
+                "Of the {} shapes of {name} only what the modes in its file hold is known: what its model misses of shapes that it has not seen cannot be told from them, and its shapes seem nearer to it than they are.",
+                counts[side]
+            ),
+            "Give the shapes themselves beside the model, or a file with all of its modes.",
+        ));
+    }
     let (less, more) = (counts.a.min(counts.b), counts.a.max(counts.b));
     if more > UNEQUAL * less {
         conditions.push(Notice::new(
@@ -102,6 +113,7 @@ mod tests {
 
     use super::*;
     use crate::evidence::samples::{drawn, falling};
+    use crate::model::Sides;
 
     fn codes(
         dimension: usize,
@@ -127,6 +139,16 @@ mod tests {
         let found = conditions(&groups);
         assert!(found[0].message.contains("Group A has 7 shapes"), "{}", found[0].message);
         assert!(found[1].message.contains("A has 7 shapes and B 22"), "{}", found[1].message);
+    }
+
+    #[test]
+    fn shapes_that_are_known_within_modes_are_said_of_their_group() {
+        let (a, b) = (drawn((60, 8), 0.0, falling, 1), drawn((60, 9), 0.0, falling, 2));
+        let groups = Groups::new(3, &a, &b, Alignment::None).unwrap();
+        let found = conditions(&groups.known_within_modes(Sides { a: false, b: true }));
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert_eq!(found[0].code, "shapes-within-modes", "{found:?}");
+        assert!(found[0].message.starts_with("Of the 9 shapes of B only"), "{found:?}");
     }
 
     #[test]

@@ -40,6 +40,7 @@ pub struct Groups {
     /// The first rows of the coordinates.
     leading: DMatrix<f64>,
     shared: usize,
+    within_modes: Sides<bool>,
 }
 
 /// The space that shapes less their mean span.
@@ -132,7 +133,29 @@ impl Groups {
         }
         let dimensions = span.coordinates.nrows().min(MOST_DIMENSIONS);
         let leading = span.coordinates.rows(0, dimensions).into_owned();
-        Ok(Self { dimension, alignment, counts, shapes, variances, span, leading, shared })
+        let within_modes = Sides::default();
+        Ok(Self {
+            dimension,
+            alignment,
+            counts,
+            shapes,
+            variances,
+            span,
+            leading,
+            shared,
+            within_modes,
+        })
+    }
+
+    /// The same, where of the shapes of a group only what the modes of its model hold is known.
+    #[must_use]
+    pub fn known_within_modes(self, within_modes: Sides<bool>) -> Self {
+        Self { within_modes, ..self }
+    }
+
+    /// Of which group only what the modes of its model hold is known.
+    pub fn within_modes(&self) -> Sides<bool> {
+        self.within_modes
     }
 
     /// Coordinates of a point d, 2 or 3.

@@ -1,7 +1,7 @@
 //! The comparison of the training shapes of two models.
 
 use super::{Evidence, EvidenceError, Groups, Options};
-use crate::model::{Alignment, Kind, LinearModel, Sides};
+use crate::model::{Alignment, Kind, LinearModel, ShapesRole, Sides};
 use crate::pair::Pair;
 
 impl Evidence {
@@ -48,6 +48,9 @@ impl Groups {
             (Alignment::Similarity, Alignment::Similarity) => Alignment::Similarity,
             (Alignment::Rigid, _) | (_, Alignment::Rigid) => Alignment::Rigid,
         };
-        Some(Self::new(a.dimension(), &of_a.shapes(), &of_b.shapes(), alignment))
+        let within = [of_a, of_b].map(|shapes| shapes.role() == ShapesRole::WithinModes);
+        let within = Sides { a: within[0], b: within[1] };
+        let groups = Self::new(a.dimension(), &of_a.shapes(), &of_b.shapes(), alignment);
+        Some(groups.map(|groups| groups.known_within_modes(within)))
     }
 }

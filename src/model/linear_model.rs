@@ -250,6 +250,16 @@ impl LinearModel {
         mean: DVector<f64>,
         scaled_basis: DMatrix<f64>,
     ) -> Result<(Self, BasisCheck), ModelError> {
+        Self::from_columns(dimension, mean, scaled_basis).map(|(model, check, _)| (model, check))
+    }
+
+    /// The same, and where its modes find the columns that were given: BᵀS (q × columns) of the modes B and the
+    /// scaled basis S, by which coefficients in the columns become lengths along the modes.
+    pub(crate) fn from_columns(
+        dimension: usize,
+        mean: DVector<f64>,
+        scaled_basis: DMatrix<f64>,
+    ) -> Result<(Self, BasisCheck, DMatrix<f64>), ModelError> {
         if dimension != 2 && dimension != 3 {
             return Err(ModelError::Dimension { found: dimension });
         }
@@ -269,13 +279,21 @@ impl LinearModel {
             return Err(ModelError::NoVariance);
         }
         let given = scaled_basis.ncols();
-        let scaled_basis = without_empty_columns(scaled_basis);
+        let empty = empty_columns(&scaled_basis);
+        let scaled_basis =
+            if empty.is_empty() { scaled_basis } else { scaled_basis.remove_columns_at(&empty) };
         let gram = gram(&scaled_basis);
         let orthogonality_error = largest_cosine(&gram);
         let svd = into_thin_svd(scaled_basis, &gram);
         let floor = SMALLEST_RELATIVE_DEVIATION * svd.values[0];
         let kept = svd.values.iter().take_while(|&&value| value >= floor).count();
         let dropped = svd.values.len() - kept;
+        let mut columns = DMatrix::from_fn(kept, svd.right.nrows(), |mode, column| {
+            svd.values[mode] * svd.right[(column, mode)]
+        });
+        for column in empty {
+            columns = columns.insert_column(column, 0.0);
+        }
         let model = Self {
             name: String::new(),
             kind: Kind::Shape,
@@ -288,7 +306,7 @@ impl LinearModel {
             numbers: None,
             training: None,
         };
-        Ok((model, BasisCheck { orthogonality_error, dropped_modes: given - kept }))
+        Ok((model, BasisCheck { orthogonality_error, dropped_modes: given - kept }, columns))
     }
 
     /// Assembles a model from parts that are orthonormal and sorted by construction.
@@ -542,13 +560,12 @@ pub(crate) fn lengths(squares: &[f64], dimension: usize) -> Vec<f64> {
     squares.chunks_exact(dimension).map(|point| point.iter().sum::<f64>().sqrt()).collect()
 }
 
-/// Drops modes whose standard deviation is negligible against the largest; the rest stays in its memory.
-fn without_empty_columns(matrix: DMatrix<f64>) -> DMatrix<f64> {
+/// Modes whose standard deviation is negligible against the largest.
+fn empty_columns(matrix: &DMatrix<f64>) -> Vec<usize> {
     const NOTHING: f64 = 1e-9;
     let largest: Vec<f64> = matrix.column_iter().map(|column| column.amax()).collect();
     let floor = NOTHING * largest.iter().copied().fold(0.0, f64::max);
-    let empty: Vec<usize> = (0..largest.len()).filter(|&index| largest[index] <= floor).collect();
-    if empty.is_empty() { matrix } else { matrix.remove_columns_at(&empty) }
+    (0..largest.len()).filter(|&index| largest[index] <= floor).collect()
 }
 
 /// Largest |cos| between two columns of the matrix with this Gram matrix.

@@ -10,6 +10,7 @@
 //! **Limits.** All numbers are held in `f64`; a model of 53,490 points and 199 modes takes 255 MB, once
 //! for all its copies.
 
+mod beside;
 mod fingerprint;
 mod geometry;
 mod linear_model;
@@ -20,6 +21,7 @@ mod procrustes;
 mod side;
 mod training;
 
+pub use beside::ShapesError;
 pub use geometry::Geometry;
 pub(crate) use linear_model::lengths;
 pub use linear_model::{BasisCheck, Cells, Kind, LinearModel, ModelError, Unit};
@@ -29,4 +31,4 @@ pub(crate) use population::into_principal_components;
 pub use population::{generalised_procrustes, model_of_population, principal_components};
 pub use procrustes::{Alignment, Similarity, align_to, procrustes};
 pub use side::{Side, Sides};
-pub use training::TrainingShapes;
+pub use training::{ShapesRole, TrainingShapes};

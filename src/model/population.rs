@@ -4,7 +4,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Alignment, LinearModel, ModelError, procrustes};
+use super::{Alignment, LinearModel, ModelError, ShapesRole, procrustes};
 use crate::linalg::cross;
 
 /// The model of `shapes` (d·n × N, one shape a column): their mean and principal components.
@@ -75,7 +75,7 @@ pub fn model_of_population(
         shape -= model.mean();
     }
     let coefficients = cross(model.basis(), &centred);
-    Ok(model.with_training_coefficients(coefficients, alignment))
+    Ok(model.with_coefficients(coefficients, alignment, ShapesRole::Training))
 }
 
 /// Moves every shape (a column of `shapes`, d·n × N) onto the running mean until it settles, in at

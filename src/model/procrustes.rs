@@ -109,6 +109,32 @@ pub(super) fn centroid(points: &[f64], dimension: usize) -> Vec<f64> {
         .collect()
 }
 
+/// Orthonormal directions (d·n × d(d + 1)/2, fewer for points in line) in which translations and infinitesimal rotations
+/// move interleaved points.
+pub(super) fn motions(points: &[f64], dimension: usize) -> DMatrix<f64> {
+    let centre = centroid(points, dimension);
+    let planes: &[(usize, usize)] =
+        if dimension == 2 { &[(0, 1)] } else { &[(0, 1), (1, 2), (2, 0)] };
+    let mut motions = DMatrix::zeros(points.len(), dimension + planes.len());
+    for point in 0..points.len() / dimension {
+        let at = |axis: usize| point * dimension + axis;
+        for axis in 0..dimension {
+            motions[(at(axis), axis)] = 1.0;
+        }
+        for (column, &(first, second)) in (dimension..).zip(planes) {
+            motions[(at(first), column)] = -(points[at(second)] - centre[second]);
+            motions[(at(second), column)] = points[at(first)] - centre[first];
+        }
+    }
+    for mut motion in motions.column_iter_mut() {
+        let length = motion.norm();
+        motion /= if length > 0.0 { length } else { 1.0 };
+    }
+    let svd = thin_svd(&motions);
+    let rank = svd.values.iter().take_while(|value| **value > 1e-6).count();
+    svd.left.columns(0, rank).into_owned()
+}
+
 /// The transformation that brings `source` nearest to `target` (both interleaved, d·n).
 ///
 /// # Panics

@@ -1,4 +1,4 @@
-//! The shapes that a model was made from, which stay known with it.
+//! The shapes that a model was made from, or that test it, which stay known with it.
 //!
 //! They are what tells how far a member of the population lies from a model that was made without it, and whether
 //! two models differ by more than chance. They are kept as coefficients in directions that span them, usually the
@@ -8,8 +8,27 @@
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
 
-use super::{Alignment, LinearModel};
+use super::{Alignment, Kind, LinearModel};
+use crate::linalg::{cross, product};
+
+/// Shapes lie in the modes when no more than this share of their spread lies outside.
+pub(super) const ROUNDING: f64 = 1e-5;
+
+/// How shapes relate to the model that they are known with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(rename_all = "kebab-case")]
+pub enum ShapesRole {
+    /// The model was made from them.
+    Training,
+    /// The model was made from them, but only what its modes hold of them is known: what it misses of a shape that
+    /// it has not seen cannot be told from them.
+    WithinModes,
+    /// The model was not made from them.
+    Test,
+}
 
 /// N shapes m + D c, with D of size d·n × r and coefficients r × N.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +37,7 @@ pub struct TrainingShapes {
     directions: Arc<DMatrix<f64>>,
     coefficients: DMatrix<f64>,
     alignment: Alignment,
+    role: ShapesRole,
 }
 
 impl TrainingShapes {
@@ -31,10 +51,11 @@ impl TrainingShapes {
         directions: Arc<DMatrix<f64>>,
         coefficients: DMatrix<f64>,
         alignment: Alignment,
+        role: ShapesRole,
     ) -> Self {
         assert_eq!(directions.nrows(), mean.len(), "directions of as many coordinates");
         assert_eq!(directions.ncols(), coefficients.nrows(), "a coefficient for every direction");
-        Self { mean, directions, coefficients, alignment }
+        Self { mean, directions, coefficients, alignment, role }
     }
 
     /// N.
@@ -42,14 +63,19 @@ impl TrainingShapes {
         self.coefficients.ncols()
     }
 
-    /// How the shapes were brought to one frame before the model was made of them.
+    /// How the shapes were brought to one frame.
     pub fn alignment(&self) -> Alignment {
         self.alignment
     }
 
+    /// How they relate to the model.
+    pub fn role(&self) -> ShapesRole {
+        self.role
+    }
+
     /// The shapes (d·n × N), in the frame and unit of the model.
     pub fn shapes(&self) -> DMatrix<f64> {
-        let mut shapes = crate::linalg::product(&self.directions, &self.coefficients);
+        let mut shapes = product(&self.directions, &self.coefficients);
         for mut shape in shapes.column_iter_mut() {
             shape += &self.mean;
         }
@@ -98,29 +124,84 @@ impl TrainingShapes {
 }
 
 impl LinearModel {
-    /// The shapes that the model was made from, where they are known.
+    /// The shapes that the model was made from, or those that test it, where they are known.
     pub fn training_shapes(&self) -> Option<&TrainingShapes> {
         self.training.as_deref()
     }
 
-    /// How many modes the model has, where it was cut to fewer than its training shapes make.
+    /// How many modes the model has, where these are fewer than its shapes make.
     pub fn modes_cut_to(&self) -> Option<usize> {
         let made = self.training_shapes()?.count() - 1;
         Some(self.mode_count()).filter(|modes| *modes < made)
     }
 
-    /// The same model, made from shapes with these coefficients in its modes (q × N, lengths along the unit modes).
+    /// Coefficients of the shapes that the model was made from in its modes (q × N, lengths along the unit modes), where
+    /// they are known and lie in the modes.
+    pub fn training_coefficients(&self) -> Option<DMatrix<f64>> {
+        let shapes = self.training_shapes().filter(|shapes| shapes.role != ShapesRole::Test)?;
+        if shapes.shares(&self.basis) && shapes.mean == self.mean {
+            return Some(shapes.coefficients.clone());
+        }
+        let (coefficients, outside) = self.coefficients_of(&shapes.shapes());
+        let inside = coefficients.norm_squared();
+        (outside <= ROUNDING * ROUNDING * inside).then_some(coefficients)
+    }
+
+    /// The same model, made from shapes with these coefficients in its modes (q × N, lengths along the unit modes), as a
+    /// file has them. Fewer than N − 1 modes do not hold all of the shapes. That shapes were aligned is seen from the
+    /// modes, which then move nothing as a whole.
     ///
     /// # Panics
     /// When there is not a row for every mode.
     #[must_use]
-    pub fn with_training_coefficients(
-        mut self,
+    pub fn with_training_coefficients(self, coefficients: DMatrix<f64>) -> Self {
+        let alignment = if self.is_aligned() { Alignment::Rigid } else { Alignment::None };
+        let whole = self.mode_count() + 1 >= coefficients.ncols();
+        let role = if whole { ShapesRole::Training } else { ShapesRole::WithinModes };
+        self.with_coefficients(coefficients, alignment, role)
+    }
+
+    pub(super) fn with_coefficients(
+        self,
         coefficients: DMatrix<f64>,
         alignment: Alignment,
+        role: ShapesRole,
     ) -> Self {
         let (mean, basis) = (self.mean.clone(), Arc::clone(&self.basis));
-        self.training = Some(Arc::new(TrainingShapes::new(mean, basis, coefficients, alignment)));
+        self.with_training(TrainingShapes::new(mean, basis, coefficients, alignment, role))
+    }
+
+    pub(super) fn with_training(mut self, shapes: TrainingShapes) -> Self {
+        self.training = Some(Arc::new(shapes));
         self
+    }
+
+    /// Coefficients of shapes (d·n × N) in the modes (q × N), and the squared length of what the modes miss of all of
+    /// them.
+    pub(super) fn coefficients_of(&self, shapes: &DMatrix<f64>) -> (DMatrix<f64>, f64) {
+        let mut deviations = shapes.clone();
+        for mut deviation in deviations.column_iter_mut() {
+            deviation -= &self.mean;
+        }
+        let coefficients = cross(&self.basis, &deviations);
+        deviations -= product(&self.basis, &coefficients);
+        (coefficients, deviations.norm_squared())
+    }
+
+    /// Whether no mode translates or rotates the mean: shapes that were moved onto their mean leave no such variation.
+    fn is_aligned(&self) -> bool {
+        /// Of the variance; programs that align to a reference leave a little.
+        const LEAST: f64 = 1e-3;
+        if self.kind() != Kind::Shape {
+            return false;
+        }
+        let motions = super::procrustes::motions(self.mean.as_slice(), self.dimension());
+        let mut along = cross(&motions, &self.basis);
+        for (mut column, deviation) in
+            along.column_iter_mut().zip(self.standard_deviations().iter())
+        {
+            column *= *deviation;
+        }
+        along.norm_squared() <= LEAST * self.total_variance()
     }
 }

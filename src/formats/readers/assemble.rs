@@ -13,6 +13,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::formats::containers::arrays::{Array, Data};
 use crate::formats::error::{Fault, counted, not_numbers, shape_text, short};
 use crate::formats::readers::cells::{self, Habit};
+use crate::formats::readers::scores::Scores;
 use crate::model::{BasisCheck, Cells, Kind, LinearModel};
 
 /// How far norms may be from 1 or √λ and still count as such.
@@ -60,6 +61,8 @@ pub(crate) struct Ingredients {
     pub(crate) base: Option<DVector<f64>>,
     /// Factors of the rows (D), for modes of standardised coordinates.
     pub(crate) rows: Option<Vec<f64>>,
+    /// Coefficients of the training shapes; what they cannot be used for is said in a note.
+    pub(crate) scores: Option<Scores>,
     pub(crate) kind: Kind,
 }
 
@@ -73,7 +76,8 @@ pub(crate) struct Assembled {
 
 /// Assembles a model.
 pub(crate) fn assemble(ingredients: Ingredients) -> Result<Assembled, Fault> {
-    let Ingredients { mean, basis, scaling, points, cells, habit, base, rows, kind } = ingredients;
+    let Ingredients { mean, basis, scaling, points, cells, habit, base, rows, scores, kind } =
+        ingredients;
     let mut notes = Vec::new();
     let (mut mean_values, stated) = mean_vector(mean, &mut notes)?;
     let dimension = stated
@@ -87,14 +91,21 @@ pub(crate) fn assemble(ingredients: Ingredients) -> Result<Assembled, Fault> {
     }
     let mut scaled = columns(basis, mean_values.len())?;
     scale(&mut scaled, scaling, &mut notes)?;
+    let standardised = scores.and_then(|scores| {
+        let deviations: Vec<f64> = scaled.column_iter().map(|column| column.norm()).collect();
+        scores.standardised(&deviations).unwrap_or_else(|note| {
+            notes.push(note);
+            None
+        })
+    });
     if let Some(rows) = rows {
         for mut column in scaled.column_iter_mut() {
             column.iter_mut().zip(&rows).for_each(|(value, row)| *value *= row);
         }
     }
     let drawn = drawn(cells.as_ref(), habit, kind, &mean_values, dimension, &mut notes)?;
-    let (model, check) =
-        LinearModel::from_scaled_basis(dimension, DVector::from_vec(mean_values), scaled)
+    let (model, check, columns) =
+        LinearModel::from_columns(dimension, DVector::from_vec(mean_values), scaled)
             .map_err(Fault::Model)?;
     if check.orthogonality_error > NOTED_COSINE {
         notes.push(format!(
@@ -106,7 +117,10 @@ pub(crate) fn assemble(ingredients: Ingredients) -> Result<Assembled, Fault> {
         let dropped = counted(check.dropped_modes, "mode was", "modes were");
         notes.push(format!("{dropped} dropped for lack of variance."));
     }
-    let model = model.with_kind(kind).with_cells(drawn).map_err(Fault::Model)?;
+    let mut model = model.with_kind(kind).with_cells(drawn).map_err(Fault::Model)?;
+    if let Some(standardised) = standardised {
+        model = model.with_training_coefficients(columns * standardised);
+    }
     Ok(Assembled { model, check, notes })
 }
 

@@ -97,6 +97,7 @@ fn model(input: &Input, value: Value, options: &Options) -> Result<Opened, Fault
         habit: Habit::CellsFirst,
         base: None,
         rows: Some([1.0, -1.0].repeat(turned)),
+        scores: None,
         kind: Kind::Shape,
     })?;
     let mut notes = vec!["The file's y points down; it was turned to point up.".to_owned()];

@@ -85,6 +85,7 @@ impl Components {
             habit: Habit::CellsFirst,
             base,
             rows,
+            scores: None,
             kind,
         })?;
         notes.extend(assembled.notes);

@@ -42,6 +42,9 @@
 //! A basis of integers (q × D) beside `basis_scale` (q) is our compact form: column i of the scaled
 //! basis is `basis[i]`·`basis_scale[i]`. `SD` scales the rows of `modes`.
 //!
+//! **Training shapes**: `training_coefficients` (q × N, lengths along the unit modes, times `training_scale` (q) where
+//! that is there), `projectedWeights` of gias3; what they are is seen from their variances (`scores`).
+//!
 //! **Limits.** Bilinear models (FaceScape's `shape_bm_core`) are refused. Body models are read in their
 //! rest pose. Colours in 0…255 are divided by 255.
 //!
@@ -59,6 +62,7 @@ use crate::formats::error::{Fault, counted, not_numbers, shape_text};
 use crate::formats::readers::assemble::{Ingredients, Named, Scaling, assemble, mesh_of};
 use crate::formats::readers::cells::Habit;
 use crate::formats::readers::parts::choose;
+use crate::formats::readers::scores::Scores;
 use crate::formats::{Opened, Options, Origin, Part};
 use crate::model::{Cells, Kind, Unit};
 
@@ -568,6 +572,11 @@ fn read_part(
         darken(&mut mean, &mut basis, &mut scaling, &mut notes)?;
     }
     let rows = if recipe.basis == "modes" { source.numbers("SD", length)? } else { None };
+    let scores = match layout.name {
+        "gias3" => source.scores("projectedWeights", &mut notes),
+        "" => source.scores("training_coefficients", &mut notes),
+        _ => None,
+    };
     let faces = source.faces(layout, &mut notes);
     let kind = match source.text("kind", general)?.as_deref() {
         _ if recipe.is_color() => Kind::Color,
@@ -602,6 +611,7 @@ fn read_part(
         habit: Habit::CellsFirst,
         base: None,
         rows,
+        scores: scores.map(Scores::plain),
         kind,
     })?;
     notes.extend(assembled.notes);
@@ -768,6 +778,30 @@ impl Source<'_> {
         }
         let array = self.array(name)?.map(|named| named.array);
         Ok(array.filter(|array| array.is_list_of(length)).and_then(Array::into_f64))
+    }
+
+    /// Coefficients of the training shapes, in integers times `training_scale` (q) where there is one. A model opens
+    /// without them: what cannot be read is said.
+    fn scores(&mut self, name: &str, notes: &mut Vec<String>) -> Option<Named> {
+        self.shape(name)?;
+        let mut read = || -> Result<Option<Named>, Fault> {
+            let Some(mut scores) = self.array(name)? else { return Ok(None) };
+            let &[modes, count] = scores.array.shape.as_slice() else { return Ok(Some(scores)) };
+            if let Some(scale) = self.numbers("training_scale", modes)?
+                && let Some(mut values) = scores.array.clone().into_f64()
+                && count > 0
+            {
+                for (row, factor) in values.chunks_exact_mut(count).zip(scale) {
+                    row.iter_mut().for_each(|value| *value *= factor);
+                }
+                scores.array.data = Data::F64(values);
+            }
+            Ok(Some(scores))
+        };
+        read().unwrap_or_else(|fault| {
+            notes.push(format!("The training shapes could not be read. {fault}"));
+            None
+        })
     }
 
     /// A text of Shapevenn's own export, the only format with general names.

@@ -64,6 +64,7 @@ pub(crate) fn open(
             habit: Habit::CellsFirst,
             base: None,
             rows: None,
+            scores: None,
             kind: Kind::Shape,
         })?;
         let mut drawn = mesh.cells;

@@ -8,6 +8,7 @@
 //! | `mean` | D numbers, interleaved x₀ y₀ z₀ x₁ … |
 //! | `standardDeviations` | q numbers σ, the largest first |
 //! | `modes` | q lists of D numbers, orthonormal |
+//! | `trainingCoefficients` | q lists of N numbers: the training shapes, lengths along the modes; may be missing |
 //! | `triangles` or `segments` | lists of 3 or 2 point numbers, from 0; may be missing |
 //!
 //! A shape is mean + Σ coefficientᵢ · σᵢ · modeᵢ with coefficients from the standard normal distribution.
@@ -19,6 +20,7 @@ use crate::formats::input::Input;
 use crate::formats::readers::assemble::{Ingredients, Named, Scaling, assemble};
 use crate::formats::readers::cells::Habit;
 use crate::formats::readers::parts::only_part;
+use crate::formats::readers::scores::Scores;
 use crate::formats::{Opened, Options, Origin, Part};
 use crate::model::{Kind, ModelError, Unit};
 
@@ -77,6 +79,8 @@ pub(crate) fn read(
         Some(triangles) => Some(triangles),
         None => list(document, "segments")?,
     };
+    let scores = list(document, "trainingCoefficients")?
+        .map(|array| Named { name: "trainingCoefficients".to_owned(), array });
     let assembled = assemble(Ingredients {
         mean: Named { name: "mean".to_owned(), array: mean },
         basis: Named { name: "modes".to_owned(), array: Array { shape, data: basis.data } },
@@ -86,6 +90,7 @@ pub(crate) fn read(
         habit: Habit::CellsFirst,
         base: None,
         rows: None,
+        scores: scores.map(Scores::plain),
         kind,
     })?;
     let name = document.text(&["name"]).filter(|name| !name.is_empty());

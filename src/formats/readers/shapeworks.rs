@@ -93,6 +93,7 @@ pub(crate) fn read(
         habit: Habit::CellsFirst,
         base: None,
         rows: None,
+        scores: None,
         kind: Kind::Shape,
     })?;
     let (model, check) = (assembled.model.with_name(input.file_name()), assembled.check);

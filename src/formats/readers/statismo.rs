@@ -9,6 +9,7 @@
 //! | `model/pcaBasis` | D × q |
 //! | `model/pcaVariance` | q variances λ |
 //! | `model/noiseVariance` | added to the diagonal of the covariance; not part of our model |
+//! | `modelinfo/scores` | q × N coefficients of the training shapes; optional (`scores`) |
 //! | `representer` | attributes `name`, `datasetType` |
 //! | `representer/points`, `representer/cells` | d × n and k × m, also transposed |
 //! | `representer/length-unit` | metres; optional |
@@ -39,6 +40,7 @@ use crate::formats::mesh::{self, Mesh};
 use crate::formats::readers::assemble::{Ingredients, Named, Scaling, assemble, mesh_of};
 use crate::formats::readers::cells::Habit;
 use crate::formats::readers::parts::choose;
+use crate::formats::readers::scores::Scores;
 use crate::formats::{FormatError, Opened, Options, Origin, Part};
 use crate::model::{Cells, Kind, Unit};
 
@@ -217,7 +219,10 @@ fn read_part(tree: &dyn Tree, places: &[Place], index: usize) -> Result<(Part, S
             cells = None;
         }
     }
-    if let Some(noise) = tree.number(&at("model/noiseVariance")).filter(|noise| *noise > 0.0) {
+    let noise = tree.number(&at("model/noiseVariance")).filter(|noise| *noise > 0.0);
+    let scores = scores(tree, &at("modelinfo/scores"), &mut notes)
+        .map(|coefficients| Scores { coefficients, noise: noise.unwrap_or(0.0) });
+    if let Some(noise) = noise {
         let noise = short(noise);
         notes.push(format!("The file's noise variance of {noise} is not part of the model."));
     }
@@ -238,6 +243,7 @@ fn read_part(tree: &dyn Tree, places: &[Place], index: usize) -> Result<(Part, S
         habit: Habit::CornersFirst,
         base: displaced_from,
         rows: None,
+        scores,
         kind,
     })?;
     let mut model = assembled.model.with_unit(unit);
@@ -247,6 +253,17 @@ fn read_part(tree: &dyn Tree, places: &[Place], index: usize) -> Result<(Part, S
     notes.extend(assembled.notes);
     let (name, check, origin) = (place.name.clone(), assembled.check, Origin::File);
     Ok((Part { name, model, check, origin, map: None, notes }, version))
+}
+
+/// Coefficients of the training shapes. A model opens without them: what cannot be read is said.
+fn scores(tree: &dyn Tree, path: &str, notes: &mut Vec<String>) -> Option<Named> {
+    match tree.array(path) {
+        Ok(array) => Some(Named { name: path.to_owned(), array: array? }),
+        Err(fault) => {
+            notes.push(format!("The training shapes could not be read. {fault}"));
+            None
+        }
+    }
 }
 
 /// What a representer says of drawing: only that, so what cannot be read is said, and points are shown.

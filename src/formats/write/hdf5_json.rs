@@ -72,6 +72,9 @@ fn document(model: &LinearModel) -> Result<Vec<u8>, Fault> {
         ("/version/majorVersion", Content::Number(0)),
         ("/version/minorVersion", Content::Number(9)),
     ];
+    if let Some((scores, count)) = &numbers.scores {
+        datasets.push(("/modelinfo/scores", Content::Rows(scores, *count)));
+    }
     if cell_count > 0 {
         datasets.push(("/representer/cells", Content::IntegerRows(&cells, cell_count)));
     }

@@ -26,6 +26,8 @@ struct Model<'a> {
     standard_deviations: &'a [f64],
     modes: Vec<&'a [f64]>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    training_coefficients: Option<Vec<Vec<f64>>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     triangles: Option<&'a [[u32; 3]]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     segments: Option<&'a [[u32; 2]]>,
@@ -47,6 +49,9 @@ pub fn write_model(model: &LinearModel) -> Result<Vec<u8>, FormatError> {
         mean: model.mean().as_slice(),
         standard_deviations: model.standard_deviations().as_slice(),
         modes: model.basis().as_slice().chunks(rows.max(1)).collect(),
+        training_coefficients: model
+            .training_coefficients()
+            .map(|training| training.row_iter().map(|row| row.iter().copied().collect()).collect()),
         triangles: match model.cells() {
             Cells::Triangles(triangles) => Some(triangles),
             _ => None,

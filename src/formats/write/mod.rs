@@ -18,6 +18,8 @@ pub use obj::write_mesh as write_obj;
 pub use ply::write_mesh as write_ply;
 pub use statismo::write_model as write_statismo;
 
+use nalgebra::DMatrix;
+
 use super::error::{Fault, short};
 use crate::model::{Cells, Kind, LinearModel, Unit};
 
@@ -42,6 +44,8 @@ struct Singles {
     variances: Vec<f32>,
     /// d × n: all x, then all y, then all z.
     points: Vec<f32>,
+    /// q × N coefficients of the training shapes in standard deviations, row by row, and N; where they are known.
+    scores: Option<(Vec<f32>, usize)>,
 }
 
 impl Singles {
@@ -61,8 +65,28 @@ impl Singles {
         let points = (0..dimension)
             .flat_map(|axis| mean.iter().skip(axis).step_by(dimension).copied())
             .collect();
-        Ok(Self { mean, basis, variances, points })
+        let scores = match model.training_coefficients() {
+            None => None,
+            Some(lengths) => {
+                let deviations = model.standard_deviations();
+                let rows = lengths.row_iter().zip(deviations.iter());
+                let scores = rows.flat_map(|(row, deviation)| {
+                    row.iter().map(|length| length / deviation).collect::<Vec<_>>()
+                });
+                Some((single(scores)?, lengths.ncols()))
+            }
+        };
+        Ok(Self { mean, basis, variances, points, scores })
     }
+}
+
+/// The numbers of a matrix, row by row.
+fn by_rows(matrix: &DMatrix<f64>) -> Vec<f64> {
+    let mut values = Vec::with_capacity(matrix.len());
+    for row in 0..matrix.nrows() {
+        values.extend(matrix.row(row).iter());
+    }
+    values
 }
 
 /// What statismo calls a model of this kind.

@@ -1,22 +1,20 @@
 //! Writes a model as a NumPy archive, which this program reads back to the last bit.
 
 use super::super::FormatError;
-use super::kind_word;
+use super::{by_rows, kind_word};
 use crate::formats::containers::arrays::{Array, Data};
 use crate::formats::containers::npz::write_arrays;
 use crate::model::{Cells, LinearModel};
 
 /// Writes a model as a NumPy archive: `mean` (n × d), orthonormal `basis` (D × q), `eigenvalues` (q),
-/// `faces` (m × k), `unit`, `name` and `kind`, numbers in double precision.
+/// `faces` (m × k), `unit`, `name` and `kind`, and where the training shapes are known `training_coefficients` (q × N,
+/// lengths along the modes); numbers in double precision.
 ///
 /// # Errors
 /// None at present; the signature is that of every writer.
 pub fn write_model(model: &LinearModel) -> Result<Vec<u8>, FormatError> {
     let (length, modes) = (model.mean().len(), model.mode_count());
-    let mut basis = Vec::with_capacity(length * modes);
-    for row in 0..length {
-        basis.extend(model.basis().row(row).iter());
-    }
+    let basis = by_rows(model.basis());
     let variances = model.standard_deviations().iter().map(|value| value * value).collect();
     let shape = vec![model.point_count(), model.dimension()];
     let mean = Array { shape, data: Data::F64(model.mean().as_slice().to_vec()) };
@@ -28,6 +26,11 @@ pub fn write_model(model: &LinearModel) -> Result<Vec<u8>, FormatError> {
         ("name", Array::text(model.name())),
         ("kind", Array::text(kind_word(model.kind()))),
     ];
+    if let Some(training) = model.training_coefficients() {
+        let shape = vec![modes, training.ncols()];
+        arrays
+            .push(("training_coefficients", Array { shape, data: Data::F64(by_rows(&training)) }));
+    }
     match model.cells() {
         Cells::None => {}
         Cells::Segments(segments) => arrays.push(("faces", faces(segments))),

@@ -25,7 +25,7 @@ pub fn write_model(model: &LinearModel) -> Result<Vec<u8>, FormatError> {
 fn file_of(model: &LinearModel) -> Result<Vec<u8>, Fault> {
     let refused = |error: &dyn core::fmt::Display| Fault::Write { reason: error.to_string() };
     let (dimension, points, modes) = (model.dimension(), model.point_count(), model.mode_count());
-    let Singles { mean, basis, variances, points: by_axis } = Singles::of(model)?;
+    let Singles { mean, basis, variances, points: by_axis, scores } = Singles::of(model)?;
 
     let mut file = FileBuilder::new();
     file.with_libver_bounds(LibVer::Earliest, LibVer::V18);
@@ -67,6 +67,9 @@ fn file_of(model: &LinearModel) -> Result<Vec<u8>, Fault> {
 
     let mut group = file.create_group("modelinfo");
     text(&mut group, "build-time", "not recorded")?;
+    if let Some((scores, count)) = scores {
+        floats(&mut group, "scores", &scores, &[modes, count]);
+    }
     let mut builder = group.create_group("modelBuilder-0");
     text(&mut builder, "buildTime", "not recorded")?;
     text(&mut builder, "builderName", concat!("Shapevenn ", env!("CARGO_PKG_VERSION")))?;

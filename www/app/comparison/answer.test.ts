@@ -12,7 +12,7 @@ test("names begin a sentence with a capital and are those of the pair", () => {
   const text = (nouns: Parameters<typeof said>[1]) =>
     plain(said(report, nouns, "reach-of-a") ?? []);
   const start = (shape: string, model: string) =>
-    `${shape} lies 3.02\u202fmm from the nearest that ${model} can make.`;
+    `${shape} lies 3.02\u202funits from the nearest that ${model} can make.`;
   assert.equal(text(FIRST_DEMO.nouns), start("A male head", "the female model"));
   assert.equal(text(nounsOf("model A", "model B")), start("A shape of model A", "model B"));
   const parts = nounsOfParts("identity", "expression");

@@ -14,7 +14,7 @@ const { nouns } = FIRST_DEMO;
 test("the headline says how far the shapes of one lie from the other", () => {
   assert.equal(
     plain(words.headline(report, nouns)),
-    "A male head lies 3.02\u202fmm from the nearest that the female model can make.",
+    "A male head lies 3.02\u202funits from the nearest that the female model can make.",
   );
   const { answer: _, ...older } = report;
   assert.deepEqual(
