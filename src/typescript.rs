@@ -21,7 +21,7 @@ use crate::inspect::{Agreement, Inspection, MeanDistance, Remedy, UnitFound};
 use crate::lessons::*;
 use crate::linalg::Moments;
 use crate::measure::{Evaluation, Method};
-use crate::model::{Alignment, Geometry, Kind, Side, Sides, Unit};
+use crate::model::{Alignment, Geometry, Kind, ShapesRole, Side, Sides, Unit};
 use crate::pair::{DifferenceDefinition, FitMethod, PointSelection, Preparation, SidePreparation};
 use crate::pair::{MeanSquare, Quantiles, ReachOfSide};
 use crate::relate::RelationReport;
@@ -118,7 +118,7 @@ fn declarations() -> String {
         Sampler, FitMethod, FitChoice, Pooling, Plausibility, DifferenceDefinition,
         SidePreparation, PointSelection, Preparation, Settings, FieldValue, Field,
         // Models.
-        Group, Origin, Spread, ModelReport, OpenedModel, Geometry,
+        Group, Origin, Spread, ShapesRole, KnownShapes, ModelReport, OpenedModel, Geometry,
         Agreement, UnitFound, MeanDistance, Remedy, Inspection, RelationReport,
         Method, Evaluation,
         // The report.

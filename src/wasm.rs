@@ -188,6 +188,27 @@ impl Engine {
         opened.map(|described| self.keep(described)).map_err(thrown)
     }
 
+    /// Takes shapes of files as training or test shapes of a model, whichever they are; `name` is what they are called.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }` when they cannot be read or do not fit; the model then stays as it was.
+    #[wasm_bindgen(js_name = addShapes, unchecked_return_type = "OpenedModel")]
+    pub fn add_shapes(
+        &mut self,
+        model: u32,
+        #[wasm_bindgen(unchecked_param_type = "DroppedFile[]")] files: &Array,
+        name: &str,
+        scale: bool,
+    ) -> Result<JsValue, JsValue> {
+        let inputs = blobs::inputs(files, None)?;
+        let added = files::add_shapes(self.model(model)?, name, &inputs, scale);
+        blobs::release();
+        let described = added.map_err(thrown)?;
+        let opened = plain(&described.opened(model));
+        self.models.insert(model, described);
+        Ok(opened)
+    }
+
     /// Opens a demo model; `bytes` is its packaged file where it is one.
     ///
     /// # Errors

@@ -168,6 +168,49 @@ fn evidence_of_two_folders_is_that_of_their_comparison_and_a_model_without_shape
 }
 
 #[test]
+fn shapes_beside_models_give_the_evidence_of_their_folders() {
+    let (low, high) = (triangles("beside-low", 9, 0.0), triangles("beside-high", 10, 6.0));
+    let models = folder("beside-models");
+    let bare = |source: &str, name: &str| {
+        let path = models.join(name).to_string_lossy().into_owned();
+        printed(&["convert", source, &path]);
+        let model = model_of(name, &std::fs::read(&path).unwrap());
+        assert!(model.training_shapes().is_some(), "the file has them");
+        let basis = model.scaled_basis();
+        let bare = LinearModel::from_scaled_basis(3, model.mean().clone(), basis).unwrap().0;
+        std::fs::write(&path, formats::write_npz(&bare).unwrap()).unwrap();
+        path
+    };
+    let (a, b) = (bare(&low, "low.npz"), bare(&high, "high.npz"));
+    let parsed =
+        |arguments: &[&str]| -> Value { serde_json::from_str(&printed(arguments)).unwrap() };
+    let expected = parsed(&["evidence", &low, &high, "--json"]);
+    let beside = ["--training-a", &low, "--training-b", &high, "--json"];
+    let found = parsed(&[&["evidence", &a, &b], &beside[..]].concat());
+    let means =
+        |found: &Value| found["onePopulation"]["statistics"][0]["observed"].as_f64().unwrap();
+    assert!((means(&found) / means(&expected) - 1.0).abs() < 1e-4, "{found}");
+    assert_eq!(found["shapes"], expected["shapes"], "all shapes");
+    let out = folder("beside-out").to_string_lossy().into_owned();
+    let report = parsed(&[&["compare", &a, &b, "--out", &out], &beside[..]].concat());
+    assert_eq!(report["evidence"], found, "of a comparison");
+    assert_eq!(report["models"]["a"]["shapes"]["role"], "training", "which they are");
+    assert_eq!(report["sigmaSource"], "left-out", "σ of the population");
+    // The run is made again with the shapes, and not without.
+    let run = format!("{out}/run.json");
+    let again = parsed(&[&["compare", "--run", &run, &a, &b], &beside[..]].concat());
+    assert_eq!(again["intersection"], report["intersection"], "to the last digit");
+    let without = shapevenn(&["compare", "--run", &run, &a, &b]);
+    assert_eq!(without.status.code(), Some(2), "shapes are missing");
+    assert!(text(&without.stderr).contains("beside model A; this is no shapes"), "{without:?}");
+    let words = printed(&["inspect", &a, &b, "--training-b", &low]);
+    assert!(words.contains("B  The 9 shapes of "), "{words}");
+    assert!(words.contains("are test shapes: the model was not made of them"), "{words}");
+    let refused = shapevenn(&["evidence", &a, &b, "--training-a", &low]);
+    assert!(text(&refused.stderr).contains("--training-b"), "what to do: {refused:?}");
+}
+
+#[test]
 fn a_matrix_relates_every_two_models_and_says_why_where_it_cannot() {
     let files = ["demo:stars-1-a", "demo:stars-1-b", "demo:planes-a"];
     let found: Value =

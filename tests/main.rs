@@ -31,3 +31,4 @@ mod runs;
 mod samplers;
 mod split;
 mod stars;
+mod training_shapes;

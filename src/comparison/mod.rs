@@ -125,6 +125,7 @@ impl Comparison {
             unit_guess: before.unit_guess,
             part: before.part,
             fingerprint: before.fingerprint,
+            shapes: before.shapes,
             ..ModelReport::new(model, &before.format, &before.notes)
         };
         let Sides { a, b } = described.into();

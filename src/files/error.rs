@@ -6,6 +6,7 @@ use crate::demos;
 use crate::error::ComparisonError;
 use crate::formats::FormatError;
 use crate::measure::EvaluationError;
+use crate::model::ShapesError;
 
 /// Why a file cannot be opened or written, or a run not continued.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +18,15 @@ pub enum Error {
     Comparison(ComparisonError),
     /// Shapes cannot evaluate a model.
     Evaluation(EvaluationError),
+    /// Shapes cannot be taken as those of a model.
+    Shapes {
+        /// What the shapes are called.
+        shapes: String,
+        /// What the model is called.
+        model: String,
+        /// Why not.
+        error: ShapesError,
+    },
     /// There is no demo of that name, or its packaged file is missing.
     Demo {
         /// The name asked for.
@@ -43,6 +53,15 @@ pub enum Error {
         /// What to do.
         hint: &'static str,
     },
+    /// Shapes beside a model are not those that a run was made with.
+    OtherShapes {
+        /// "A" or "B".
+        side: &'static str,
+        /// Name and fingerprint of those that are meant, or that there were none.
+        expected: String,
+        /// Name and fingerprint of those that were given, or that there are none.
+        found: String,
+    },
     /// A model is not the one that a run was made with.
     OtherModel {
         /// "A" or "B".
@@ -63,6 +82,8 @@ impl Error {
             Self::Format(error) => error.code(),
             Self::Comparison(error) => error.code(),
             Self::Evaluation(error) => error.code(),
+            Self::Shapes { error, .. } => error.code(),
+            Self::OtherShapes { .. } => "other-shapes",
             Self::Demo { .. } => "unknown-demo",
             Self::Seed { .. } => "seed",
             Self::NothingYet => "nothing-yet",
@@ -78,6 +99,12 @@ impl Error {
             Self::Format(error) => error.hint().to_string(),
             Self::Comparison(error) => error.hint().to_owned(),
             Self::Evaluation(error) => error.hint().to_owned(),
+            Self::Shapes { error, .. } => error.hint().to_owned(),
+            Self::OtherShapes { side, .. } => {
+                format!(
+                    "Give the shapes of that run as those of {side}, or none where it had none."
+                )
+            }
             Self::Demo { .. } => format!("Choose one of {}.", demos::names().join(", ")),
             Self::Seed { .. } => "Give a whole number below 2⁶⁴.".to_owned(),
             Self::NothingYet => "Wait until the run has finished.".to_owned(),
@@ -94,6 +121,12 @@ impl fmt::Display for Error {
             Self::Format(error) => error.fmt(f),
             Self::Comparison(error) => error.fmt(f),
             Self::Evaluation(error) => error.fmt(f),
+            Self::Shapes { shapes, model, error } => {
+                write!(f, "{shapes} cannot be the shapes of {model}: {error}.")
+            }
+            Self::OtherShapes { side, expected, found } => {
+                write!(f, "The run was made with {expected} beside model {side}; this is {found}.")
+            }
             Self::Demo { name } => write!(f, "There is no demo model “{name}”."),
             Self::Seed { text } => {
                 write!(

@@ -11,7 +11,7 @@ mod tables;
 
 pub use download::{Download, ShownShape, WhichShape, Written, json, seed_of, write};
 pub use error::Error;
-pub use open::{Described, OpenedModel, evaluate, open, open_demo};
+pub use open::{Described, OpenedModel, add_shapes, evaluate, open, open_demo};
 pub use run_file::{RunFile, RunModel, Sources};
 
 use crate::comparison::{Comparison, StoredArray};

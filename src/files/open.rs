@@ -8,7 +8,7 @@ use crate::formats::{self, Input, Options, Origin};
 use crate::inspect::guessed_unit;
 use crate::measure::{self, Evaluation};
 use crate::model::{Alignment, LinearModel, Unit};
-use crate::report::ModelReport;
+use crate::report::{KnownShapes, ModelReport};
 
 /// One model that was opened, with what the report says of it.
 #[derive(Debug, Clone)]
@@ -110,6 +110,39 @@ pub fn open_demo(name: &str, bytes: Option<&[u8]>) -> Result<Described, Error> {
         Some(bytes) if known => open(&[Input::of_bytes(name, bytes)], &Options::default()),
         _ => Err(Error::Demo { name: name.to_owned() }),
     }
+}
+
+/// The model with shapes of files or archives as its training or test shapes, whichever they are; a note says which.
+/// `name` is what the shapes are called, `scale` whether they may also be brought to the size of its mean.
+///
+/// # Errors
+/// [`Error::Format`] when they cannot be read, [`Error::Shapes`] when they do not fit the model.
+pub fn add_shapes(
+    described: &Described,
+    name: &str,
+    shapes: &[Input],
+    scale: bool,
+) -> Result<Described, Error> {
+    let alignment = match described.origin {
+        Origin::Shapes { scaled: true, .. } => Alignment::Similarity,
+        _ if scale => Alignment::Similarity,
+        _ => Alignment::Rigid,
+    };
+    let set = formats::read_shapes(shapes)?;
+    let model =
+        described.model.with_shapes(set.dimension, set.shapes, alignment).map_err(|error| {
+            let (shapes, model) = (name.to_owned(), described.report.name.clone());
+            Error::Shapes { shapes, model, error }
+        })?;
+    let mut report = described.report.clone();
+    report.shapes = model.training_shapes().map(|known| KnownShapes {
+        count: known.count(),
+        role: known.role(),
+        name: Some(name.to_owned()),
+        fingerprint: Some(known.fingerprint()),
+    });
+    report.notes.extend(report.shapes.as_ref().map(KnownShapes::sentence));
+    Ok(Described { model, report, ..described.clone() })
 }
 
 /// Evaluates a model by shapes that test it, or by those that it was made of (`training`).

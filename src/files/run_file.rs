@@ -18,7 +18,7 @@ use serde_json::Value;
 
 use crate::comparison::Comparison;
 use crate::files::{Error, json};
-use crate::report::{ModelReport, SCHEMA};
+use crate::report::{KnownShapes, ModelReport, SCHEMA};
 use crate::settings::Settings;
 
 /// Version of the layout.
@@ -53,6 +53,10 @@ pub struct RunModel {
     /// Its fingerprint; unknown in reports of old engines.
     #[serde(default)]
     pub fingerprint: Option<String>,
+    /// The shapes that were given beside it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, ts(optional))]
+    pub shapes: Option<KnownShapes>,
 }
 
 impl RunModel {
@@ -82,6 +86,7 @@ impl RunFile {
             part: report.part.clone(),
             source: source.clone(),
             fingerprint: report.fingerprint.clone(),
+            shapes: beside(report.shapes.as_ref()).cloned(),
         };
         Self {
             shapevenn: LAYOUT,
@@ -148,15 +153,28 @@ impl RunFile {
         Ok(Self { shapevenn: LAYOUT, engine, models, settings })
     }
 
-    /// Whether these are the models that the run was made with.
+    /// Whether these are the models that the run was made with, and the shapes beside them.
     ///
     /// # Errors
-    /// [`Error::OtherModel`] of the first that is not.
+    /// [`Error::OtherModel`] or [`Error::OtherShapes`] of the first that is not.
     pub fn check(&self, a: &ModelReport, b: &ModelReport) -> Result<(), Error> {
         let Sides { a: expected_a, b: expected_b } = &self.models;
         for (side, expected, other, given) in
             [("A", expected_a, expected_b, a), ("B", expected_b, expected_a, b)]
         {
+            let shapes = [&expected.shapes, &given.shapes].map(|one| beside(one.as_ref()));
+            let [of_run, of_given] = shapes.map(|one| one.and_then(|one| one.fingerprint.clone()));
+            let is_other_model =
+                expected.fingerprint.is_some() && expected.fingerprint != given.fingerprint;
+            if !is_other_model && of_run != of_given {
+                let [expected, found] = shapes.map(|one| match one {
+                    None => "no shapes".to_owned(),
+                    Some(KnownShapes { name, fingerprint, .. }) => {
+                        named(name.as_deref().unwrap_or("shapes"), fingerprint.as_deref())
+                    }
+                });
+                return Err(Error::OtherShapes { side, expected, found });
+            }
             if expected.fingerprint.is_none() || expected.fingerprint == given.fingerprint {
                 continue;
             }
@@ -185,6 +203,11 @@ impl RunFile {
     }
 }
 
+/// Shapes that are not in the file of their model.
+fn beside(shapes: Option<&KnownShapes>) -> Option<&KnownShapes> {
+    shapes.filter(|shapes| shapes.fingerprint.is_some())
+}
+
 /// "male.h5 (1f2e…)".
 fn named(name: &str, fingerprint: Option<&str>) -> String {
     format!("{name} ({})", fingerprint.unwrap_or("no fingerprint"))
@@ -194,6 +217,7 @@ fn named(name: &str, fingerprint: Option<&str>) -> String {
 mod tests {
     use super::*;
     use crate::files::open_demo;
+    use crate::model::ShapesRole;
 
     fn stars() -> (RunFile, [ModelReport; 2]) {
         let [a, b] = ["stars-1-a", "stars-1-b"].map(|name| open_demo(name, None).unwrap());
@@ -231,6 +255,32 @@ mod tests {
         let mut old = run.clone();
         old.models.b.fingerprint = None;
         assert_eq!(old.check(&a, &other), Ok(()), "nothing is known of B");
+    }
+
+    #[test]
+    fn shapes_beside_a_model_belong_to_the_run() {
+        let (mut run, [a, mut b]) = stars();
+        let shapes = |fingerprint: &str| KnownShapes {
+            count: 9,
+            role: ShapesRole::Test,
+            name: Some("folder".to_owned()),
+            fingerprint: Some(fingerprint.to_owned()),
+        };
+        run.models.b.shapes = Some(shapes("01"));
+        let missing = run.check(&a, &b).unwrap_err();
+        assert_eq!(
+            missing.to_string(),
+            "The run was made with folder (01) beside model B; this is no shapes."
+        );
+        b.shapes = Some(shapes("02"));
+        assert_eq!(run.check(&a, &b).unwrap_err().code(), "other-shapes", "others");
+        b.shapes = Some(shapes("01"));
+        assert_eq!(run.check(&a, &b), Ok(()), "the same");
+        assert_eq!(RunFile::parse("run.json", &run.to_json()), Ok(run.clone()), "read back");
+        // Shapes that are in the file of a model have no fingerprint of their own.
+        run.models.b.shapes = None;
+        b.shapes = Some(KnownShapes { fingerprint: None, ..shapes("") });
+        assert_eq!(run.check(&a, &b), Ok(()), "in the file");
     }
 
     #[test]

@@ -22,7 +22,7 @@
 
 use sha2::{Digest, Sha256};
 
-use super::LinearModel;
+use super::{LinearModel, TrainingShapes};
 use crate::linalg::parallel;
 
 /// Numbers that are turned into bytes at once.
@@ -41,6 +41,24 @@ impl LinearModel {
         }) {
             whole.update(column);
         }
+        whole.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+impl TrainingShapes {
+    /// The same of the shapes, as they are in the frame of the model: SHA-256 of how many numbers each has and how many
+    /// there are, and of each.
+    pub fn fingerprint(&self) -> String {
+        let shapes = self.shapes();
+        let mut whole = Sha256::new();
+        for count in [shapes.nrows(), shapes.ncols()] {
+            whole.update((count as u64).to_le_bytes());
+        }
+        let columns = parallel::map(shapes.ncols(), |shape| {
+            let values: Vec<f64> = shapes.column(shape).iter().copied().collect();
+            digest(&values, 1.0)
+        });
+        columns.into_iter().for_each(|column| whole.update(column));
         whole.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect()
     }
 }

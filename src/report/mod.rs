@@ -12,7 +12,7 @@ use crate::pair::{ReachDraws, ReachOfSide};
 use crate::settings::SigmaSource;
 use serde::{Deserialize, Serialize};
 
-use crate::model::{Kind, LinearModel, TrainingShapes, Unit};
+use crate::model::{Kind, LinearModel, ShapesRole, Unit};
 
 pub use answer::{LEVEL, Name, NoEvidence, Part, Quantity, Sentence, Topic, answer};
 pub use evidence::{
@@ -125,10 +125,49 @@ pub struct ModelReport {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, ts(optional))]
     pub fingerprint: Option<String>,
-    /// How many training shapes of it are known, where they are.
+    /// The shapes that are known with it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, ts(optional))]
-    pub training_shapes: Option<usize>,
+    pub shapes: Option<KnownShapes>,
+}
+
+/// Shapes that are known with a model.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+#[serde(rename_all = "camelCase")]
+pub struct KnownShapes {
+    /// Number of shapes N.
+    pub count: usize,
+    /// How they relate to the model.
+    pub role: ShapesRole,
+    /// What they are called, where they were given beside the model.
+    pub name: Option<String>,
+    /// [`TrainingShapes::fingerprint`](crate::model::TrainingShapes::fingerprint), where they were given beside the
+    /// model.
+    pub fingerprint: Option<String>,
+}
+
+impl KnownShapes {
+    /// What they are, in a sentence.
+    pub fn sentence(&self) -> String {
+        let of_name = self.name.as_ref().map(|name| format!(" of {name}")).unwrap_or_default();
+        let what = match self.role {
+            ShapesRole::Training => "training shapes: the model was made of them",
+            ShapesRole::WithinModes => {
+                "training shapes, of which only what the modes hold is known"
+            }
+            ShapesRole::Test => {
+                "test shapes: the model was not made of them, or they were aligned in another way"
+            }
+        };
+        format!("The {} shapes{of_name} are {what}.", self.count)
+    }
+
+    /// Those of a model.
+    fn of(model: &LinearModel) -> Option<Self> {
+        let shapes = model.training_shapes()?;
+        Some(Self { count: shapes.count(), role: shapes.role(), name: None, fingerprint: None })
+    }
 }
 
 impl ModelReport {
@@ -158,7 +197,7 @@ impl ModelReport {
             unit_guess: None,
             part: None,
             fingerprint: None,
-            training_shapes: model.training_shapes().map(TrainingShapes::count),
+            shapes: KnownShapes::of(model),
         }
     }
 }

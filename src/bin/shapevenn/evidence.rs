@@ -10,7 +10,7 @@ use shapevenn::pair::Pair;
 use shapevenn::report::{EvidenceReport, Hypothesis, StatisticName};
 use shapevenn::settings::Settings;
 
-use crate::{Failure, prepare, sources, to_json};
+use crate::{Failure, prepare, print_shapes, sources, to_json};
 
 #[derive(Debug, Args)]
 #[group(skip)]
@@ -21,6 +21,8 @@ pub(crate) struct Arguments {
     b: String,
     #[command(flatten)]
     prepare: prepare::Arguments,
+    #[command(flatten)]
+    shapes: sources::ShapesBeside,
     /// Random relabellings of the shapes
     #[arg(long, default_value_t = 999)]
     permutations: usize,
@@ -40,15 +42,17 @@ pub(crate) fn evidence(arguments: &Arguments) -> Result<(), Failure> {
         ..Settings::default()
     })?;
     settings.check().map_err(|error| Error::from(ComparisonError::from(error)))?;
-    let [a, b] = [&arguments.a, &arguments.b].map(|source| sources::open(source, prepare.scale));
-    let (a, b) = (a?, b?);
+    let [a, b] = arguments.shapes.open([&arguments.a, &arguments.b], prepare.scale)?;
     for (model, source, side) in [(&a.model, &arguments.a, "A"), (&b.model, &arguments.b, "B")] {
         if model.training_shapes().is_none() {
             return Err(Failure::Input {
                 message: format!(
                     "{source} is a model whose training shapes are not known; the shapes of {side} were expected."
                 ),
-                hint: "Give the folder of the shapes that the model was made from.".to_owned(),
+                hint: format!(
+                    "Give the folder of the shapes that the model was made from, instead of it or beside it with --training-{}.",
+                    side.to_lowercase()
+                ),
             });
         }
     }
@@ -73,6 +77,8 @@ pub(crate) fn evidence(arguments: &Arguments) -> Result<(), Failure> {
         println!("{}", to_json(&found)?);
     } else {
         println!("A  {}\nB  {}", a.report.name, b.report.name);
+        print_shapes("A", &a.report);
+        print_shapes("B", &b.report);
         let unit = pair.a().unit().symbol();
         for sentence in found.answer() {
             println!("{}", sentence.plain(unit));

@@ -62,6 +62,8 @@ enum Command {
         b: String,
         #[command(flatten)]
         prepare: prepare::Arguments,
+        #[command(flatten)]
+        shapes: sources::ShapesBeside,
         /// Print one JSON document
         #[arg(long)]
         json: bool,
@@ -135,6 +137,8 @@ struct Compare {
     #[command(flatten)]
     prepare: prepare::Arguments,
     #[command(flatten)]
+    shapes: sources::ShapesBeside,
+    #[command(flatten)]
     settings: SettingOptions,
     /// Write report, draws, the intersection model and the mean shapes to this folder
     #[arg(long)]
@@ -167,7 +171,9 @@ fn main() -> ExitCode {
     let done = match Cli::parse().command {
         Command::Info { files, json } => info(&files, json),
         Command::Compare(arguments) => compare(&arguments),
-        Command::Inspect { a, b, prepare, json } => inspect([&a, &b], &prepare, json),
+        Command::Inspect { a, b, prepare, shapes, json } => {
+            inspect([&a, &b], &prepare, &shapes, json)
+        }
         Command::Matrix(arguments) => matrix::matrix(&arguments),
         Command::Sweep { a, b, sigma, prepare, json } => sweep([&a, &b], sigma, &prepare, json),
         Command::Convert { input, output } => convert(&input, &output),
@@ -218,14 +224,21 @@ fn info(named: &[String], json: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-fn inspect(named: [&str; 2], prepare: &prepare::Arguments, json: bool) -> Result<(), Failure> {
+fn inspect(
+    named: [&str; 2],
+    prepare: &prepare::Arguments,
+    shapes: &sources::ShapesBeside,
+    json: bool,
+) -> Result<(), Failure> {
     let settings = prepare.settings(Settings::default())?;
-    let [a, b] = [sources::open(named[0], prepare.scale)?, sources::open(named[1], prepare.scale)?];
+    let [a, b] = shapes.open(named, prepare.scale)?;
     let found = shapevenn::inspect::inspect(&a.model, &b.model, &settings);
     if json {
         println!("{}", to_json(&found)?);
         return Ok(());
     }
+    print_shapes("A", &a.report);
+    print_shapes("B", &b.report);
     match (&found.problem, found.compared) {
         (Some(problem), _) => println!("! {} {}", problem.message, problem.hint),
         (None, count) => println!("{} points in common", count.unwrap_or(0)),
@@ -264,8 +277,7 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
             (given.map(|source| source.unwrap_or_default().to_owned()), settings(arguments)?)
         }
     };
-    let open = |source: &str| sources::open(source, arguments.prepare.scale);
-    let (a, b) = (open(&named[0])?, open(&named[1])?);
+    let [a, b] = arguments.shapes.open([&named[0], &named[1]], arguments.prepare.scale)?;
     if let Some((run, _)) = &again {
         run.check(&a.report, &b.report)?;
     }
@@ -420,6 +432,9 @@ fn print_in_words(report: &Report) {
     let share = |value: f64| 100.0 * value;
     println!("A  {} ({} modes)", report.models.a.name, report.models.a.modes);
     println!("B  {} ({} modes)", report.models.b.name, report.models.b.modes);
+    for (name, model) in [("A", &report.models.a), ("B", &report.models.b)] {
+        print_shapes(name, model);
+    }
     for sentence in &report.answer {
         println!("{}", sentence.plain(unit));
     }
@@ -478,6 +493,13 @@ fn print_in_words(report: &Report) {
     }
 }
 
+/// What shapes that were given beside a model are.
+fn print_shapes(name: &str, model: &ModelReport) {
+    if let Some(shapes) = model.shapes.as_ref().filter(|shapes| shapes.name.is_some()) {
+        println!("{name}  {}", shapes.sentence());
+    }
+}
+
 /// How far the shapes of either model lie from the other.
 fn print_reach(report: &Report) {
     let Some(reach) = &report.reach else { return };
@@ -516,7 +538,7 @@ fn warn_of_older_sigma(link: &Link, report: &Report) {
 fn source_in_words(source: Option<SigmaSource>) -> &'static str {
     match source {
         Some(SigmaSource::LeftOut) => {
-            "the mean distance of training shapes to the model of the others"
+            "the mean distance of shapes to a model that was made without them"
         }
         Some(SigmaSource::Noise) => "how far true members lie from their own model",
         Some(SigmaSource::Budget) => "a quarter of the range of distances",

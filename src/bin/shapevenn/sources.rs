@@ -5,6 +5,7 @@ use std::io::{Read, Seek, SeekFrom};
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use clap::Args;
 use shapevenn::files::{self, Described};
 use shapevenn::formats::{self, Input, Options, Storage};
 
@@ -54,6 +55,31 @@ pub(crate) fn open(source: &str, scale: bool) -> Result<Described, Failure> {
     };
     let members: Vec<Input> = group.files.iter().map(|&index| inputs[index].clone()).collect();
     Ok(files::open(&members, &options)?)
+}
+
+/// Shapes beside the two models.
+#[derive(Debug, Args)]
+pub(crate) struct ShapesBeside {
+    /// Training or test shapes of A: a folder, an archive or a file of shapes in correspondence with it
+    #[arg(long, value_name = "SHAPES")]
+    training_a: Option<String>,
+    /// Training or test shapes of B
+    #[arg(long, value_name = "SHAPES")]
+    training_b: Option<String>,
+}
+
+impl ShapesBeside {
+    /// Opens two models, with the shapes that are given beside them.
+    pub(crate) fn open(&self, named: [&str; 2], scale: bool) -> Result<[Described; 2], Failure> {
+        let open = |source: &str, shapes: &Option<String>| -> Result<Described, Failure> {
+            let model = open(source, scale)?;
+            match shapes {
+                None => Ok(model),
+                Some(shapes) => Ok(files::add_shapes(&model, shapes, &inputs_of(shapes)?, scale)?),
+            }
+        };
+        Ok([open(named[0], &self.training_a)?, open(named[1], &self.training_b)?])
+    }
 }
 
 /// All models of a source. A part that cannot be read is mentioned in the notes of the first.
