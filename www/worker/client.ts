@@ -24,6 +24,7 @@ import type {
   LessonAsk,
   MapName,
   Nearest,
+  OpenedModel,
   PairPlots,
   PointSelection,
   Preview,
@@ -108,6 +109,17 @@ export class EngineClient {
     onRead: OnRead,
   ): Promise<Reply<"opened">> {
     return this.#opened(signal, { t: "open", files, part, scale }, [], onRead);
+  }
+
+  async addShapes(
+    signal: AbortSignal,
+    model: Handle,
+    files: DroppedFile[],
+    name: string,
+    scale: boolean,
+  ): Promise<OpenedModel> {
+    const request = { t: "addShapes", model, files, name, scale } as const;
+    return (await this.#ask(signal, request, "shapesAdded")).opened;
   }
 
   async openDemo(

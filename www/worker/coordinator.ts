@@ -30,6 +30,7 @@ type Question = Exclude<ToEngine, { t: "run" | "cancel" | "close" }>;
 const BUSY_WITH: Record<Question["t"], string> = {
   groups: "looking at the files",
   open: "reading the file",
+  addShapes: "reading the shapes",
   openDemo: "preparing the demo",
   geometry: "drawing the model",
   inspect: "looking at the pair",
@@ -126,6 +127,10 @@ export class Coordinator {
         const { files, part, scale } = message;
         const onRead = this.#teller(id);
         return this.#opened(id, () => engine.open(files, part ?? undefined, scale, onRead));
+      }
+      case "addShapes": {
+        const { model, files, name, scale } = message;
+        return { t: "shapesAdded", id, opened: engine.addShapes(model, files, name, scale) };
       }
       case "openDemo": {
         const bytes = message.bytes === null ? undefined : new Uint8Array(message.bytes);

@@ -14,6 +14,13 @@ export class Engine {
     free(): void;
     [Symbol.dispose](): void;
     /**
+     * Takes shapes of files as training or test shapes of a model, whichever they are; `name` is what they are called.
+     *
+     * # Errors
+     * `{ code, message, hint }` when they cannot be read or do not fit; the model then stays as it was.
+     */
+    addShapes(model: number, files: DroppedFile[], name: string, scale: boolean): OpenedModel;
+    /**
      * Does about `evaluations` evaluations of the distance and says how far the run is.
      *
      * # Errors

@@ -225,6 +225,24 @@ export type Spread = {
   max: number,
 };
 
+/** How shapes relate to the model that they are known with. */
+export type ShapesRole = "training" | "within-modes" | "test";
+
+/** Shapes that are known with a model. */
+export type KnownShapes = {
+  /** Number of shapes N. */
+  count: number,
+  /** How they relate to the model. */
+  role: ShapesRole,
+  /** What they are called, where they were given beside the model. */
+  name: string | null,
+  /**
+   * [`TrainingShapes::fingerprint`](crate::model::TrainingShapes::fingerprint), where they were given beside the
+   * model.
+   */
+  fingerprint: string | null,
+};
+
 /** One model, described. */
 export type ModelReport = {
   /** What it is called: the file's name, with the part behind `#`. */
@@ -263,8 +281,8 @@ export type ModelReport = {
   part?: string,
   /** [`LinearModel::fingerprint`] of the model as it was read, before anything was done to it. */
   fingerprint?: string,
-  /** How many training shapes of it are known, where they are. */
-  trainingShapes?: number,
+  /** The shapes that are known with it. */
+  shapes?: KnownShapes,
 };
 
 /** What the page is told of a model that was opened; other parts are opened when they are chosen. */
@@ -1194,6 +1212,8 @@ export type RunModel = {
   source: string | null,
   /** Its fingerprint; unknown in reports of old engines. */
   fingerprint: string | null,
+  /** The shapes that were given beside it. */
+  shapes?: KnownShapes,
 };
 
 /** Where the two models of a run are from: `demo:NAME`, an address, or nothing. */

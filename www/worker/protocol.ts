@@ -85,6 +85,15 @@ export type ToEngine =
   | { t: "groups"; id: number; files: DroppedFile[] }
   /** `part` null takes the first; `scale` also brings the shapes of a set to one size. */
   | { t: "open"; id: number; files: DroppedFile[]; part: string | null; scale: boolean }
+  /** Takes shapes as training or test shapes of an open model, whichever they are; `name` is what they are called. */
+  | {
+      t: "addShapes";
+      id: number;
+      model: Handle;
+      files: DroppedFile[];
+      name: string;
+      scale: boolean;
+    }
   /** `bytes`: the packaged head file; null for demos that are made by code. */
   | { t: "openDemo"; id: number; demo: string; bytes: ArrayBuffer | null }
   | { t: "geometry"; id: number; model: Handle }
@@ -159,6 +168,7 @@ export type FromEngine =
   /** While a model is read: bytes so far, of how many. */
   | { t: "reading"; id: number; bytes: number; of: number }
   | ({ t: "opened"; id: number } & OpenedModel)
+  | { t: "shapesAdded"; id: number; opened: OpenedModel }
   | { t: "geometry"; id: number; geometry: Geometry }
   | { t: "inspected"; id: number; inspection: Inspection }
   | { t: "points"; id: number; points: PointSelection }

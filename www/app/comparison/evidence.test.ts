@@ -112,8 +112,8 @@ test("where there is no evidence, the reason and what to do are said", () => {
     return {
       ...report,
       models: {
-        a: { ...models.a, ...(a === undefined ? {} : { trainingShapes: a }) },
-        b: { ...models.b, ...(b === undefined ? {} : { trainingShapes: b }) },
+        a: { ...models.a, ...(a === undefined ? {} : { shapes: known(a) }) },
+        b: { ...models.b, ...(b === undefined ? {} : { shapes: known(b) }) },
       },
     };
   };

@@ -273,7 +273,7 @@ export function noEvidence(report: Report, cancelled: boolean): { message: strin
     };
   }
   const unknown = (["a", "b"] as const).filter(
-    (side) => report.models[side].trainingShapes == null,
+    (side) => !report.models[side].shapes,
   );
   if (unknown.length > 0) {
     const of = unknown.map((side) => side.toUpperCase()).join(" and ");

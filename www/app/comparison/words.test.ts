@@ -259,6 +259,15 @@ test("a model that was made here says from what", () => {
   assert.match(words.originSentence({ ...shapes, scaled: true }) ?? "", /scaled to one size/);
 });
 
+test("shapes that are known with a model are said with what they are", () => {
+  const known = { count: 20, role: "training", name: null, fingerprint: null } as const;
+  assert.equal(words.shapesSentence(known), "20 training shapes.");
+  const beside = { ...known, role: "test", name: "males" } as const;
+  assert.equal(words.shapesSentence(beside), "20 test shapes, of “males”.");
+  const within = { ...known, role: "within-modes" } as const;
+  assert.match(words.shapesSentence(within), /^20 training shapes, known only within the modes/);
+});
+
 test("what a file leaves open is told, what is in order is not", () => {
   const { a } = report.models;
   assert.equal(words.unitSentence({ ...a, unit: "mm" }), null);

@@ -7,6 +7,7 @@ import type {
   FitMethod,
   InferenceReport,
   Inspection,
+  KnownShapes,
   ModeDiagnostics,
   ModelReport,
   Origin,
@@ -516,6 +517,14 @@ export function originSentence(origin: Origin): string | null {
     case "blendshapes":
       return `Computed here from ${count(origin.count)} blendshapes, with ${count(origin.sampled)} sampled shapes.`;
   }
+}
+
+/** How many shapes are known with a model, and how they relate to it. */
+export function shapesSentence({ count: shapes, role, name }: KnownShapes): string {
+  const from = name === null ? "" : `, of “${name}”`;
+  const kind = role === "test" ? "test" : "training";
+  const within = role === "within-modes" ? ", known only within the modes of the file" : "";
+  return `${count(shapes)} ${kind} shapes${from}${within}.`;
 }
 
 /** Says that a file states no unit, with a guess from the size of the mean shape. */

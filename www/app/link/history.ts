@@ -57,6 +57,7 @@ export const unlinkable = computed(() => ({
   files: SIDES.filter((side) => slots[side].value?.source.kind === "files"),
   modelList:
     isUsed(modelList.value) && modelList.value.some(({ source }) => source.kind !== "demo"),
+  shapes: SIDES.some((side) => slots[side].value?.shapes),
   points: !fitsLink(settings.value.prepare.points),
 }));
 

@@ -11,6 +11,7 @@ import {
   demo,
   dismiss,
   emptyRegions,
+  type Files,
   lockedRange,
   modelList,
   notify,
@@ -29,6 +30,7 @@ import {
 } from "../state/state";
 import { closeUnused, release, retain } from "./list/handles";
 import { afterChoice } from "./list/order";
+import { mayBeShapesOf } from "./shapes";
 import {
   baseName,
   demoSource,
@@ -39,12 +41,22 @@ import {
   nameOf,
   type OnRead,
   openWanted,
+  wantedOf,
 } from "./sources";
 
 const loads: Record<Side, AbortController | null> = { a: null, b: null };
 
 /** More than two dropped models, of which two are still to be chosen. */
 export const choosing = signal<NamedSource[] | null>(null);
+
+/** Shapes that were dropped where a model from a file is open: a model of their own, or the shapes of that model. */
+export interface Offered {
+  side: Side;
+  shapes: Files;
+}
+
+/** Shapes of which is still to be chosen what they are. */
+export const offered = signal<Offered | null>(null);
 
 /** Opens the example of an address, with the settings of the address. */
 export function demoModels({ a, b }: Demo): Record<Side, Wanted> {
@@ -90,9 +102,23 @@ export async function openModels(files: DroppedFile[], side: Side): Promise<void
     spoken.value = `${models.length} models were found. Choose two of them.`;
   } else if (two) {
     await openPair(first(one.source), first(two.source), forget());
+  } else if (mayBeShapesOf(slots[side].peek(), one.source)) {
+    offered.value = { side, shapes: one.source };
   } else {
     await openSource(side, one.source);
   }
+}
+
+/** Opens the shapes that were offered as a model of their own. */
+export async function openOffered({ side, shapes }: Offered): Promise<void> {
+  offered.value = null;
+  await openSource(side, shapes);
+}
+
+/** Takes the shapes that were offered as those of the model that is open. */
+export async function addOffered({ side, shapes }: Offered): Promise<void> {
+  offered.value = null;
+  await addShapes(side, shapes);
 }
 
 /** Opens the two that were chosen of several models; null keeps the present one. */
@@ -152,13 +178,25 @@ async function grouped(files: DroppedFile[], side: Side | null) {
 export async function choosePart(side: Side, part: string): Promise<void> {
   const slot = slots[side].value;
   if (!slot || part === slot.part) return;
-  await reread(side, { source: slot.source, part, scale: slot.scale });
+  await reread(side, { ...wantedOf(slot), part });
 }
 
 /** Computes the model of a set of shapes again, with or without scaling them to one size. */
 export async function chooseScale(side: Side, scale: boolean): Promise<void> {
   const slot = slots[side].value;
-  if (slot) await reread(side, { source: slot.source, part: slot.part, scale });
+  if (slot) await reread(side, { ...wantedOf(slot), scale });
+}
+
+/** Takes shapes as the training or test shapes of a model, whichever they are. */
+export async function addShapes(side: Side, shapes: Files): Promise<void> {
+  const slot = slots[side].value;
+  if (slot) await reread(side, { ...wantedOf(slot), shapes });
+}
+
+/** Takes back the shapes beside a model. */
+export async function removeShapes(side: Side): Promise<void> {
+  const slot = slots[side].value;
+  if (slot) await reread(side, { ...wantedOf(slot), shapes: null });
 }
 
 export async function openParts(source: Source, a: string, b: string): Promise<void> {

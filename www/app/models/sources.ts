@@ -3,13 +3,20 @@ import { EngineFailure } from "../../worker/engine-errors";
 import type { DroppedFile, OpenedModel } from "../../worker/protocol";
 import { packagedFile } from "../state/demos";
 import { engineClient } from "../state/engine";
-import { type Reading, type Slot, type Source, slotKey, type Wanted } from "../state/state";
+import {
+  type Files,
+  type Reading,
+  type Slot,
+  type Source,
+  slotKey,
+  type Wanted,
+} from "../state/state";
 import { fileName } from "./address/address";
 import { fetchModel } from "./address/fetching";
 
 export interface NamedSource {
   name: string;
-  source: Source;
+  source: Files;
 }
 
 let fileSerial = 0;
@@ -23,21 +30,21 @@ export function demoSource(name: string): Source {
   return { kind: "demo", name };
 }
 
-export function filesSource(name: string, files: DroppedFile[]): Source {
+export function filesSource(name: string, files: DroppedFile[]): Files {
   fileSerial += 1;
   return { kind: "files", name, files, serial: fileSerial };
 }
 
-/** Source and part with which this model can be opened again. */
-export function wantedOf({ source, part, scale }: Wanted): Wanted {
-  return { source, part, scale };
+/** Source, part and shapes with which this model can be opened again. */
+export function wantedOf({ source, part, scale, shapes = null }: Wanted): Wanted {
+  return { source, part, scale, shapes };
 }
 
 /** Whether an open model is the wanted one. */
 export function isOpen(slot: Slot, wanted: Wanted): boolean {
-  return (
-    slotKey(slot) === slotKey({ ...slot, ...wanted, part: wanted.part ?? slot.parts[0] ?? "" })
-  );
+  const { source, scale, shapes = null } = wanted;
+  const part = wanted.part ?? slot.parts[0] ?? "";
+  return slotKey(slot) === slotKey({ ...slot, source, scale, shapes, part });
 }
 
 export function nameOf(source: Source): string {
@@ -62,7 +69,7 @@ export async function openWanted(
   wanted: Wanted,
   onRead: OnRead,
 ): Promise<Slot> {
-  const { source, part, scale } = wanted;
+  const { source, part, scale, shapes = null } = wanted;
   const client = engineClient();
   let opened: OpenedModel;
   let bytes: number | null = null;
@@ -77,10 +84,12 @@ export async function openWanted(
     bytes = files.reduce((sum, { blob }) => sum + blob.size, 0);
     opened = await client.open(signal, files, part, scale, (bytes, of) => onRead({ bytes, of }));
   }
+  if (shapes) opened = await withShapes(signal, opened, shapes, scale);
   const { format, parts, model, report, origin, hasMap } = opened;
   return {
     source,
     scale,
+    shapes,
     bytes,
     geometry: null,
     format,
@@ -91,6 +100,21 @@ export async function openWanted(
     origin,
     hasMap,
   };
+}
+
+/** The model with its shapes; closed if they do not fit. */
+async function withShapes(
+  signal: AbortSignal,
+  { model }: OpenedModel,
+  { files, name }: Files,
+  scale: boolean,
+): Promise<OpenedModel> {
+  try {
+    return await engineClient().addShapes(signal, model, files, name, scale);
+  } catch (thrown) {
+    engineClient().close(model);
+    throw thrown;
+  }
 }
 
 async function packagedBytes(signal: AbortSignal, file: string): Promise<ArrayBuffer> {

@@ -1,9 +1,23 @@
 import { useEffect, useRef } from "preact/hooks";
-import type { ModelReport, Side } from "../../worker/protocol";
-import { basisSentence, originSentence, readingSentence, unitSentence } from "../comparison/words";
+import type { DroppedFile, ModelReport, Side } from "../../worker/protocol";
+import {
+  basisSentence,
+  originSentence,
+  readingSentence,
+  shapesSentence,
+  unitSentence,
+} from "../comparison/words";
 import { askedName } from "../link/waiting";
-import { cancelOpening, choosePart, chooseScale, openParts } from "../models/opening";
-import { nameOf } from "../models/sources";
+import {
+  addShapes,
+  cancelOpening,
+  choosePart,
+  chooseScale,
+  openParts,
+  removeShapes,
+} from "../models/opening";
+import { nameOfShapes } from "../models/shapes";
+import { filesSource, nameOf } from "../models/sources";
 import { cardPicture, drawable } from "../stage/stage-controller";
 import { keptModes } from "../state/preparation";
 import { otherSide } from "../state/regions";
@@ -20,6 +34,7 @@ import {
 import { isDark } from "../state/theme";
 import { bytes, count, length } from "../text/format";
 import { Check } from "../ui/Check";
+import { FileButton } from "../ui/FileButton";
 import { Notices } from "../ui/Notices";
 import { Scree } from "../ui/Scree";
 import { Select } from "../ui/Select";
@@ -86,6 +101,7 @@ export function ModelCard({ side }: { side: Side }) {
         </div>
       )}
       {slot && <Made side={side} slot={slot} />}
+      {slot && !busy && <Shapes side={side} slot={slot} />}
       {report && demo.value === null && <Basis report={report} />}
       {report?.notes.map((note) => (
         <p key={note} class="note">
@@ -148,6 +164,41 @@ function Made({ side, slot }: { side: Side; slot: Slot }) {
       )}
       {(sentence || modes !== null || variance !== null) && (
         <ModesKept side={side} deviations={report.standardDeviations} />
+      )}
+    </>
+  );
+}
+
+/** The training or test shapes of a model: how many there are, and how to give or take them back. */
+function Shapes({ side, slot }: { side: Side; slot: Slot }) {
+  const letter = side.toUpperCase();
+  const { shapes: known, kind } = slot.report;
+  const give = (files: DroppedFile[]) => {
+    if (files.length > 0) void addShapes(side, filesSource(nameOfShapes(files), files));
+  };
+  const why = `Meshes or landmarks with the points of ${letter}. With them the page says how far shapes that ${letter} has not seen lie from it, and whether the difference is more than chance.`;
+  return (
+    <>
+      {known && <p class="made">{shapesSentence(known)}</p>}
+      {slot.shapes && (
+        <button type="button" class="as-link" onClick={() => void removeShapes(side)}>
+          Take back the shapes of {letter}
+        </button>
+      )}
+      {!known && kind === "shape" && (
+        <div class="card-row" title={why}>
+          <FileButton className="as-link" label={`Shapes of model ${letter}`} onFiles={give}>
+            Add its shapes…<span class="unseen"> for {letter}</span>
+          </FileButton>
+          <FileButton
+            className="as-link"
+            label={`Folder of shapes of model ${letter}`}
+            folder
+            onFiles={give}
+          >
+            Add their folder…<span class="unseen"> for {letter}</span>
+          </FileButton>
+        </div>
       )}
     </>
   );

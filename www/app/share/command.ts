@@ -10,6 +10,8 @@ export interface CommandModel {
   part: string | null;
   /** Whether the shapes of a set were scaled to one size. */
   scale: boolean;
+  /** What the shapes beside it are called. */
+  shapes?: string | null;
 }
 
 export interface Command {
@@ -46,6 +48,10 @@ export function commandOf(settings: Settings, models: Sides<CommandModel>): Comm
   for (const [name, flag] of Object.entries(FLAGS) as [keyof typeof FLAGS, string][]) {
     const value = settings[name];
     if (value !== standard[name] && value !== null) words.push(`--${flag}`, String(value));
+  }
+  for (const side of ["a", "b"] as const) {
+    const { shapes } = models[side];
+    if (shapes) words.push(`--training-${side}`, shapes);
   }
   const missing: string[] = [];
   words.push(...preparation(settings, missing));

@@ -5,18 +5,27 @@ export interface Unlinkable {
   files: ("a" | "b")[];
   /** Whether other models of the visitor are open. */
   modelList: boolean;
+  /** Whether shapes are given beside A or B. */
+  shapes: boolean;
   /** Whether the compared points are a list too long for a link. */
   points: boolean;
 }
 
 /** Message after copying a link. */
-export function copiedWords({ files, modelList, points }: Unlinkable): string {
+export function copiedWords({ files, modelList, shapes, points }: Unlinkable): string {
   if (files.length > 0) return "Link copied; it contains no files";
-  return modelList || points ? "Link copied; it does not contain everything" : "Link copied";
+  return modelList || shapes || points
+    ? "Link copied; it does not contain everything"
+    : "Link copied";
 }
 
-export function holdsSentences({ files, modelList, points }: Unlinkable): string[] {
+export function holdsSentences({ files, modelList, shapes, points }: Unlinkable): string[] {
   const said = [holds(files)];
+  if (shapes) {
+    said.push(
+      "The shapes that were added to the models are not in the link: σ and what is more than chance depend on them.",
+    );
+  }
   if (modelList) said.push("Your own models other than A and B are not in the link.");
   if (points) said.push("The list of compared points is too long for a link: use a run file.");
   return said;

@@ -30,6 +30,11 @@ test("file names are quoted for a shell, parts follow them", () => {
   assert.equal(line({}, models), "shapevenn compare 'my model'\\''s.h5#expression' 'b.h5#shape'");
 });
 
+test("shapes beside a model are a flag", () => {
+  const models = { a: { ...model("a.h5"), shapes: "my males" }, b: model("b.h5") };
+  assert.equal(line({}, models), "shapevenn compare a.h5 b.h5 --training-a 'my males'");
+});
+
 test("steps before the comparison are flags; what there is no flag for is told", () => {
   const { prepare } = DEFAULTS;
   const prepared = (part: Partial<Settings["prepare"]>, models = heads) =>
@@ -58,14 +63,16 @@ test("steps before the comparison are flags; what there is no flag for is told",
 });
 
 test("what a link holds is said for files, for more models and for lists of points", () => {
-  const none = { files: [], modelList: false, points: false };
+  const none = { files: [], modelList: false, shapes: false, points: false };
   assert.match(holdsSentences(none).join(" "), /^The link contains the models, all settings/);
   assert.equal(
     holdsSentences({ ...none, files: ["a", "b"] })[0],
     "The link contains all settings and the fingerprints of your two files, not the files. To open it, drop the same files; the page checks that they are the same.",
   );
   assert.match(holdsSentences({ ...none, files: ["b"] })[0] ?? "", /fingerprint of your file, B/);
-  assert.equal(holdsSentences({ files: [], modelList: true, points: true }).length, 3);
+  const all = { files: [], modelList: true, shapes: true, points: true };
+  assert.equal(holdsSentences(all).length, 4);
+  assert.match(holdsSentences(all)[1] ?? "", /^The shapes that were added to the models are not/);
 });
 
 test("snippets are escaped, and without scripts a link stays", () => {

@@ -35,7 +35,7 @@ export interface Line {
   missing: string[];
 }
 
-const NOTHING: Unlinkable = { files: [], modelList: false, points: false };
+const NOTHING: Unlinkable = { files: [], modelList: false, shapes: false, points: false };
 
 export function subject(): Subject {
   if (page.value === "learn") return scenePart();
@@ -88,17 +88,19 @@ function comparing(): Line | null {
   const [a, b] = [commandModel("a"), commandModel("b")];
   if (!a || !b) return null;
   const { line, missing } = commandOf(settings.value, { a, b });
-  const files = [a, b].map(({ source }) => source).filter((name) => !name.startsWith("demo:"));
+  const named = [a, b].flatMap(({ source, shapes }) => (shapes ? [source, shapes] : source));
+  const files = named.filter((name) => !name.startsWith("demo:"));
   return { text: line, files: [...new Set(files)], missing };
 }
 
 function commandModel(side: Side): CommandModel | null {
   const slot = slots[side].value;
   if (!slot) return null;
-  const { source, part, parts, scale } = slot;
+  const { source, part, parts, scale, shapes } = slot;
   return {
     source: source.kind === "demo" ? `demo:${source.name}` : nameOf(source),
     part: part === parts[0] ? null : part,
     scale,
+    shapes: shapes?.name ?? null,
   };
 }

@@ -4,6 +4,7 @@ import { Chooser } from "../panels/Chooser";
 import { Consent } from "../panels/Consent";
 import { Downloads } from "../panels/Downloads";
 import { ModelCard } from "../panels/ModelCard";
+import { OfferedShapes } from "../panels/OfferedShapes";
 import { PairCard } from "../panels/PairCard";
 import { RunPanel } from "../panels/RunPanel";
 import { SettingsPanel } from "../panels/SettingsPanel";
@@ -45,6 +46,7 @@ function WholePage() {
       <PageShown framed={false} />
       <DropOverlay />
       <Chooser />
+      <OfferedShapes />
       <PictureDialogs />
       <ShareDialog />
       <Spoken />

@@ -34,24 +34,32 @@ import { FIRST_VIEW, type PageName, type Tab, type ViewMode } from "./view";
 
 export const SIDES: Side[] = ["a", "b"];
 
-/** Where a model came from, so that it can be opened again. */
-export type Source =
-  | { kind: "demo"; name: string }
-  | { kind: "files"; name: string; files: DroppedFile[]; serial: number }
-  | { kind: "url"; url: string };
+/** The visitor's own files. */
+export interface Files {
+  kind: "files";
+  name: string;
+  files: DroppedFile[];
+  serial: number;
+}
 
-/** A model of a source: which part, and whether scaled. */
+/** Where a model came from, so that it can be opened again. */
+export type Source = { kind: "demo"; name: string } | Files | { kind: "url"; url: string };
+
+/** A model of a source: which part, whether scaled, and the shapes beside it. */
 export interface Wanted {
   source: Source;
   /** Part of the file; null for the first that can be read. */
   part: string | null;
   /** Whether the shapes of a set are also scaled to one size. */
   scale: boolean;
+  /** Its training or test shapes, where they are given beside it. */
+  shapes?: Files | null;
 }
 
 export interface Slot extends OpenedModel {
   source: Source;
   scale: boolean;
+  shapes?: Files | null;
   /** Size of the files. */
   bytes: number | null;
   geometry: Geometry | null;
@@ -222,8 +230,9 @@ export function modelKey(source: Source, part: string, scale: boolean): string {
   return `${sourceKey(source)}#${part}${scale ? " in one size" : ""}`;
 }
 
-export function slotKey(slot: Slot): string {
-  return modelKey(slot.source, slot.part === slot.parts[0] ? "" : slot.part, slot.scale);
+export function slotKey({ source, part, parts, scale, shapes }: Slot): string {
+  const beside = shapes ? ` with ${sourceKey(shapes)}` : "";
+  return modelKey(source, part === parts[0] ? "" : part, scale) + beside;
 }
 
 export function comparisonKey(a: string, b: string, chosen: Settings): string {

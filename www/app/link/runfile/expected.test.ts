@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { Report, RunFile } from "../../../worker/protocol";
+import type { KnownShapes, Report, RunFile } from "../../../worker/protocol";
 import { DEFAULTS } from "../../state/settings";
 import {
   adviceOf,
@@ -87,7 +87,31 @@ test("of a report the numbers are kept, and models without a fingerprint have no
     part: null,
     source: null,
     fingerprint: null,
+    shapes: null,
   });
+});
+
+test("shapes beside a model belong to a run file, and are not stated by a link", () => {
+  const shapes = { count: 20, role: "training", name: "males", fingerprint: "5c1d00" } as const;
+  const withShapes = (found: KnownShapes | null) => {
+    const { report, source } = open("3f2a00112233");
+    return { report: found ? { ...report, shapes: found } : report, source };
+  };
+  const expected = { ...male, shapes };
+  assert.equal(verdictOf(expected, withShapes(shapes)), "same");
+  assert.equal(verdictOf(expected, withShapes({ ...shapes, fingerprint: "00" })), "shapes");
+  assert.equal(verdictOf(expected, withShapes(null)), "shapes");
+  assert.equal(verdictOf({ ...male, shapes: null }, withShapes(shapes)), "shapes");
+  assert.equal(verdictOf(male, withShapes(shapes)), "same", "a link");
+  const own = { ...shapes, name: null, fingerprint: null };
+  assert.equal(verdictOf({ ...male, shapes: null }, withShapes(own)), "same", "in the file");
+  assert.match(
+    adviceOf(expected, withShapes(null), "a") ?? "",
+    /, with the 20 shapes of “males” \(5c1d…\) beside it; add them as the shapes of A\.$/,
+  );
+  const stored = { ...run({}), models: { a: { ...male, shapes }, b: { ...male, shapes: own } } };
+  const { models } = expectedRun("run.json", text, stored as unknown as RunFile, "0.1.0");
+  assert.deepEqual([models.a.shapes, models.b.shapes], [shapes, null]);
 });
 
 test("two reports are the same if every number is, however long they took", () => {

@@ -1,5 +1,12 @@
 /** Reads which models a run file or link expects, and compares them with the open ones. Pure. */
-import type { ModelReport, Report, RunFile, Settings, Sides } from "../../../worker/protocol";
+import type {
+  KnownShapes,
+  ModelReport,
+  Report,
+  RunFile,
+  Settings,
+  Sides,
+} from "../../../worker/protocol";
 import { completed } from "../../state/preparation";
 import { DEFAULTS, settingsOf } from "../../state/settings";
 import type { LinkState } from "../link";
@@ -12,6 +19,8 @@ export interface ExpectedModel {
   source: string | null;
   /** Hash of its content, or the start of it; older reports have none. */
   fingerprint: string | null;
+  /** The shapes beside it, null for none; a link does not state them. */
+  shapes?: KnownShapes | null;
 }
 
 /** A run file or link whose models are not open yet. */
@@ -49,8 +58,15 @@ export function expectedRun(
   const whole = JSON.parse(text.replace(/^\ufeff/, "")) as { engine?: unknown } & Partial<Report>;
   const engine = typeof whole.engine === "string" ? whole.engine : null;
   const model = (side: "a" | "b"): ExpectedModel => {
-    const { name, part = null, source = null, fingerprint = null } = run.models[side];
-    return { name, part: part || null, source: source || null, fingerprint: fingerprint || null };
+    const { name, part, source, fingerprint, shapes } = run.models[side];
+    return {
+      name,
+      part: part || null,
+      source: source || null,
+      fingerprint: fingerprint || null,
+      // Shapes of the model's own file have no fingerprint.
+      shapes: shapes?.fingerprint ? shapes : null,
+    };
   };
   return {
     file,
@@ -78,11 +94,14 @@ function chosen(given: Settings & { sigmaRecommended?: boolean }, same: boolean)
   });
 }
 
-/** Whether the open model is the expected one; "unknown" without a fingerprint, "missing" if nothing is open. */
-export type Verdict = "same" | "other" | "unknown" | "missing";
+/**
+ * Whether the open model is the expected one; "unknown" without a fingerprint, "missing" if nothing is open, "shapes" if
+ * the shapes beside it are others.
+ */
+export type Verdict = "same" | "other" | "unknown" | "missing" | "shapes";
 
 export interface OpenModel {
-  report: Pick<ModelReport, "name" | "fingerprint">;
+  report: Pick<ModelReport, "name" | "fingerprint" | "shapes">;
   /** Its source as a run file states it. */
   source: string | null;
 }
@@ -91,7 +110,10 @@ export function verdictOf(expected: ExpectedModel, open: OpenModel | null): Verd
   if (open === null) return "missing";
   const { fingerprint } = open.report;
   if (expected.fingerprint !== null && fingerprint) {
-    return fingerprint.startsWith(expected.fingerprint) ? "same" : "other";
+    if (!fingerprint.startsWith(expected.fingerprint)) return "other";
+    const { shapes } = expected;
+    const found = open.report.shapes?.fingerprint ?? null;
+    return shapes === undefined || (shapes?.fingerprint ?? null) === found ? "same" : "shapes";
   }
   // A run file that was written by hand may state only the sources of its models.
   return expected.source !== null && expected.source === open.source ? "same" : "unknown";
@@ -111,6 +133,12 @@ export function adviceOf(
       return null;
     case "missing":
       return `${words}; open it as ${letter}.`;
+    case "shapes": {
+      const { shapes } = expected;
+      return shapes
+        ? `${words}, with the ${shapes.count} shapes of “${shapes.name}” (${shortened(shapes.fingerprint ?? undefined)}) beside it; add them as the shapes of ${letter}.`
+        : `${words}, without shapes beside it; take back those of ${letter}.`;
+    }
     case "unknown":
       return `${words}; whether that is what is open as ${letter} cannot be told without fingerprints.`;
     case "other": {
