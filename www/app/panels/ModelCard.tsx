@@ -185,7 +185,7 @@ function Shapes({ side, slot }: { side: Side; slot: Slot }) {
           Take back the shapes of {letter}
         </button>
       )}
-      {!known && kind === "shape" && (
+      {!known && kind === "shape" && slot.source.kind !== "demo" && (
         <div class="card-row" title={why}>
           <FileButton className="as-link" label={`Shapes of model ${letter}`} onFiles={give}>
             Add its shapes…<span class="unseen"> for {letter}</span>
