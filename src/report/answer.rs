@@ -175,7 +175,13 @@ pub fn answer(report: &Report, missing: Option<&NoEvidence>) -> Vec<Sentence> {
 impl EvidenceReport {
     /// Whether the groups differ by more than chance, and how well their shapes are told apart.
     pub fn answer(&self) -> Vec<Sentence> {
-        vec![chance(self), told_apart(Side::A, self), told_apart(Side::B, self)]
+        // Where every relabelling gives the same share, as of groups that fill the space of all shapes, it says nothing.
+        let says = |side: &Side| {
+            let chance = &self.told_apart[*side].chance;
+            chance.p05 < chance.p95
+        };
+        let apart = Side::BOTH.into_iter().filter(says).map(|side| told_apart(side, self));
+        core::iter::once(chance(self)).chain(apart).collect()
     }
 }
 

@@ -42,28 +42,28 @@ test("models whose shapes are not known have no evidence, and what to drop is sa
     await tab(page).waitFor({ state: "detached" });
     await page.goForward();
     await tab(page).waitFor();
-    assert.equal(await verdict(page).getAttribute("data-answer"), "none");
+    assert.equal(await verdict(page).getAttribute("data-answer"), "chance-unknown");
     assert.match(
       await verdict(page).innerText(),
-      /not known.\s+Drop the folders of the shapes of A/,
+      /the shapes that the two models were made from are not known\. Add them/,
     );
     await dropFiles(page, "body", [...sample("one", 11, 12), ...sample("two", 12, 12)]);
     await untilCompared(page, { a: "one", b: "two" });
-    assert.notEqual(await verdict(page).getAttribute("data-answer"), "none");
+    assert.equal(await verdict(page).getAttribute("data-answer"), "no-more-than-chance");
     // None are asked for.
     await page.locator(".more-settings > summary").click();
     const over = await nextRun(page);
     await typeSetting(page, "Relabellings", "0");
     await over();
     assert.match(page.url(), /perms=0/);
-    assert.match(await verdict(page).innerText(), /Set Relabellings to 999/);
+    assert.match(await verdict(page).innerText(), /no relabellings were asked for/);
   });
 });
 
 test("two samples of one population differ by no more than chance, and every number is the report's", async () => {
   await withPage({}, async ({ url, page }) => {
     await openSamples(page, url, [...sample("one", 11, 20), ...sample("two", 12, 20)]);
-    assert.equal(await verdict(page).getAttribute("data-answer"), "chance");
+    assert.equal(await verdict(page).getAttribute("data-answer"), "no-more-than-chance");
     assert.match(await part(page, "onePopulation").innerText(), /They may be: none of the 7/);
     assert.match(await part(page, "oneCovariance").innerText(), /They may: none of the 6/);
     for (const side of ["a", "b"]) {
@@ -119,7 +119,7 @@ test("two samples of one population differ by no more than chance, and every num
 test("samples of two populations differ, unequal and small groups are told, and the modes suggested are taken", async () => {
   await withPage({}, async ({ url, page }) => {
     await openSamples(page, url, [...sample("one", 13, 22), ...sample("two", 14, 7, true)]);
-    assert.equal(await verdict(page).getAttribute("data-answer"), "differs");
+    assert.equal(await verdict(page).getAttribute("data-answer"), "more-than-chance");
     assert.match(await part(page, "onePopulation").innerText(), /No: the distance of the means/);
     assert.equal(await metric(page, "evidence.toldApart.b.share"), 1);
     const codes = await tab(page)

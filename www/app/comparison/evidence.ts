@@ -1,11 +1,5 @@
 /** Sentences about whether the two groups of training shapes differ by more than chance, each for every outcome. Pure. */
-import type {
-  EvidenceReport,
-  Hypothesis,
-  Report,
-  Statistic,
-  StatisticName,
-} from "../../worker/protocol";
+import type { EvidenceReport, Hypothesis, Statistic, StatisticName } from "../../worker/protocol";
 import { count, length, number, percent } from "../text/format";
 import { type Phrase, reported } from "../text/phrase";
 import { pText } from "./answer";
@@ -95,63 +89,16 @@ function strongest({ statistics }: Hypothesis): { one: Statistic; index: number 
   return one ? { one, index } : null;
 }
 
-export interface Verdict {
-  /** Null for no answer. */
-  differs: boolean | null;
-  phrase: Phrase;
-  /** What to bear in mind, if there is anything. */
-  caution: string | null;
-}
-
-/** Whether two groups differ by more than chance, by the test of one population. */
-export function verdict(evidence: EvidenceReport): Verdict {
-  const { shapes, sharedShapes } = evidence;
-  const counts: Phrase = [
-    reported("evidence.shapes.a", shapes.a, count(shapes.a)),
-    " shapes of A and ",
-    reported("evidence.shapes.b", shapes.b, count(shapes.b)),
-    " of B",
-  ];
-  if (sharedShapes > 0) {
-    return {
-      differs: null,
-      phrase: [
-        "Whether the groups differ by more than chance cannot be said, because shapes are in both: ",
-        reported("evidence.sharedShapes", sharedShapes, count(sharedShapes)),
-        " of ",
-        ...counts,
-        ".",
-      ],
-      caution: null,
-    };
-  }
-  switch (outcome(evidence.onePopulation)) {
-    case "differs":
-      return {
-        differs: true,
-        phrase: ["The groups differ by more than chance, as ", ...counts, " show."],
-        caution: null,
-      };
-    case "chance":
-      return {
-        differs: false,
-        phrase: ["The groups differ by no more than chance, as far as ", ...counts, " show."],
-        caution:
-          outcome(evidence.oneCovariance) === "differs"
-            ? "About their means, though, they vary differently: see the second question."
-            : "Two random groups of one population would differ as much. A difference that is small for so many shapes may go unseen.",
-      };
-    case "too-few":
-      return {
-        differs: null,
-        phrase: [
-          "Whether the groups differ by more than chance cannot be said of so few relabellings, of ",
-          ...counts,
-          ".",
-        ],
-        caution: null,
-      };
-  }
+/** What to bear in mind about the answer, if there is anything. */
+export function caution({
+  sharedShapes,
+  onePopulation,
+  oneCovariance,
+}: EvidenceReport): string | null {
+  if (sharedShapes > 0 || outcome(onePopulation) !== "chance") return null;
+  return outcome(oneCovariance) === "differs"
+    ? "About their means, though, they vary differently: see the second question."
+    : "Two random groups of one population would differ as much. A difference that is small for so many shapes may go unseen.";
 }
 
 /** The answer to the question of a hypothesis, with the smallest p and its error. */
@@ -261,40 +208,6 @@ export function statisticSentence(
     reported(`${path}.pAdjusted`, one.pAdjusted, pText(one.pAdjusted)),
     ".",
   ];
-}
-
-/** Why there is no evidence, and what to do to get an answer. */
-export function noEvidence(report: Report, cancelled: boolean): { message: string; hint: string } {
-  if (report.settings.permutations === 0) {
-    return {
-      message:
-        "Whether the difference is more than chance was not asked for: there are no relabellings.",
-      hint: `Set Relabellings to ${ENOUGH} in the settings, under “More”.`,
-    };
-  }
-  const unknown = (["a", "b"] as const).filter(
-    (side) => !report.models[side].shapes,
-  );
-  if (unknown.length > 0) {
-    const of = unknown.map((side) => side.toUpperCase()).join(" and ");
-    const [model, was, folder] =
-      unknown.length === 1 ? ["model", "was", "folder"] : ["models", "were", "folders"];
-    return {
-      message: `Whether the difference is more than chance cannot be said: the shapes from which ${model} ${of} ${was} made are not known.`,
-      hint: `Drop the ${folder} of the shapes of ${of} in place of the ${model} (meshes or landmarks with the same points in the same order), or a file that has its training coefficients.`,
-    };
-  }
-  if (cancelled) {
-    return {
-      message: "The run was ended before the shapes were relabelled.",
-      hint: "Run it again to the end to see whether the difference is more than chance.",
-    };
-  }
-  return {
-    message:
-      "Whether the difference is more than chance cannot be said: it takes at least 4 shapes of each group, and shapes that are not all the same.",
-    hint: "Add shapes to the smaller group.",
-  };
 }
 
 function listed(words: string[]): string {

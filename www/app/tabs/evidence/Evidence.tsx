@@ -1,11 +1,7 @@
-import type { EvidenceReport, Report } from "../../../worker/protocol";
-import {
-  HYPOTHESES,
-  hypothesisSentence,
-  noEvidence,
-  QUESTIONS,
-  verdict,
-} from "../../comparison/evidence";
+import type { ComponentChildren } from "preact";
+import type { EvidenceReport } from "../../../worker/protocol";
+import { CHANCE, chanceTopic, said } from "../../comparison/answer";
+import { caution, HYPOTHESES, hypothesisSentence, QUESTIONS } from "../../comparison/evidence";
 import { leftOutSentence, matchedSentence, pointsSentence } from "../../comparison/groups";
 import { outOfDate, type Result, result, SIDES } from "../../state/state";
 import { count } from "../../text/format";
@@ -31,29 +27,39 @@ export function Evidence() {
   );
 }
 
-function OfResult({ found: { report, cancelled } }: { found: Result }) {
-  const { evidence } = report;
-  if (evidence) return <OfShapes report={report} evidence={evidence} />;
-  const { message, hint } = noEvidence(report, cancelled);
+function OfResult({ found }: { found: Result }) {
+  const { evidence } = found.report;
+  return evidence ? <OfShapes found={found} evidence={evidence} /> : <Answer found={found} />;
+}
+
+/** The sentence of the report about chance, with what there is to add. */
+function Answer({
+  found: { report, nouns },
+  children,
+}: {
+  found: Result;
+  children?: ComponentChildren;
+}) {
+  const chance = said(report, nouns, ...CHANCE);
   return (
-    <div class="verdict" data-answer="none">
-      <h2>{message}</h2>
-      <p>{hint}</p>
+    <div class="verdict" data-answer={chanceTopic(report) ?? "none"}>
+      <h2>
+        {chance ? <Phrase parts={chance} /> : "Whether this is more than chance is not known."}
+      </h2>
+      {children}
     </div>
   );
 }
 
-function OfShapes({ report, evidence }: { report: Report; evidence: EvidenceReport }) {
+function OfShapes({ found, evidence }: { found: Result; evidence: EvidenceReport }) {
+  const { report } = found;
   const { unit } = report.models.a;
-  const { differs, phrase, caution } = verdict(evidence);
+  const careful = caution(evidence);
   const matched = matchedSentence(evidence);
   return (
     <>
-      <div class="verdict" data-answer={differs === null ? "none" : differs ? "differs" : "chance"}>
-        <h2>
-          <Phrase parts={phrase} />
-        </h2>
-        {caution && <p>{caution}</p>}
+      <Answer found={found}>
+        {careful && <p>{careful}</p>}
         <p>
           <Phrase parts={pointsSentence(evidence)} />
         </p>
@@ -62,7 +68,7 @@ function OfShapes({ report, evidence }: { report: Report; evidence: EvidenceRepo
             <Phrase parts={matched} />
           </p>
         )}
-      </div>
+      </Answer>
       {evidence.conditions.map(({ code, message, hint }) => (
         <p key={code + message} class="warning" data-code={code}>
           {message} <span class="dim">{hint}</span>
