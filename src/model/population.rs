@@ -4,6 +4,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::procrustes::centroid;
 use super::{Alignment, LinearModel, ModelError, ShapesRole, procrustes};
 use crate::linalg::cross;
 
@@ -79,7 +80,8 @@ pub fn model_of_population(
 }
 
 /// Moves every shape (a column of `shapes`, d·n × N) onto the running mean until it settles, in at
-/// most ten rounds; returns that mean. Scale is only changed with [`Alignment::Similarity`].
+/// most ten rounds; returns that mean. Scale is only changed with [`Alignment::Similarity`]: then the mean keeps the
+/// centroid size of the first shape.
 pub fn generalised_procrustes(
     dimension: usize,
     shapes: &mut DMatrix<f64>,
@@ -87,7 +89,8 @@ pub fn generalised_procrustes(
 ) -> DVector<f64> {
     const MOST_ROUNDS: usize = 10;
     let mut mean: DVector<f64> = shapes.column(0).into_owned();
-    let size = mean.norm();
+    let largest = mean.norm();
+    let size = centroid_size(&mean, dimension);
     for _ in 0..MOST_ROUNDS {
         for mut shape in shapes.column_iter_mut() {
             let similarity = procrustes(mean.as_slice(), shape.as_slice(), dimension, alignment);
@@ -95,15 +98,31 @@ pub fn generalised_procrustes(
         }
         let mut next = shapes.column_mean();
         if alignment == Alignment::Similarity {
-            next *= size / next.norm();
+            // About its centroid, for elsewhere the mean would move on in every round.
+            let centre = centroid(next.as_slice(), dimension);
+            let factor = size / centroid_size(&next, dimension);
+            for point in next.as_mut_slice().chunks_exact_mut(dimension) {
+                for (value, centre) in point.iter_mut().zip(&centre) {
+                    *value = centre + factor * (*value - centre);
+                }
+            }
         }
         let change = (&next - &mean).norm();
         mean = next;
-        if change <= 1e-12 * size {
+        if change <= 1e-12 * largest {
             break;
         }
     }
     mean
+}
+
+/// Root of the sum of the squared distances of interleaved points from their centroid.
+fn centroid_size(points: &DVector<f64>, dimension: usize) -> f64 {
+    let centre = centroid(points.as_slice(), dimension);
+    let squares = points.as_slice().chunks_exact(dimension).flat_map(|point| {
+        point.iter().zip(&centre).map(|(value, centre)| (value - centre) * (value - centre))
+    });
+    squares.sum::<f64>().sqrt()
 }
 
 #[cfg(test)]
@@ -154,5 +173,21 @@ mod tests {
         for shape in shapes.column_iter() {
             assert!((shape - &mean).amax() < 1e-12, "moved onto the mean");
         }
+    }
+    #[test]
+    fn shapes_of_one_size_are_the_same_wherever_the_first_of_them_lies() {
+        // The mean used to be scaled about the origin: away from it, it lost size and moved in every round.
+        let varied = DMatrix::from_fn(8, 5, |i, k| ((i * i + 3 * k + i * k * k) % 11) as f64);
+        let moved = |by: f64| {
+            let mut shapes = varied.map(|value| value + by);
+            let mean = generalised_procrustes(2, &mut shapes, Alignment::Similarity);
+            (shapes.map(|value| value - by), centroid_size(&mean, 2))
+        };
+        let (near, size) = moved(0.0);
+        let (far, far_size) = moved(1000.0);
+        assert!((near - far).amax() < 1e-9, "moved by as much as the first shape");
+        let first = centroid_size(&varied.column(0).into_owned(), 2);
+        assert!((size / first - 1.0).abs() < 1e-12, "{size}, not {first}");
+        assert!((far_size / first - 1.0).abs() < 1e-10, "{far_size}, not {first}");
     }
 }
