@@ -15,7 +15,7 @@ import { wasmCompiler } from "./steps/toolchain.mjs";
 
 const engine = {
   name: "engine",
-  sources: ["Cargo.toml", "Cargo.lock", "src", "xtask", "scripts/steps/engine.mjs"],
+  sources: ["Cargo.toml", "Cargo.lock", "src", "demos/wings", "xtask", "scripts/steps/engine.mjs"],
   // Of the command line only.
   skip: ["src/bin"],
   tools: wasmCompiler,

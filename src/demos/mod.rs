@@ -1,10 +1,12 @@
 //! Demo models, by name.
 //!
-//! `stars-1-a` … `stars-6-b` and `planes-a`, `planes-b` are made by code. The heads are packaged files
-//! (`demos/heads`): the command line carries them, the page fetches them.
+//! `stars-1-a` … `stars-6-b` and `planes-a`, `planes-b` are made by code, `wings-aedes` and `wings-culex` of landmarks
+//! that the engine carries (`demos/wings`). The heads are packaged files (`demos/heads`): the command line carries
+//! them, the page fetches them.
 
 mod planes;
 mod stars;
+mod wings;
 
 pub use planes::{PlanesAt, planes_at};
 pub use stars::{
@@ -16,11 +18,13 @@ use crate::model::LinearModel;
 /// The packaged models, by the second half of their name.
 pub const HEADS: [&str; 4] = ["male", "female", "identity", "expression"];
 
-/// The demo model `name` where it is made by code; `None` for packaged and unknown names.
+/// The demo model `name` where it is made here; `None` for the heads and unknown names.
 pub fn generated(name: &str) -> Option<LinearModel> {
     let model = match name {
         "planes-a" => planes_at(PlanesAt::default()).0,
         "planes-b" => planes_at(PlanesAt::default()).1,
+        "wings-aedes" => wings::wings()?[0].clone(),
+        "wings-culex" => wings::wings()?[1].clone(),
         _ => {
             let (row, which) = name.strip_prefix("stars-")?.split_once('-')?;
             let row = *STAR_ROWS.get(row.parse::<usize>().ok()?.checked_sub(1)?)?;
@@ -40,8 +44,9 @@ pub fn names() -> Vec<String> {
     let stars =
         (1..=STAR_ROWS.len()).flat_map(|row| [format!("stars-{row}-a"), format!("stars-{row}-b")]);
     let planes = ["planes-a", "planes-b"].map(String::from);
+    let wings = wings::GENERA.map(|(genus, _)| format!("wings-{genus}"));
     let heads = HEADS.iter().map(|name| format!("heads-{name}"));
-    stars.chain(planes).chain(heads).collect()
+    stars.chain(planes).chain(wings).chain(heads).collect()
 }
 
 #[cfg(test)]
@@ -53,7 +58,9 @@ mod tests {
         for name in names().iter().filter(|name| !name.starts_with("heads-")) {
             assert_eq!(generated(name).map(|m| m.name().to_owned()).as_ref(), Some(name), "{name}");
         }
-        for name in ["stars-0-a", "stars-7-a", "stars-1-c", "stars-", "moon", "heads-male"] {
+        for name in
+            ["stars-0-a", "stars-7-a", "stars-1-c", "stars-", "moon", "wings-moth", "heads-male"]
+        {
             assert!(generated(name).is_none(), "{name}");
         }
     }

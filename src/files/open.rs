@@ -7,7 +7,7 @@ use crate::demos;
 use crate::formats::{self, Input, Options, Origin};
 use crate::inspect::guessed_unit;
 use crate::measure::{self, Evaluation};
-use crate::model::{Alignment, LinearModel, Unit};
+use crate::model::{Alignment, LinearModel, TrainingShapes, Unit};
 use crate::report::{KnownShapes, ModelReport};
 
 /// One model that was opened, with what the report says of it.
@@ -92,10 +92,21 @@ pub fn open(inputs: &[Input], options: &Options) -> Result<Described, Error> {
 pub fn open_demo(name: &str, bytes: Option<&[u8]>) -> Result<Described, Error> {
     if let Some(model) = demos::generated(name) {
         let part = "shape".to_owned();
+        let (format, notes) = match model.training_shapes() {
+            None => ("Made by Shapevenn", Vec::new()),
+            Some(training) => {
+                let made = format!(
+                    "Made of {} shapes, aligned and brought to one size together with those of the other group: {} modes.",
+                    training.count(),
+                    model.mode_count()
+                );
+                ("TPS landmarks", vec![made])
+            }
+        };
         let report = ModelReport {
             part: Some(part.clone()),
             fingerprint: Some(model.fingerprint()),
-            ..ModelReport::new(&model, "Made by Shapevenn", &[])
+            ..ModelReport::new(&model, format, &notes)
         };
         return Ok(Described {
             parts: vec![part.clone()],
@@ -154,8 +165,9 @@ pub fn evaluate(
     shapes: &[Input],
     training: bool,
 ) -> Result<Evaluation, Error> {
-    let alignment = match described.origin {
-        Origin::Shapes { scaled: true, .. } => Alignment::Similarity,
+    let made_by = described.model.training_shapes().map(TrainingShapes::alignment);
+    let alignment = match made_by {
+        Some(Alignment::Similarity) => Alignment::Similarity,
         _ => Alignment::Rigid,
     };
     let set = formats::read_shapes(shapes)?;

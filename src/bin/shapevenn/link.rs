@@ -206,13 +206,14 @@ fn demo_models(pair: &str) -> Result<[String; 2], Failure> {
     let [a, b] = match pair {
         "heads-sex" => ["heads-male", "heads-female"].map(str::to_owned),
         "heads-expression" => ["heads-identity", "heads-expression"].map(str::to_owned),
+        "wings" => ["wings-aedes", "wings-culex"].map(str::to_owned),
         _ => ["a", "b"].map(|side| format!("{pair}-{side}")),
     };
     let known = shapevenn::demos::names();
     if !(known.contains(&a) && known.contains(&b)) {
         return Err(Failure::Input {
             message: format!("The link asks for the pair “{pair}”, which does not come with this version."),
-            hint: "Pairs are heads-sex, heads-expression, stars-1 to stars-6 and planes; or name the files: \
+            hint: "Pairs are heads-sex, heads-expression, wings, stars-1 to stars-6 and planes; or name the files: \
                    shapevenn compare A B --link LINK."
                 .to_owned(),
         });

@@ -91,6 +91,15 @@ const heads: Demo[] = [
   },
 ];
 
+const wings: Demo = {
+  id: "wings",
+  label: "Mosquito wings: Aedes and Culex",
+  a: "wings-aedes",
+  b: "wings-culex",
+  nouns: { a: "Aedes", b: "Culex", shapesOfA: "wings of Aedes", shapesOfB: "wings of Culex" },
+  note: "18 landmarks of 57 and 25 wings, measured by Rohlf and Slice (1990), from ktch (Apache-2.0); aligned together, in one size.",
+};
+
 const stars: Demo[] = [1, 2, 3, 4, 5, 6].map((pair) => ({
   id: `stars-${pair}`,
   label: `Stars, pair ${pair}`,
@@ -111,6 +120,7 @@ const planes: Demo = {
 
 export const DEMO_GROUPS: { label: string; demos: Demo[] }[] = [
   { label: "Heads", demos: heads },
+  { label: "Wings", demos: [wings] },
   { label: "Stars from the paper", demos: stars },
   { label: "Geometry", demos: [planes] },
 ];
