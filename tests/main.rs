@@ -32,3 +32,4 @@ mod samplers;
 mod split;
 mod stars;
 mod training_shapes;
+mod wings;
