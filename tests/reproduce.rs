@@ -5,11 +5,14 @@
 use std::cell::Cell;
 
 use serde_json::Value;
+use shapevenn::demos;
 use shapevenn::files;
 use shapevenn::model::LinearModel;
 use shapevenn::reproduce::{
-    Observer, Plan, Table1, generated_pairs, overlap, sigma, table1, table2,
+    ALARM, Observer, Plan, SamplePlan, Table1, evidence, generated_pairs, overlap, sigma, table1,
+    table2,
 };
+use shapevenn::settings::SigmaSource;
 
 const OURS: Plan = Plan { repeats: 1, walks: false };
 
@@ -176,4 +179,43 @@ fn overlap_of_pairs_is_ordered_against_their_bhattacharyya_distance() {
         assert!(one.shapes.unwrap() < 0.0, "{}: fewer common shapes, farther apart", one.with);
     }
     assert!(found.correlations.iter().all(|one| one.among != "planes"), "one pair has no order");
+}
+
+#[test]
+fn samples_of_one_population_read_as_such_and_those_of_two_do_not() {
+    let planes = generated_pairs().pop().unwrap();
+    // The tips of the stars move by some tenths; one of the two that move is another in each. With more shapes than
+    // coordinates nothing would be left out.
+    let plan = SamplePlan {
+        noise: 0.02,
+        sizes: vec![10, 16],
+        contrast: 10,
+        alarms: vec![(8, 40)],
+        permutations: 99,
+    };
+    let [one, other] = ["stars-6-a", "stars-6-b"].map(|name| demos::generated(name).unwrap());
+    let found = evidence(&[planes], &one, &other, &plan, &Ticking::default()).unwrap();
+    assert_eq!(found.rows[0].case, "planes", "pairs come first");
+    assert!(found.rows[0].evidence.is_none(), "nobody knows what the planes are made of");
+    let p = |row: usize| found.rows[row].evidence.as_ref().unwrap().least.p_adjusted;
+    for (row, shapes) in [(1, 10), (2, 16)] {
+        let found = &found.rows[row];
+        let evidence = found.evidence.as_ref().unwrap();
+        assert_eq!([evidence.shapes.a, evidence.shapes.b], [shapes; 2], "shapes");
+        assert!(p(row) > ALARM, "n = {shapes}: p = {}", p(row));
+        assert_eq!(found.sigma_source, SigmaSource::LeftOut, "n = {shapes}");
+        for (share, told_apart) in
+            found.differences.into_array().into_iter().zip(evidence.told_apart)
+        {
+            // 1 − exp(−½) of shapes that all lie σ away.
+            assert!((0.2..0.6).contains(&share), "n = {shapes}: {share} count as outside");
+            let chance = told_apart.chance;
+            assert!((chance.p05..=chance.p95).contains(&told_apart.share), "n = {shapes}");
+        }
+    }
+    assert!(p(3) <= ALARM, "two populations: p = {}", p(3));
+    // At the level 0.05 two of 40 are expected; a test of the right level has more than seven once in a thousand times.
+    let alarms = found.alarms[0];
+    assert_eq!((alarms.shapes, alarms.pairs), (8, 40), "all were tested");
+    assert!(alarms.alarms <= 7, "{} false alarms", alarms.alarms);
 }

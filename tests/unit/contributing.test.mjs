@@ -46,6 +46,7 @@ const TRIED = {
   "npm run plot": notHere,
   "npm run reproduce": notHere,
   "npm run study": notHere,
+  "npm run evidence-study": notHere,
   "npm run setup -- --tests": { execute: { SETUP_DRY_RUN: "1" } },
   "cargo fmt": byTest,
   "cargo clippy --all-targets": byTest,

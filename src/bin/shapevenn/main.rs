@@ -6,6 +6,7 @@
 mod document;
 mod evaluate;
 mod evidence;
+mod evidence_document;
 mod lesson;
 mod link;
 mod matrix;
