@@ -8,6 +8,9 @@ use shapevenn::settings::SigmaSource;
 
 use crate::document::markdown;
 
+/// Lengths below it are rounding.
+const NOTHING: f64 = 1e-9;
+
 const HEAD: &str = "\
 # How far, and is it more than chance?
 
@@ -60,7 +63,7 @@ fn cells(row: &EvidenceRow) -> Vec<String> {
         evidence.map_or_else(unknown, |one| format!("{} + {}", one.shapes.a, one.shapes.b)),
         reach(&row.reach.a, row.unit),
         reach(&row.reach.b, row.unit),
-        format!("{} {}", digits(row.sigma), row.unit),
+        format!("{:.*} {}", places(row.sigma, 3), row.sigma, row.unit),
         source(row.sigma_source).to_owned(),
         percent(row.differences.a),
         percent(row.differences.b),
@@ -85,14 +88,14 @@ fn reading(found: &EvidenceStudy) -> String {
         .fold((1.0_f64, 0.0_f64), |(low, high), share| (low.min(share), high.max(share)));
     let expected = ALARM * of_one.len() as f64;
     let read = format!(
-        "**One population.** {} of {} pairs are called different at a level of {:.0} %; {expected:.1} are expected by \
-         chance, or fewer, for that is what the level means. The smallest adjusted p is {smallest:.3}. Their models \
+        "**One population.** Called different at a level of {:.0} %: {} of {} pairs; at most {expected:.1} are expected by \
+         chance. The smallest adjusted p is {smallest:.3}. Their models \
          differ all the same: the shapes of one lie off the other's space, because n shapes span few of the \
          directions in which a population varies. At σ = leave-one-out error {:.0} to {:.0} % of them count as outside, \
          which is what members of one population do: a share of 39 % stands for a distance of σ.\n",
+        100.0 * ALARM,
         count(alarms),
         of_one.len(),
-        100.0 * ALARM,
         100.0 * low,
         100.0 * high,
     );
@@ -117,29 +120,36 @@ fn reading(found: &EvidenceStudy) -> String {
     let two = of_two.map_or_else(String::new, |row| {
         let Sides { a, b } = &row.reach;
         format!(
-            "**Two populations.** The same test calls the pair of {} different, p = {:.3}, by its {}; A's shapes lie \
-             {} from B, and B's {} from A.\n",
-            row.case,
+            "**Two populations.** With as few shapes the same test calls a male and a female sample different, p = {:.3}, by \
+             their {}; the males lie {} from the females, these {} from the males.\n",
             p(row),
             row.evidence.as_ref().map_or("", |one| statistic(one.least.name)),
             reach(a, row.unit),
             reach(b, row.unit),
         )
     });
-    let limits = "The samples are Gaussian, independent and of one mesh: real populations may have tails, families and \
+    let limits = "**Limits.** Where chance is 100 to 100 % or 0 to 0 %, the shapes of one group fill the space that all \
+                  of them span: nothing of the other lies outside, and neither P nor the shares told apart say \
+                  anything; p compares the first modes. The samples are Gaussian, independent and of one mesh: real populations may have tails, families and \
                   faults of correspondence, which no test of this kind knows of. Models without training shapes \
                   (–) have a reach, but no p.\n";
     format!("## What it says, and what it does not\n\n{read}\n{further}\n{two}\n{limits}")
 }
 
 fn count(number: usize) -> String {
-    if number == 0 { "None".to_owned() } else { number.to_string() }
+    if number == 0 { "none".to_owned() } else { number.to_string() }
 }
 
-/// "2.341 ± 0.006 mm (21 %)".
+/// "2.341 ± 0.006 mm (21 %)", to the first digit of the error.
 fn reach(of: &ReachOfSide, unit: &str) -> String {
-    let (mean, error) = (digits(of.mean), digits(of.standard_error));
-    format!("{mean} ± {error} {unit} ({:.0} %)", 100.0 * of.relative)
+    let places = places(of.standard_error, 1);
+    let (mean, error) = (of.mean, of.standard_error);
+    let number = if mean < NOTHING {
+        "0".to_owned()
+    } else {
+        format!("{mean:.places$} ± {error:.places$}")
+    };
+    format!("{number} {unit} ({:.0} %)", 100.0 * of.relative)
 }
 
 /// "85 (42 to 58)".
@@ -149,14 +159,11 @@ fn share(of: &ToldApart) -> String {
     format!("{:.0} ({low:.0} to {high:.0})", percent(of.share))
 }
 
-/// Three digits that count.
-fn digits(value: f64) -> String {
-    if value < 1e-9 {
-        return "0".to_owned();
-    }
+/// How many places behind the point show so many digits of a number.
+fn places(value: f64, digits: i32) -> usize {
     #[allow(clippy::cast_possible_truncation, reason = "an exponent")]
-    let places = (2 - libm::log10(value).floor() as i32).clamp(0, 9);
-    format!("{value:.*}", usize::try_from(places).unwrap_or(0))
+    let exponent = libm::log10(value.max(NOTHING)).floor() as i32;
+    usize::try_from(digits - 1 - exponent).unwrap_or(0)
 }
 
 fn source(of: SigmaSource) -> &'static str {
