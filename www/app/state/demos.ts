@@ -125,10 +125,10 @@ export const DEMO_GROUPS: { label: string; demos: Demo[] }[] = [
   { label: "Geometry", demos: [planes] },
 ];
 
+const DEMOS: Demo[] = DEMO_GROUPS.flatMap(({ demos }) => demos);
+
 /** The models of all pairs. */
-export const DEMO_MODELS: string[] = DEMO_GROUPS.flatMap(({ demos }) =>
-  demos.flatMap(({ a, b }) => [a, b]),
-);
+export const DEMO_MODELS: string[] = DEMOS.flatMap(({ a, b }) => [a, b]);
 
 const FIRST = heads[0] as Demo;
 
@@ -136,7 +136,12 @@ const FIRST = heads[0] as Demo;
 export const FIRST_DEMO: Demo = FIRST;
 
 export function findDemo(id: string): Demo | undefined {
-  return DEMO_GROUPS.flatMap((group) => group.demos).find((demo) => demo.id === id);
+  return DEMOS.find((demo) => demo.id === id);
+}
+
+/** The pair of these two models, A first. */
+export function demoOf(a: string, b: string): Demo | undefined {
+  return DEMOS.find((demo) => demo.a === a && demo.b === b);
 }
 
 /** The file of an example model; null if the engine computes it. */

@@ -18,15 +18,7 @@ import type {
   Sides,
 } from "../../worker/protocol";
 import { type Camera, HOME } from "./camera";
-import {
-  DEMO_GROUPS,
-  exchanged,
-  FIRST_DEMO,
-  findDemo,
-  type Nouns,
-  nounsOf,
-  nounsOfParts,
-} from "./demos";
+import { demoOf, exchanged, FIRST_DEMO, type Nouns, nounsOf, nounsOfParts } from "./demos";
 import type { LinkedModels } from "./linked-models";
 import { patched } from "./preparation";
 import { DEFAULTS, settingsKey } from "./settings";
@@ -181,11 +173,7 @@ export const demo = computed(() => {
   const [a, b] = [slots.a.value?.source, slots.b.value?.source];
   if (!a && !b) return linked.value?.urls ? null : FIRST_DEMO;
   if (a?.kind !== "demo" || b?.kind !== "demo") return null;
-  const id = a.name.startsWith("heads-")
-    ? { "heads-male": "heads-sex", "heads-identity": "heads-expression" }[a.name]
-    : a.name.replace(/-a$/, "");
-  const found = findDemo(id ?? "");
-  return found?.b === b.name ? found : null;
+  return demoOf(a.name, b.name) ?? null;
 });
 
 /** Whether both models are head models of the page. */
@@ -208,9 +196,7 @@ export const nouns = computed<Nouns>(() => {
 /** Names of an example pair with A and B exchanged. */
 function turnedNouns(a: Source, b: Source): Nouns | null {
   if (a.kind !== "demo" || b.kind !== "demo") return null;
-  const found = DEMO_GROUPS.flatMap(({ demos }) => demos).find(
-    (pair) => pair.a === b.name && pair.b === a.name,
-  );
+  const found = demoOf(b.name, a.name);
   if (!found) return null;
   return exchanged(found.nouns);
 }
