@@ -11,9 +11,9 @@ use serde_json::{Value, json};
 use ts_rs::{Config, TS};
 
 use crate::comparison::{
-    Axes, AxesKind, ChainPlots, DifferenceShapes, Ellipsoid, Explored, MapName, Nearest, PairPlots,
-    Prediction, Preview, Progress, Region, RegionShapes, ShapeSource, Space, Stage, SweepPoint,
-    VertexMap,
+    Axes, AxesKind, ChainPlots, Contrast, ContrastOf, DifferenceShapes, Ellipsoid, Explored,
+    MapName, Nearest, PairPlots, Prediction, Preview, Progress, Region, RegionShapes, ShapeSource,
+    Space, Stage, SweepPoint, VertexMap,
 };
 use crate::files::{Download, OpenedModel, RunFile, RunModel, ShownShape, Sources};
 use crate::formats::{Group, Origin};
@@ -130,7 +130,7 @@ fn declarations() -> String {
         LinearSplitReport, DifferenceReport, Differences, KullbackLeibler, Overlap, Compactness,
         Models, Seconds, Report,
         // A run, and what is asked about it.
-        Stage, Progress, Region, ShapeSource, DifferenceShapes, RegionShapes, Prediction, Preview,
+        Stage, Progress, Region, ShapeSource, DifferenceShapes, ContrastOf, Contrast, RegionShapes, Prediction, Preview,
         SweepPoint, Space, AxesKind, Axes, Nearest, Explored, MapName, VertexMap, Ellipsoid,
         ChainPlots, PairPlots,
         // Files.

@@ -63,6 +63,19 @@ fn the_recommended_tolerance_is_the_noise_where_it_is_known_or_modes_were_cut_of
     let expected = (8.0 / (3.0 * core::f64::consts::PI) * square).sqrt();
     assert!((noise / expected - 1.0).abs() < 1e-3, "{noise}, not {expected}");
     assert_eq!(cut.sigma_source, Some(SigmaSource::Noise), "from the modes that were cut off");
+    // As the files state it: variance of a coordinate; the same of both, or of the one that states it.
+    let noise_of = |a: f64, b: f64| {
+        let (first, second) = pair();
+        let (first, second) = (first.with_noise_variance(a), second.with_noise_variance(b));
+        let found = report(&compared(&first, &second, few()));
+        assert_eq!(found.sigma_source, Some(SigmaSource::Noise), "stated");
+        found.settings.sigma.unwrap()
+    };
+    let expected = (8.0 / core::f64::consts::PI * 0.04).sqrt();
+    for (a, b) in [(0.04, 0.04), (0.04, 0.0), (0.0, 0.04), (0.02, 0.06)] {
+        let found = noise_of(a, b);
+        assert!((found / expected - 1.0).abs() < 1e-3, "{a}, {b}: {found}, not {expected}");
+    }
 }
 
 #[test]

@@ -4,7 +4,9 @@
 
 use crate::common::{compared, model, random_orthonormal, report};
 use nalgebra::{DMatrix, DVector};
-use shapevenn::comparison::{AxesKind, Comparison, MapName, Region, Space, Stage};
+use shapevenn::comparison::{
+    AxesKind, Comparison, ContrastOf, DifferenceView, MapName, Region, Space, Stage,
+};
 use shapevenn::demos;
 use shapevenn::error::ComparisonError;
 use shapevenn::model::{Cells, Kind, LinearModel, Side, Sides};
@@ -315,6 +317,41 @@ fn variance_is_that_along_the_normal_and_that_across_it() {
             assert!(tangential.iter().any(|value| *value > 0.0), "{region:?}: across it");
         }
     }
+}
+
+#[test]
+fn a_contrast_lies_on_the_line_from_the_nearest_shape_of_the_other_model() {
+    let (a, b) = pair();
+    let far = DVector::from_fn(3 * POINTS, |i, _| 2.0 * libm::sin(2.3 * i as f64));
+    let run = compared(&a, &b.with_mean(b.mean() + far), settings());
+    let models = run.pair().models();
+    for (region, side) in [(Region::AWithoutB, Side::A), (Region::BWithoutA, Side::B)] {
+        let view = DifferenceView::default();
+        let found = run.shapes(region, 0, 1, view).unwrap().contrast.unwrap();
+        // The means are apart by more than the strongest exclusive mode.
+        assert_eq!(found.of, ContrastOf::Mean, "{region:?}");
+        let (model, other) = (models[side], models[side.other()]);
+        let nearest = projection(other, model.mean());
+        let pushed = wide(&found.shape);
+        let expected = &nearest + (model.mean() - &nearest) * found.times;
+        let size = model.size();
+        assert!((&pushed - expected).amax() < 1e-5 * size, "{region:?}: times as far");
+        let push = pushed - model.mean();
+        let largest = (0..POINTS).map(|v| push.rows(3 * v, 3).norm()).fold(0.0, f64::max);
+        assert!((largest / (0.12 * size) - 1.0).abs() < 1e-4, "{region:?}: 6 % of the diameter");
+        let map = run.map(MapName::Reach, region, 0).unwrap().values;
+        assert_eq!(found.missed, map, "{region:?}: coloured by the reach");
+    }
+    // About one mean only the exclusive modes differ, and a model that makes all of the other has no contrast.
+    let shifted = models.b.with_mean(models.a.mean().clone());
+    let settings = Settings { draws: 64, difference_draws: 64, ..Settings::default() };
+    let about = compared(models.a, &shifted, settings.clone());
+    let found = about.contrast(Side::A).unwrap();
+    assert_eq!(found.of, ContrastOf::ExclusiveMode, "the same mean");
+    assert!((wide(&found.shape) - models.a.mean()).amax() > 0.01, "not the mean");
+    let inside = compared(models.a, &models.a.truncated(2), settings);
+    assert_eq!(inside.contrast(Side::B), None, "A makes all of its first modes");
+    assert!(inside.contrast(Side::A).is_some(), "and not the other way round");
 }
 
 /// The shapes of all draws of a difference, one a column.

@@ -172,7 +172,7 @@ fn modes_are_cut_by_number_and_by_variance() {
     assert_eq!(of(None, Some(share)).a().mode_count(), 2, "exactly their share");
     assert_eq!(of(None, Some(share + 1e-6)).a().mode_count(), 3, "a little more");
     assert_eq!(of(None, Some(1.0)).a().mode_count(), 4, "all");
-    assert!(of(Some(2), None).noise_of_cut_modes().is_some(), "what was cut counts as noise");
+    assert!(of(Some(2), None).noise().is_some(), "what was cut counts as noise");
 }
 
 #[test]

@@ -205,7 +205,7 @@ fn samples_of_one_population_read_as_such_and_those_of_two_do_not() {
         assert!(p(row) > ALARM, "n = {shapes}: p = {}", p(row));
         assert_eq!(found.sigma_source, SigmaSource::LeftOut, "n = {shapes}");
         for (share, told_apart) in
-            found.differences.into_array().into_iter().zip(evidence.told_apart)
+            found.differences.into_array().into_iter().zip(evidence.told_apart.clone())
         {
             // 1 − exp(−½) of shapes that all lie σ away.
             assert!((0.2..0.6).contains(&share), "n = {shapes}: {share} count as outside");

@@ -85,9 +85,12 @@ fn training_shapes_are_written_by_every_format_of_models_and_read_back() {
         whole.truncated(modes).with_training_coefficients(coefficients)
     };
     let size = shapes.amax();
-    for (name, model, role) in
-        [("whole", &whole, ShapesRole::Training), ("cut", &within(3), ShapesRole::WithinModes)]
-    {
+    let noisy = within(3).with_noise_variance(0.25);
+    for (name, model, role) in [
+        ("whole", &whole, ShapesRole::Training),
+        ("cut", &within(3), ShapesRole::WithinModes),
+        ("with noise", &noisy, ShapesRole::WithinModes),
+    ] {
         for (format, bytes, tolerance) in [
             ("h5", formats::write_statismo(model).unwrap(), 1e-6),
             ("h5.json", formats::write_hdf5_json(model).unwrap(), 1e-6),
@@ -98,8 +101,10 @@ fn training_shapes_are_written_by_every_format_of_models_and_read_back() {
             assert_eq!(found.training_shapes().unwrap().role(), role, "{name} as {format}");
             let off = (shapes_of(&found) - shapes_of(model)).amax();
             assert!(off < tolerance * size, "{name} as {format}: off by {off}");
+            assert_eq!(found.noise_variance(), model.noise_variance(), "{name} as {format}");
         }
     }
+    assert_eq!(noisy.scaled(10.0).noise_variance(), 25.0, "in a tenth of the unit");
     // Shapes that lie outside of the modes cannot be written by coefficients in them.
     let cut = read("model", &formats::write_npz(&whole.truncated(3)).unwrap()).model;
     assert_eq!(cut.training_shapes(), None, "cut here");

@@ -23,6 +23,7 @@ mod warnings;
 
 pub(crate) use fitting::settled_fit;
 pub(crate) use inference::MOST_LEAPS;
+pub use looks::contrast::{Contrast, ContrastOf};
 pub use looks::diagnostics_plots::{ChainPlots, PairPlots};
 pub use looks::exploring::{Axes, AxesKind, Explored, Nearest, Space};
 pub use looks::maps::{Ellipsoid, MapName, VertexMap};

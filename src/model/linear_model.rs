@@ -236,6 +236,8 @@ pub struct LinearModel {
     numbers: Option<Arc<[u32]>>,
     /// The shapes that it was made from, where they are known.
     pub(super) training: Option<Arc<TrainingShapes>>,
+    /// ρ², 0 where it is not known.
+    noise_variance: f64,
 }
 
 impl LinearModel {
@@ -305,6 +307,7 @@ impl LinearModel {
             cells: Cells::None,
             numbers: None,
             training: None,
+            noise_variance: 0.0,
         };
         Ok((model, BasisCheck { orthogonality_error, dropped_modes: given - kept }, columns))
     }
@@ -327,6 +330,7 @@ impl LinearModel {
             cells: Cells::None,
             numbers: None,
             training: None,
+            noise_variance: 0.0,
         }
     }
 
@@ -401,6 +405,18 @@ impl LinearModel {
         Self { mean, training: training.map(Arc::new), ..self.clone() }
     }
 
+    /// Variance ρ² of a coordinate of a true member about the model, in square units, as its file states it: probabilistic
+    /// PCA's noise (Tipping & Bishop 1999; `noiseVariance` of statismo). 0 where it is not known.
+    pub fn noise_variance(&self) -> f64 {
+        self.noise_variance
+    }
+
+    /// The same model with another ρ².
+    #[must_use]
+    pub fn with_noise_variance(self, noise_variance: f64) -> Self {
+        Self { noise_variance, ..self }
+    }
+
     /// The model enlarged by `factor` about the origin, as in another unit.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
@@ -409,6 +425,7 @@ impl LinearModel {
             mean: &self.mean * factor,
             standard_deviations: &self.standard_deviations * factor,
             training: training.map(Arc::new),
+            noise_variance: self.noise_variance * factor * factor,
             ..self.clone()
         }
     }
@@ -543,6 +560,7 @@ impl LinearModel {
             similarity.turn_directions(mode.as_mut_slice());
         }
         moved.standard_deviations *= similarity.scale();
+        moved.noise_variance *= similarity.scale() * similarity.scale();
         moved.training = self.training_shapes().map(|shapes| {
             let training = shapes.clone().moved(similarity);
             Arc::new(if shapes.shares(&self.basis) {

@@ -38,13 +38,13 @@ pub struct Tolerance {
 }
 
 /// σ by the range of distances, for both sides of a pair together. `noise` is how far true members lie from their own model,
-/// where that is known; otherwise it is taken from the modes that were cut off, if any.
+/// where that is known; otherwise it is [`Pair::noise`].
 pub fn recommended_tolerance(
     pair: &Pair,
     sides: Sides<&ResidualOperator>,
     noise: Option<f64>,
 ) -> Tolerance {
-    let noise = noise.or_else(|| pair.noise_of_cut_modes());
+    let noise = noise.or_else(|| pair.noise());
     let size = pair.scale().max(f64::MIN_POSITIVE);
     let curves: Vec<Curve> = sides.iter().filter_map(|side| Curve::new(side)).collect();
     let count = curves.len().max(1) as f64;

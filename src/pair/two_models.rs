@@ -49,10 +49,17 @@ impl Pair {
         Ok(Self { a, b, moved, cut_variance })
     }
 
-    /// How far a shape of either model lies from it once its last modes are cut off, where some were: the mean
-    /// distance of their sum, a Gaussian at every point.
-    pub fn noise_of_cut_modes(&self) -> Option<f64> {
-        let square = self.cut_variance / (2.0 * self.a.point_count() as f64);
+    /// How far true members of either model lie from it, where that is known: the mean distance of a Gaussian at
+    /// every point, with the noise variance that the files state and that of the modes that were cut off.
+    pub fn noise(&self) -> Option<f64> {
+        let stated: Vec<f64> = (self.models().into_iter())
+            .map(LinearModel::noise_variance)
+            .filter(|variance| *variance > 0.0)
+            .collect();
+        // Where one file does not state it, its noise is taken to be that of the other.
+        let stated = stated.iter().sum::<f64>() / stated.len().max(1) as f64;
+        let square = self.cut_variance / (2.0 * self.a.point_count() as f64)
+            + stated * self.a.dimension() as f64;
         // E‖·‖ over root mean square, of isotropic vectors in the plane and in space.
         let ratio = if self.a.dimension() == 2 { 0.886 } else { 0.921 };
         (square > 0.0).then(|| ratio * square.sqrt())

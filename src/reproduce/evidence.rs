@@ -137,8 +137,11 @@ pub fn evidence(
         let mut found = Alarms { shapes, pairs: 0, alarms: 0 };
         for pair in 0..pairs {
             let (a, b) = (next(population, shapes), next(population, shapes));
-            let options =
-                Options { permutations: plan.permutations, seed: pair as u64, modes: None };
+            let options = Options {
+                permutations: plan.permutations,
+                seed: pair as u64,
+                ..Options::default()
+            };
             let groups = Groups::new(population.dimension(), &a, &b, Alignment::None);
             let Ok(mut run) = groups.and_then(|groups| Evidence::new(groups, options)) else {
                 continue;
@@ -162,7 +165,7 @@ fn row(pair: &PairOfModels) -> Result<EvidenceRow, ComparisonError> {
     let sigma = run.sigma().ok_or(ComparisonError::NothingYet)?;
     let reach = report.reach.ok_or(ComparisonError::NothingYet)?;
     let evidence = report.evidence.as_ref().and_then(|found| {
-        let (shapes, told_apart) = (found.shapes, found.told_apart);
+        let (shapes, told_apart) = (found.shapes, found.told_apart.clone());
         Some(EvidenceOfRow { shapes, least: least(found)?, told_apart })
     });
     Ok(EvidenceRow {
@@ -182,7 +185,7 @@ fn row(pair: &PairOfModels) -> Result<EvidenceRow, ComparisonError> {
 
 /// The statistic of one population with the smallest adjusted p.
 fn least(report: &EvidenceReport) -> Option<Statistic> {
-    let statistics = report.one_population.statistics.iter().copied();
+    let statistics = report.one_population.statistics.iter().cloned();
     statistics.min_by(|one, other| one.p_adjusted.total_cmp(&other.p_adjusted))
 }
 

@@ -1041,6 +1041,21 @@ export type ShapeSource = "model" | "fit" | "draws";
 /** Which shapes of a difference are shown. */
 export type DifferenceShapes = "draws" | "exclusiveModes";
 
+/** Which shape a contrast pushes. */
+export type ContrastOf = "mean" | "exclusive-mode";
+
+/** A shape of a model, pushed away from the other model. */
+export type Contrast = {
+  /** The pushed shape (d·n). */
+  shape: Float32Array,
+  /** Which shape was pushed. */
+  of: ContrastOf,
+  /** How many times as far it lies from the other model as before, 1 + γ. */
+  times: number,
+  /** Mean distance of every vertex (n) of shapes of the model from the nearest that the other can make. */
+  missed: Float32Array,
+};
+
 /** Mean, variation and some shapes of a region, in the frame and unit of A. */
 export type RegionShapes = {
   /** Mean shape (d·n). */
@@ -1053,6 +1068,8 @@ export type RegionShapes = {
   count: number,
   /** What they come from. */
   source: ShapeSource,
+  /** Of a difference: the picture of what the other model misses, where it misses something. */
+  contrast?: Contrast,
 };
 
 /** What a fit predicts of the intersection at one σ, averaged over the sides. */

@@ -1,5 +1,6 @@
 //! What a comparison shows: the five regions as shapes, maps over vertices, exploring, previews, plots of chains.
 
+pub(crate) mod contrast;
 pub(crate) mod diagnostics_plots;
 pub(crate) mod exploring;
 pub(crate) mod maps;

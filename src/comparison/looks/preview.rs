@@ -101,6 +101,7 @@ impl Comparison {
             samples.extend(single(from.shape(&point).iter()));
         }
         let shapes = RegionShapes {
+            contrast: None,
             mean: single(joint.shape(&model.mean).iter()).into(),
             vertex_sd: single(&joint.vertex_standard_deviations(&model)).into(),
             samples: samples.into(),

@@ -3,6 +3,7 @@
 use crate::model::Side;
 use serde::{Deserialize, Serialize};
 
+use super::contrast::Contrast;
 use crate::comparison::Comparison;
 use crate::comparison::inference::Inference;
 use crate::linalg::{Moments, TypedArray, single};
@@ -71,6 +72,10 @@ pub struct RegionShapes {
     pub count: usize,
     /// What they come from.
     pub source: ShapeSource,
+    /// Of a difference: the picture of what the other model misses, where it misses something.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, ts(optional))]
+    pub contrast: Option<Contrast>,
 }
 
 /// Which shapes of a difference are shown.
@@ -95,7 +100,7 @@ pub struct DifferenceView {
 }
 
 /// Standard deviations from the mean at which an exclusive mode is shown.
-const EXCLUSIVE_REACH: f64 = 3.0;
+pub(super) const EXCLUSIVE_REACH: f64 = 3.0;
 
 impl Comparison {
     /// Shapes of a region; `view` says how a difference is shown. `None` while there is nothing of it.
@@ -106,9 +111,13 @@ impl Comparison {
         seed: u64,
         view: DifferenceView,
     ) -> Option<RegionShapes> {
+        let difference = |side: Side| {
+            let found = self.difference(side, count, seed, view)?;
+            Some(RegionShapes { contrast: self.contrast(side), ..found })
+        };
         match region {
-            Region::AWithoutB => self.difference(Side::A, count, seed, view),
-            Region::BWithoutA => self.difference(Side::B, count, seed, view),
+            Region::AWithoutB => difference(Side::A),
+            Region::BWithoutA => difference(Side::B),
             _ => self.region(region, count, seed),
         }
     }
@@ -136,6 +145,7 @@ impl Comparison {
                 samples: samples.collect(),
                 count,
                 source: ShapeSource::Model,
+                contrast: None,
             });
         }
         let plain = self.difference_shapes(side, count, seed)?;
@@ -179,6 +189,7 @@ impl Comparison {
             samples: samples.into(),
             count,
             source: ShapeSource::Model,
+            contrast: None,
         }
     }
 
@@ -212,6 +223,7 @@ impl Comparison {
             samples: samples.into(),
             count,
             source: if drawn { ShapeSource::Draws } else { ShapeSource::Fit },
+            contrast: None,
         })
     }
 
@@ -233,6 +245,7 @@ impl Comparison {
             samples: samples.into(),
             count,
             source: ShapeSource::Draws,
+            contrast: None,
         })
     }
 }

@@ -577,6 +577,7 @@ fn read_part(
         "" => source.scores("training_coefficients", &mut notes),
         _ => None,
     };
+    let noise = if general { source.noise_variance()? } else { 0.0 };
     let faces = source.faces(layout, &mut notes);
     let kind = match source.text("kind", general)?.as_deref() {
         _ if recipe.is_color() => Kind::Color,
@@ -615,7 +616,7 @@ fn read_part(
         kind,
     })?;
     notes.extend(assembled.notes);
-    let mut model = assembled.model.with_unit(unit);
+    let mut model = assembled.model.with_unit(unit).with_noise_variance(noise);
     if let Some(cells) = borrowed.filter(|cells| *cells != Cells::None) {
         model = model.with_cells(cells).map_err(Fault::Model)?;
     }
@@ -802,6 +803,12 @@ impl Source<'_> {
             notes.push(format!("The training shapes could not be read. {fault}"));
             None
         })
+    }
+
+    /// The noise variance of Shapevenn's own export; 0 where there is none.
+    fn noise_variance(&mut self) -> Result<f64, Fault> {
+        let found = self.numbers("noise_variance", 1)?.and_then(|values| values.first().copied());
+        Ok(found.filter(|noise| noise.is_finite() && *noise > 0.0).unwrap_or(0.0))
     }
 
     /// A text of Shapevenn's own export, the only format with general names.

@@ -8,6 +8,7 @@
 //! | `mean` | D numbers, interleaved x₀ y₀ z₀ x₁ … |
 //! | `standardDeviations` | q numbers σ, the largest first |
 //! | `modes` | q lists of D numbers, orthonormal |
+//! | `noiseVariance` | variance of a coordinate about the model, in square units; may be missing |
 //! | `trainingCoefficients` | q lists of N numbers: the training shapes, lengths along the modes; may be missing |
 //! | `triangles` or `segments` | lists of 3 or 2 point numbers, from 0; may be missing |
 //!
@@ -95,8 +96,11 @@ pub(crate) fn read(
     })?;
     let name = document.text(&["name"]).filter(|name| !name.is_empty());
     let unit = document.text(&["unit"]).and_then(|unit| Unit::from_symbol(&unit));
+    let noise =
+        number(document, "noiseVariance")?.filter(|noise| noise.is_finite() && *noise > 0.0);
     let model = assembled
         .model
+        .with_noise_variance(noise.unwrap_or(0.0))
         .with_unit(unit.unwrap_or_default())
         .with_name(name.unwrap_or_else(|| input.file_name().to_owned()));
     let part = Part {

@@ -8,7 +8,7 @@
 //! | `model/mean` | D numbers, absolute, interleaved |
 //! | `model/pcaBasis` | D × q |
 //! | `model/pcaVariance` | q variances λ |
-//! | `model/noiseVariance` | added to the diagonal of the covariance; not part of our model |
+//! | `model/noiseVariance` | variance of a coordinate about the model |
 //! | `modelinfo/scores` | q × N coefficients of the training shapes; optional (`scores`) |
 //! | `representer` | attributes `name`, `datasetType` |
 //! | `representer/points`, `representer/cells` | d × n and k × m, also transposed |
@@ -219,12 +219,15 @@ fn read_part(tree: &dyn Tree, places: &[Place], index: usize) -> Result<(Part, S
             cells = None;
         }
     }
-    let noise = tree.number(&at("model/noiseVariance")).filter(|noise| *noise > 0.0);
+    let noise =
+        tree.number(&at("model/noiseVariance")).filter(|noise| noise.is_finite() && *noise > 0.0);
     let scores = scores(tree, &at("modelinfo/scores"), &mut notes)
         .map(|coefficients| Scores { coefficients, noise: noise.unwrap_or(0.0) });
     if let Some(noise) = noise {
         let noise = short(noise);
-        notes.push(format!("The file's noise variance of {noise} is not part of the model."));
+        notes.push(format!(
+            "The file states a noise variance of {noise} a coordinate about the model; σ is taken from it where nothing better is known."
+        ));
     }
     let scaling = match tree.array(&at("model/pcaVariance"))? {
         Some(array) => {
@@ -246,7 +249,7 @@ fn read_part(tree: &dyn Tree, places: &[Place], index: usize) -> Result<(Part, S
         scores,
         kind,
     })?;
-    let mut model = assembled.model.with_unit(unit);
+    let mut model = assembled.model.with_unit(unit).with_noise_variance(noise.unwrap_or(0.0));
     if let Some(cells) = borrowed {
         model = model.with_cells(cells).map_err(Fault::Model)?;
     }

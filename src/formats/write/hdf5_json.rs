@@ -59,7 +59,7 @@ fn document(model: &LinearModel) -> Result<Vec<u8>, Fault> {
     };
     let mut datasets = vec![
         ("/model/mean", Content::List(&numbers.mean)),
-        ("/model/noiseVariance", Content::List(&[0.0])),
+        ("/model/noiseVariance", Content::List(&numbers.noise_variance)),
         ("/model/pcaBasis", Content::Rows(&numbers.basis, model.mode_count())),
         ("/model/pcaVariance", Content::List(&numbers.variances)),
         ("/modelinfo/build-time", Content::Text("not recorded".to_owned())),

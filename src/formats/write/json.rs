@@ -28,6 +28,8 @@ struct Model<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     training_coefficients: Option<Vec<Vec<f64>>>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    noise_variance: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     triangles: Option<&'a [[u32; 3]]>,
     #[serde(skip_serializing_if = "Option::is_none")]
     segments: Option<&'a [[u32; 2]]>,
@@ -52,6 +54,7 @@ pub fn write_model(model: &LinearModel) -> Result<Vec<u8>, FormatError> {
         training_coefficients: model
             .training_coefficients()
             .map(|training| training.row_iter().map(|row| row.iter().copied().collect()).collect()),
+        noise_variance: Some(model.noise_variance()).filter(|noise| *noise > 0.0),
         triangles: match model.cells() {
             Cells::Triangles(triangles) => Some(triangles),
             _ => None,

@@ -44,7 +44,9 @@ struct Singles {
     variances: Vec<f32>,
     /// d × n: all x, then all y, then all z.
     points: Vec<f32>,
-    /// q × N coefficients of the training shapes in standard deviations, row by row, and N; where they are known.
+    noise_variance: [f32; 1],
+    /// q × N coefficients of the training shapes in standard deviations, shrunk by the noise variance, row by row, and
+    /// N; where they are known.
     scores: Option<(Vec<f32>, usize)>,
 }
 
@@ -71,12 +73,14 @@ impl Singles {
                 let deviations = model.standard_deviations();
                 let rows = lengths.row_iter().zip(deviations.iter());
                 let scores = rows.flat_map(|(row, deviation)| {
-                    row.iter().map(|length| length / deviation).collect::<Vec<_>>()
+                    let factor = deviation / (deviation * deviation + model.noise_variance());
+                    row.iter().map(|length| length * factor).collect::<Vec<_>>()
                 });
                 Some((single(scores)?, lengths.ncols()))
             }
         };
-        Ok(Self { mean, basis, variances, points, scores })
+        let noise_variance = [single(core::iter::once(model.noise_variance()))?[0]];
+        Ok(Self { mean, basis, variances, points, noise_variance, scores })
     }
 }
 

@@ -8,7 +8,7 @@ use crate::model::{Cells, LinearModel};
 
 /// Writes a model as a NumPy archive: `mean` (n × d), orthonormal `basis` (D × q), `eigenvalues` (q),
 /// `faces` (m × k), `unit`, `name` and `kind`, and where the training shapes are known `training_coefficients` (q × N,
-/// lengths along the modes); numbers in double precision.
+/// lengths along the modes), and `noise_variance` where there is some; numbers in double precision.
 ///
 /// # Errors
 /// None at present; the signature is that of every writer.
@@ -30,6 +30,9 @@ pub fn write_model(model: &LinearModel) -> Result<Vec<u8>, FormatError> {
         let shape = vec![modes, training.ncols()];
         arrays
             .push(("training_coefficients", Array { shape, data: Data::F64(by_rows(&training)) }));
+    }
+    if model.noise_variance() > 0.0 {
+        arrays.push(("noise_variance", Array::list(vec![model.noise_variance()])));
     }
     match model.cells() {
         Cells::None => {}

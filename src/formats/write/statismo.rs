@@ -25,7 +25,8 @@ pub fn write_model(model: &LinearModel) -> Result<Vec<u8>, FormatError> {
 fn file_of(model: &LinearModel) -> Result<Vec<u8>, Fault> {
     let refused = |error: &dyn core::fmt::Display| Fault::Write { reason: error.to_string() };
     let (dimension, points, modes) = (model.dimension(), model.point_count(), model.mode_count());
-    let Singles { mean, basis, variances, points: by_axis, scores } = Singles::of(model)?;
+    let Singles { mean, basis, variances, points: by_axis, noise_variance, scores } =
+        Singles::of(model)?;
 
     let mut file = FileBuilder::new();
     file.with_libver_bounds(LibVer::Earliest, LibVer::V18);
@@ -39,7 +40,7 @@ fn file_of(model: &LinearModel) -> Result<Vec<u8>, Fault> {
     floats(&mut group, "mean", &mean, &[mean.len()]);
     floats(&mut group, "pcaBasis", &basis, &[mean.len(), modes]);
     floats(&mut group, "pcaVariance", &variances, &[modes]);
-    floats(&mut group, "noiseVariance", &[0.0], &[1]);
+    floats(&mut group, "noiseVariance", &noise_variance, &[1]);
     file.add_group(group.finish());
 
     let mut group = file.create_group("representer");

@@ -7,6 +7,7 @@ import { differencePicture, REGION_NAMES } from "../stage/names";
 import { layoutOf, viewer } from "../stage/stage-controller";
 import { region, result, view } from "../state/state";
 import { isDark } from "../state/theme";
+import { isColoured } from "../state/view";
 import { plain } from "../text/phrase";
 import { saveBlob } from "../ui/download";
 import { barOf } from "./figure";
@@ -22,7 +23,7 @@ export async function savePicture(): Promise<void> {
   const made = viewer.peek();
   if (!canvas || !made) return;
   const [width, height, panes] = layoutOf(canvas);
-  const foot = view.peek() === "sd" ? FOOT.bar + FOOT.words : FOOT.words;
+  const foot = isColoured(view.peek()) ? FOOT.bar + FOOT.words : FOOT.words;
   const picture = document.createElement("canvas");
   picture.width = width * SCALE;
   picture.height = (height + foot) * SCALE;
@@ -90,8 +91,8 @@ function drawMap(pen: CanvasRenderingContext2D, canvas: HTMLCanvasElement, dark:
 
 function drawFoot(pen: CanvasRenderingContext2D, width: number, top: number): void {
   const held = result.peek();
-  const bar = view.peek() === "sd" ? barOf(shownMap.peek()) : null;
-  const above = view.peek() === "sd" ? FOOT.bar : 0;
+  const bar = isColoured(view.peek()) ? barOf(shownMap.peek()) : null;
+  const above = isColoured(view.peek()) ? FOOT.bar : 0;
   const line = (text: string, y: number, font: string) => {
     pen.font = font;
     pen.fillText(text, 12, top + y, width - 24);

@@ -64,6 +64,7 @@ function shown(): string {
   if (run.value) return `${whose} Comparing, ${percent(run.value.progress?.fraction ?? 0)} …`;
   if (tab.value !== "regions") return whose;
   const what = {
+    contrast: "What each misses of the other",
     mean: "Mean shapes",
     samples: "Random shapes",
     sd: MAP_WORDS[vertexMap.value].label,

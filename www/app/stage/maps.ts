@@ -70,8 +70,19 @@ export const deviationMap = computed<ShownMap>(() => ({
   values: deviations(),
 }));
 
-/** The chosen map, without values until the engine has sent them. */
+/** What the other model misses, on the differences alone: the map of the contrast. */
+const contrastMap = computed<ShownMap>(() => {
+  const values: ShownMap["values"] = {};
+  for (const region of REGIONS) {
+    const missed = shapes.value[region]?.contrast?.missed;
+    if (missed) values[region] = missed;
+  }
+  return { name: "reach", mode: 0, signed: false, palette: "viridis", values };
+});
+
+/** The shown map, without values until the engine has sent them. */
 export const shownMap = computed<ShownMap>(() => {
+  if (view.value === "contrast") return contrastMap.value;
   const [name, mode] = [vertexMap.value, mapMode.value];
   if (name === "sd") return deviationMap.value;
   const found = fetched.value;
@@ -88,7 +99,8 @@ export const shownMap = computed<ShownMap>(() => {
 /** Why the chosen map cannot be shown. */
 export const mapProblem = computed(() => {
   const found = fetched.value;
-  return vertexMap.value !== "sd" && found && answers(found) ? found.problem : null;
+  const asks = view.value !== "contrast" && vertexMap.value !== "sd";
+  return asks && found && answers(found) ? found.problem : null;
 });
 
 /** Standard deviations that came with the shapes; before a comparison those of the models. */

@@ -26,12 +26,14 @@ export function shownIn(region: Region): string {
     return ahead === null ? meaning : `preview, σ ${length(ahead.sigma, unit.value)}`;
   }
   if (!isDifference(region)) return meaning;
+  if (view.value === "contrast") return "what the other misses";
   const drawn = differencePicture();
   if (drawn === "") return meaning;
   return showsExclusive(view.value) ? drawn : `exaggerated, ${drawn}`;
 }
 
 const EXCLUSIVE: Record<ViewMode, string> = {
+  contrast: "",
   mean: "mean of the model",
   samples: "exclusive modes",
   sd: "expected residual",

@@ -19,6 +19,7 @@ import {
   view,
 } from "../state/state";
 import { isDark } from "../state/theme";
+import { isColoured } from "../state/view";
 import {
   cardContent,
   contentsOf,
@@ -73,7 +74,7 @@ const canvasOfPaint = computed<Scene>(() => ({
 const paintFrame = computed(() => sceneFrame(canvasOfPaint.value));
 
 /** The range of the colours; null if shapes are drawn without a map. */
-export const range = computed(() => (view.value === "sd" ? mapRange.value : null));
+export const range = computed(() => (isColoured(view.value) ? mapRange.value : null));
 
 /** Whether a click chooses a vertex instead of a region. */
 export const picking = signal(false);

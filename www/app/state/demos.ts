@@ -96,7 +96,16 @@ const wings: Demo = {
   label: "Mosquito wings: Aedes and Culex",
   a: "wings-aedes",
   b: "wings-culex",
-  nouns: { a: "Aedes", b: "Culex", shapesOfA: "wings of Aedes", shapesOfB: "wings of Culex" },
+  nouns: {
+    a: "Aedes",
+    b: "Culex",
+    modelA: "the Aedes model",
+    modelB: "the Culex model",
+    shapeOfA: "a wing of Aedes",
+    shapeOfB: "a wing of Culex",
+    shapesOfA: "wings of Aedes",
+    shapesOfB: "wings of Culex",
+  },
   note: "18 landmarks of 57 and 25 wings, measured by Rohlf and Slice (1990), from ktch (Apache-2.0); aligned together, in one size.",
 };
 

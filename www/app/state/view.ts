@@ -4,8 +4,10 @@ import { type Camera, HOME } from "./camera";
 import { FIRST_DEMO } from "./demos";
 import { DEFAULTS } from "./settings";
 
-export type ViewMode = "mean" | "samples" | "sd";
-export const VIEW_MODES: ViewMode[] = ["mean", "samples", "sd"];
+export type ViewMode = "contrast" | "mean" | "samples" | "sd";
+export const VIEW_MODES: ViewMode[] = ["contrast", "mean", "samples", "sd"];
+/** Whether a map colours the vertices. */
+export const isColoured = (mode: ViewMode) => mode === "contrast" || mode === "sd";
 /** The pages: comparison, lessons, gallery. */
 export type PageName = "compare" | "learn" | "gallery";
 export const PAGES: PageName[] = ["compare", "learn", "gallery"];
@@ -65,7 +67,7 @@ export const FIRST_VIEW: ViewState = {
   demo: FIRST_DEMO.id,
   settings: DEFAULTS,
   tab: "regions",
-  view: "mean",
+  view: "contrast",
   map: "sd",
   mapMode: 0,
   vertex: null,

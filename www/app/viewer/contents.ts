@@ -1,7 +1,7 @@
 /** Computes the contents of the panes of the five regions: shapes, colours, ellipsoids. Pure. */
 import type { Ellipsoid, Geometry, Region, RegionShapes, Side, Sides } from "../../worker/protocol";
 import { isModel, ownerOf, REGIONS } from "../state/regions";
-import type { ViewMode } from "../state/view";
+import { isColoured, type ViewMode } from "../state/view";
 import type { Palette } from "../text/colormap";
 import { rimFade } from "./rim";
 import { type DrawnEllipsoid, type Frame, frameOf, type PaneContent } from "./viewer";
@@ -74,7 +74,9 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
   const many = scene.mode === "samples" && current && found;
   const surface = geometry.triangles !== null;
   const cloud = isCloud(geometry);
-  const shapes = many || (cloud && found && current) ? samplesOf(found) : [shown.mean];
+  const contrast = scene.mode === "contrast" && current ? found?.contrast : undefined;
+  const mean = contrast?.shape ?? shown.mean;
+  const shapes = many || (cloud && found && current && !contrast) ? samplesOf(found) : [mean];
   const shade = scene.dark ? "dark" : "light";
   return {
     region,
@@ -85,7 +87,7 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
     // The rim of a selected region does not fade out.
     fade:
       scene.fadeRim && geometry.triangles && !isCompared(scene, geometry) ? fadeOf(geometry) : null,
-    values: scene.mode === "sd" ? valuesOf(scene, region, shown.vertexSd) : null,
+    values: isColoured(scene.mode) ? valuesOf(scene, region, shown.vertexSd) : null,
     palette: scene.map?.palette ?? "viridis",
     ellipsoid: current ? drawnEllipsoid(scene, region) : null,
     marks: null,
@@ -147,11 +149,12 @@ export function cardContent(geometry: Geometry, side: Region, scene: Scene): Pan
 export function sceneFrame(scene: Scene): Frame {
   const dimension = dimensionOf(scene) ?? 3;
   const means = contentsOf({ ...scene, mode: "mean" }, ["a", "b"]);
+  const pushed = scene.mode === "contrast" ? contentsOf(scene, REGIONS) : [];
   const many = scene.mode === "samples" || means.some((content) => content.overlaid);
   const shown = many ? contentsOf({ ...scene, mode: "samples" }, REGIONS) : means;
   const fade = means[0]?.fade ?? null;
   return frameOf(
-    [...means, ...shown].flatMap((content) => content.shapes),
+    [...means, ...shown, ...pushed].flatMap((content) => content.shapes),
     dimension,
     fade,
   );

@@ -28,10 +28,12 @@ import {
   vertexMap,
   view,
 } from "../../state/state";
+import { isColoured } from "../../state/view";
 import { number, signed, withoutRoundingError } from "../../text/format";
 import { BackIcon, ExpandIcon } from "../../ui/icons";
 import { contentOf, ownGeometry } from "../../viewer/contents";
 import { DifferenceBar } from "./DifferenceBar";
+import { ContrastCaption } from "./ContrastCaption";
 import { Toolbar } from "./Toolbar";
 
 /** The five regions side by side: A at the left, B at the right, A∩B between them above the Venn diagram. */
@@ -60,7 +62,8 @@ export function Stage() {
       {!paints && (
         <>
           <DifferenceBar />
-          {view.value === "sd" && <ColorBar />}
+          {view.value === "contrast" && <ContrastCaption />}
+          {isColoured(view.value) && <ColorBar />}
           <VertexBar />
         </>
       )}
@@ -98,7 +101,12 @@ function Panes({ live }: { live: boolean }) {
 function canvasLabel(): string {
   if (painting.value) return "Mean shape of A, to paint on";
   const map = vertexMap.value === "sd" ? "Standard deviations" : MAP_WORDS[vertexMap.value].label;
-  const what = { mean: "Mean shapes", samples: "Random shapes", sd: map }[view.value];
+  const what = {
+    contrast: "What each model misses of the other",
+    mean: "Mean shapes",
+    samples: "Random shapes",
+    sd: map,
+  }[view.value];
   return alone.value === null
     ? `${what} of the five regions`
     : `${what} of ${regionLabel(alone.value)}`;
@@ -172,7 +180,7 @@ function Tooltip() {
 /** Value of the map at a vertex, with its unit; for mean shapes its standard deviation. */
 function valueAt(name: Region, vertex: number): string | null {
   if (view.value === "samples") return null;
-  if (view.value === "sd") {
+  if (isColoured(view.value)) {
     const map = shownMap.value;
     const value = map.values[name]?.[vertex];
     if (value === undefined) return null;

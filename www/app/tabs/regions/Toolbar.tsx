@@ -9,6 +9,7 @@ import { DownloadIcon } from "../../ui/icons";
 import { Segments } from "../../ui/Segments";
 
 const LABELS: Record<ViewMode, string> = {
+  contrast: "Contrast",
   mean: "Mean",
   samples: "Samples",
   sd: "Map",

@@ -1,0 +1,26 @@
+/** Says what the view Contrast draws: which shapes were pushed, how far. */
+import { computed } from "@preact/signals";
+import type { Contrast, RegionShapes, Side } from "../../worker/protocol";
+import { DIFFERENCE_OF, letters } from "../state/regions";
+import { SIDES, shapes } from "../state/state";
+import { number } from "../text/format";
+
+/** The caption; empty while there is no difference. */
+export const contrastSentence = computed(() => {
+  const of = (side: Side) => shapes.value[DIFFERENCE_OF[side]];
+  const drawn = SIDES.filter((side) => of(side));
+  if (drawn.length === 0) return "";
+  const sentences = drawn.map((side) => pushed(side, of(side)));
+  return `A, B and A∩B are means. ${sentences.join(" ")}`;
+});
+
+function pushed(side: Side, found: RegionShapes | undefined): string {
+  const [own, other] = letters(side);
+  const contrast: Contrast | undefined = found?.contrast;
+  if (!contrast) return `${other} makes all shapes of ${own}.`;
+  const what =
+    contrast.of === "mean"
+      ? `the mean of ${own}`
+      : `${own} at 3 SD of the mode that ${other} misses most`;
+  return `${own}∖${other}: ${what}, pushed ${number(contrast.times, 2)}× as far from ${other} as it lies.`;
+}
