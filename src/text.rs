@@ -15,10 +15,19 @@ pub(crate) fn thousands(count: usize) -> String {
 
 /// Three significant digits: "12.3", "0.0123", "1.2e-9".
 pub(crate) fn three_digits(value: f64) -> String {
+    with_digits(value, 3.0)
+}
+
+/// One significant digit: "12", "0.01".
+pub(crate) fn one_digit(value: f64) -> String {
+    with_digits(value, 1.0)
+}
+
+fn with_digits(value: f64, significant: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
-    let digits = 2.0 - libm::floor(libm::log10(value.abs()));
+    let digits = significant - 1.0 - libm::floor(libm::log10(value.abs()));
     if (0.0..=6.0).contains(&digits) {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 6")]
         let digits = digits as usize;
@@ -46,6 +55,7 @@ mod tests {
         ] {
             assert_eq!(thousands(number), text, "{number}");
         }
+        assert_eq!([0.0, 12.3, 0.0149, 0.96].map(one_digit), ["0", "12", "0.01", "1.0"]);
         let values = [0.0, 123.456, 12.345, 0.012_345, -1234.5, 1.24e-9];
         assert_eq!(values.map(three_digits), ["0", "123", "12.3", "0.0123", "-1234", "1.2e-9"]);
     }

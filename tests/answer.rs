@@ -105,8 +105,16 @@ fn reach_says_what_is_true_of_models_inside_one_another_and_apart() {
     assert!(!text.contains("plausible"), "both make the mean: {text}");
     numbers_are_the_reports(&found);
     let same = report(&compared(&star("stars-1-a"), &star("stars-1-a"), few()));
-    assert_eq!(said(&same, Topic::ReachOfA).unwrap(), "B can make all of the shapes of A.", "same");
-    assert_eq!(said(&same, Topic::ReachOfB).unwrap(), "A can make all of the shapes of B.", "same");
+    assert_eq!(
+        said(&same, Topic::ReachOfA).unwrap(),
+        "A shape of A is always one that B can make.",
+        "same"
+    );
+    assert_eq!(
+        said(&same, Topic::ReachOfB).unwrap(),
+        "A shape of B is always one that A can make.",
+        "same"
+    );
     // Apart by ten of their standard deviations.
     let apart =
         report(&compared(&population(&group(6, 0.0, 5)), &population(&group(6, 10.0, 6)), few()));

@@ -8,8 +8,9 @@ use super::arrangements::{Arrangements, some_of};
 use super::conditions::conditions;
 use super::contrasts::Contrasts;
 use super::groups::Groups;
+use super::modes::Modes;
 use super::significance::{chance, holm, is_as_large, p_error, p_value};
-use super::stability::{self, HALVINGS};
+use super::stability::{self, HALVINGS, Overlaps};
 use super::statistics::{Compared, Curves, Labelled, STATISTICS, compare};
 use super::told_apart;
 use super::vertices::{self, VertexTest};
@@ -72,8 +73,9 @@ pub struct Evidence {
     left_out: Sides<LeftOut>,
     nearer: Sides<f64>,
     nearer_by_chance: Sides<Vec<f64>>,
-    /// Sums of the overlaps of halves.
-    overlaps: Sides<Vec<f64>>,
+    /// Sums of the overlaps of halves, and the modes of the whole groups.
+    overlaps: Sides<Overlaps>,
+    modes_of_all: Sides<Modes>,
     halvings: usize,
     matched: Sides<f64>,
     parts: usize,
@@ -101,7 +103,10 @@ impl Evidence {
         let Compared { statistics, curves } =
             compare(&by_labels, modes, groups.point_count(), true);
         let of_contrasts = compare(&contrasts.own(), modes, groups.point_count(), false).statistics;
-        let no_overlap = Sides::each(|side| vec![0.0; most_modes(&groups, side)]);
+        let most_modes = Sides::each(|side| most_modes(&groups, side));
+        let modes_of_all = Sides::each(|side| {
+            stability::modes_of(groups.leading(), &groups.indices(side), most_modes[side])
+        });
         Ok(Self {
             modes,
             relabellings: Arrangements::new(a + b, a, most, options.seed, 0),
@@ -111,7 +116,8 @@ impl Evidence {
             left_out: Sides::each(|_| summary(&[], None)),
             nearer: Sides::default(),
             nearer_by_chance: Sides::default(),
-            overlaps: no_overlap,
+            overlaps: most_modes.map(Overlaps::none),
+            modes_of_all,
             halvings: 0,
             matched: Sides::default(),
             parts: 0,
@@ -258,18 +264,14 @@ impl Evidence {
                 let found = parallel::map(count, |item| {
                     Sides::each(|side| {
                         let purpose = (self.options.seed, side.index(), range.start + item);
-                        let most = self.overlaps[side].len();
-                        stability::halved(groups.leading(), &sides[side], most, purpose)
+                        let whole = &self.modes_of_all[side];
+                        let most = self.overlaps[side].halves.len();
+                        stability::halved(groups.leading(), &sides[side], whole, most, purpose)
                     })
                 });
-                for overlaps in found {
-                    for (sums, overlaps) in
-                        [&mut self.overlaps.a, &mut self.overlaps.b].into_iter().zip(overlaps)
-                    {
-                        for (sum, overlap) in sums.iter_mut().zip(overlaps) {
-                            *sum += overlap;
-                        }
-                    }
+                for Sides { a, b } in found {
+                    self.overlaps.a.add(&a);
+                    self.overlaps.b.add(&b);
                 }
                 self.halvings = range.end;
             }
@@ -413,7 +415,8 @@ fn most_modes(groups: &Groups, side: Side) -> usize {
 
 fn summary(errors: &[f64], sigma: Option<f64>) -> LeftOut {
     let found = MeanSd::of(errors);
-    let beyond_sigma = sigma.filter(|sigma| *sigma > 0.0).map(|sigma| {
+    // Errors of zero are not known, or of shapes that fill their space.
+    let beyond_sigma = sigma.filter(|sigma| *sigma > 0.0 && found.mean > 0.0).map(|sigma| {
         let beyond = |d: &f64| -libm::expm1(-0.5 * (d / sigma) * (d / sigma));
         errors.iter().map(beyond).sum::<f64>() / errors.len() as f64
     });

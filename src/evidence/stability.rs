@@ -22,21 +22,46 @@
 use nalgebra::DMatrix;
 
 use super::arrangements::shuffle;
-use super::statistics::{Labelled, overlaps};
+use super::modes::{Modes, deviations};
+use super::statistics::overlaps;
 use crate::report::ModeStability;
 use crate::sampling::{Stream, stream};
 
 /// Halvings of each group.
 pub(super) const HALVINGS: usize = 200;
 
-/// Overlap of the first k modes of two random halves of a group, k = 1 to `most`. Of each half of h shapes there
-/// are h − 1 modes.
+/// Overlaps of the first k modes, k = 1, 2, …, added up over halvings.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Overlaps {
+    /// Of the two halves.
+    pub(super) halves: Vec<f64>,
+    /// Of a half and the whole group.
+    pub(super) whole: Vec<f64>,
+}
+
+impl Overlaps {
+    /// None of `most` modes.
+    pub(super) fn none(most: usize) -> Self {
+        Self { halves: vec![0.0; most], whole: vec![0.0; most] }
+    }
+
+    pub(super) fn add(&mut self, more: &Self) {
+        let sums = self.halves.iter_mut().chain(&mut self.whole);
+        for (sum, overlap) in sums.zip(more.halves.iter().chain(&more.whole)) {
+            *sum += overlap;
+        }
+    }
+}
+
+/// Overlaps of the modes of two random halves of a group, and of the first of them with the modes of the `whole`, up to
+/// `most`. Of each half of h shapes there are h − 1 modes.
 pub(super) fn halved(
     coordinates: &DMatrix<f64>,
     group: &[usize],
+    whole: &Modes,
     most: usize,
     (seed, side, index): (u64, usize, usize),
-) -> Vec<f64> {
+) -> Overlaps {
     let half = group.len() / 2;
     let mut shuffled = group.to_vec();
     let mut random = stream(seed, Stream::Subsample, side, index);
@@ -44,7 +69,13 @@ pub(super) fn halved(
     let (first, second) = shuffled[..2 * half].split_at_mut(half);
     first.sort_unstable();
     second.sort_unstable();
-    overlaps(&Labelled::of(coordinates, first, second), most)
+    let [first, second] = [first, second].map(|of| modes_of(coordinates, of, most));
+    Overlaps { halves: overlaps(&first, &second, most), whole: overlaps(&first, whole, most) }
+}
+
+/// The first `most` modes of a group.
+pub(super) fn modes_of(coordinates: &DMatrix<f64>, group: &[usize], most: usize) -> Modes {
+    Modes::of(&deviations(coordinates, group).1, most)
 }
 
 /// The most modes whose stability can be told of a group of `count` shapes that span `rank` dimensions.
@@ -53,8 +84,9 @@ pub(super) fn most_modes(count: usize, rank: usize) -> usize {
 }
 
 /// From the sums of the overlaps of `halvings` halvings. `dimensions` is r.
-pub(super) fn report(sums: &[f64], halvings: usize, dimensions: usize) -> ModeStability {
-    let overlap: Vec<f64> = sums.iter().map(|sum| sum / halvings as f64).collect();
+pub(super) fn report(sums: &Overlaps, halvings: usize, dimensions: usize) -> ModeStability {
+    let [overlap, with_whole] = [&sums.halves, &sums.whole]
+        .map(|sums| -> Vec<f64> { sums.iter().map(|sum| sum / halvings as f64).collect() });
     let mut best = (0.0, 1);
     for (index, overlap) in overlap.iter().enumerate() {
         let modes = (index + 1) as f64;
@@ -65,7 +97,7 @@ pub(super) fn report(sums: &[f64], halvings: usize, dimensions: usize) -> ModeSt
         }
     }
     let suggested_modes = best.1;
-    ModeStability { overlap, dimensions, suggested_modes }
+    ModeStability { overlap, with_whole, dimensions, suggested_modes }
 }
 
 #[cfg(test)]
@@ -80,15 +112,13 @@ mod tests {
         most: usize,
         variance: fn(usize) -> f64,
         index: usize,
-    ) -> Vec<f64> {
+    ) -> Overlaps {
         let shapes = drawn((rows, count), 0.0, |row| variance(row).sqrt(), index);
         let group: Vec<usize> = (0..count).collect();
-        let mut sums = vec![0.0; most];
+        let whole = modes_of(&shapes, &group, most);
+        let mut sums = Overlaps::none(most);
         for index in 0..HALVINGS {
-            for (sum, overlap) in sums.iter_mut().zip(halved(&shapes, &group, most, (3, 0, index)))
-            {
-                *sum += overlap;
-            }
+            sums.add(&halved(&shapes, &group, &whole, most, (3, 0, index)));
         }
         sums
     }
@@ -105,14 +135,16 @@ mod tests {
             .sum::<f64>()
             * 4.0
             / COUNT as f64;
-        let found = (0..20)
-            .map(|index| {
-                1.0 - sums(COUNT, 4, 3, |row| [25.0, 5.0, 1.0, 0.2][row], index)[0]
-                    / HALVINGS as f64
-            })
-            .sum::<f64>()
-            / 20.0;
+        let mut all = Overlaps::none(3);
+        for index in 0..20 {
+            all.add(&sums(COUNT, 4, 3, |row| [25.0, 5.0, 1.0, 0.2][row], index));
+        }
+        let apart = |sums: &[f64]| 1.0 - sums[0] / (20 * HALVINGS) as f64;
+        let found = apart(&all.halves);
         assert!((found / expected - 1.0).abs() < 0.45, "{found}, not {expected}");
+        // The whole lies between its halves: a quarter of the square angle, up to terms of the next order.
+        let of_whole = apart(&all.whole);
+        assert!((4.0 * of_whole / found - 1.0).abs() < 0.1, "{of_whole}, {found}");
     }
 
     #[test]

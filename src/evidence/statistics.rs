@@ -150,10 +150,9 @@ fn angles(cosines: &DMatrix<f64>) -> Vec<f64> {
     squares.into_iter().map(|square| libm::acos(square.clamp(0.0, 1.0).sqrt())).collect()
 }
 
-/// ‖U_AᵀU_B‖²/k of the first k modes, k = 1 to `most`; where a group has fewer, that of what it has over k.
-pub(super) fn overlaps(of: &Labelled, most: usize) -> Vec<f64> {
-    let found = of.deviations.as_ref().map(|deviations| Modes::of(deviations, most));
-    let cosines = cross(&found.a.basis, &found.b.basis);
+/// ‖U₁ᵀU₂‖²/k of the first k modes, k = 1 to `most`; where a group has fewer, that of what it has over k.
+pub(super) fn overlaps(one: &Modes, other: &Modes, most: usize) -> Vec<f64> {
+    let cosines = cross(&one.basis, &other.basis);
     let mut sum = 0.0;
     (1..=most)
         .map(|modes| {
@@ -313,7 +312,8 @@ mod tests {
         let (a, b) = (drawn((36, 7), 0.0, falling, 14), drawn((36, 6), 0.2, falling, 15));
         let groups = Groups::new(3, &a, &b, Alignment::None).unwrap();
         let (first, second): (Vec<usize>, Vec<usize>) = ((0..7).collect(), (7..13).collect());
-        let found = overlaps(&Labelled::of(groups.leading(), &first, &second), 5);
+        let modes = |of: &[usize]| Modes::of(&deviations(groups.leading(), of).1, 5);
+        let found = overlaps(&modes(&first), &modes(&second), 5);
         for modes in 1..=5 {
             let angles = principal_angles(&plain(&a, modes).basis, &plain(&b, modes).basis);
             let squares = angles.iter().map(|angle| libm::cos(*angle) * libm::cos(*angle));

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::{EvidenceReport, Hypothesis, Notice, Report, StatisticName};
 use crate::model::{Side, Sides};
 use crate::pair::ReachOfSide;
-use crate::text::three_digits;
+use crate::text::{one_digit, three_digits};
 
 /// Level of the answer: below it a difference is called more than chance.
 pub const LEVEL: f64 = 0.05;
@@ -83,6 +83,8 @@ pub enum Quantity {
     Length,
     /// The same where its unit follows.
     LengthWithoutUnit,
+    /// A standard deviation of a length, with one significant digit.
+    Spread,
     /// A share of a whole, in per cent.
     Share,
     /// A whole number.
@@ -175,10 +177,12 @@ pub fn answer(report: &Report, missing: Option<&NoEvidence>) -> Vec<Sentence> {
 impl EvidenceReport {
     /// Whether the groups differ by more than chance, and how well their shapes are told apart.
     pub fn answer(&self) -> Vec<Sentence> {
-        // Where every relabelling gives the same share, as of groups that fill the space of all shapes, it says nothing.
+        // It says nothing where every relabelling gives the same share, as of groups that fill the space of all shapes,
+        // nor where what a model misses of shapes that it has not seen is not known.
+        let within = self.conditions.iter().any(|one| one.code == "shapes-within-modes");
         let says = |side: &Side| {
             let chance = &self.told_apart[*side].chance;
-            chance.p05 < chance.p95
+            chance.p05 < chance.p95 && self.left_out[*side].mean > 0.0 && !within
         };
         let apart = Side::BOTH.into_iter().filter(says).map(|side| told_apart(side, self));
         core::iter::once(chance(self)).chain(apart).collect()
@@ -200,8 +204,12 @@ fn reach_of(side: Side, found: &ReachOfSide, meeting: Option<f64>) -> Sentence {
     };
     let other = side.other();
     if found.relative <= ROUNDING {
-        let parts =
-            vec![Name::model(other), words(" can make all of "), Name::shapes(side), words(".")];
+        let parts = vec![
+            Name::shape(side),
+            words(" is always one that "),
+            Name::model(other),
+            words(" can make."),
+        ];
         return Sentence { about, parts };
     }
     let length = |name: &str, value: f64| number(format!("{path}.{name}"), value, Quantity::Length);
@@ -335,7 +343,7 @@ fn distance_clause(evidence: &EvidenceReport, place: usize) -> Vec<Part> {
         number(
             path("chance.standardDeviation"),
             statistic.chance.standard_deviation,
-            Quantity::Length,
+            Quantity::Spread,
         ),
     ]
 }
@@ -432,6 +440,7 @@ impl Quantity {
         match self {
             Self::Length => format!("{} {unit}", three_digits(value)),
             Self::LengthWithoutUnit => three_digits(value),
+            Self::Spread => format!("{} {unit}", one_digit(value)),
             Self::Share => {
                 let percent = 100.0 * value;
                 // Never “100 %” for less than all, nor “0 %” for more than none.

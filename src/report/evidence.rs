@@ -50,7 +50,8 @@ pub struct LeftOut {
     /// Standard deviation over the shapes (divisor n − 1).
     pub standard_deviation: f64,
     /// Share of the shapes that count as outside the model of the others at the σ of the comparison,
-    /// E[1 − exp(−½(d/σ)²)]: what the shares of the differences are to be seen beside. Absent without a σ.
+    /// E[1 − exp(−½(d/σ)²)]: what the shares of the differences are to be seen beside. Absent without a σ, and where the
+    /// errors are zero.
     #[serde(default)]
     pub beyond_sigma: Option<f64>,
 }
@@ -229,6 +230,9 @@ pub struct VertexEvidence {
 pub struct ModeStability {
     /// Mean squared cosine of the principal angles between the first k modes of two halves, k = 1, 2, …
     pub overlap: Vec<f64>,
+    /// The same between a half and the whole group: how far the modes of the group may be off.
+    #[serde(default)]
+    pub with_whole: Vec<f64>,
     /// Dimensions r among which modes can turn: random spaces of k dimensions have an overlap of k/r.
     pub dimensions: usize,
     /// Number of modes up to which each adds more than half of a shared direction, chance deducted; at least one.

@@ -22,7 +22,7 @@ test("the first paint is the stored comparison of male and female heads, not a r
     const states = await recordStates(page);
     const begun = performance.now();
     await page.goto(url);
-    const headline = page.getByRole("heading", { name: /^Female heads can make/ });
+    const headline = page.getByRole("heading", { name: /^A male head lies/ });
     await headline.locator("[data-metric]").first().waitFor();
     t.diagnostic(`numbers after ${Math.round(performance.now() - begun)} ms`);
     await untilState(page, "done");
@@ -31,9 +31,13 @@ test("the first paint is the stored comparison of male and female heads, not a r
       (await states()).filter((state) => /running|error/.test(state)),
       [],
     );
-    for (const path of ["overlap.varianceOfAInB", "overlap.varianceOfBInA"]) {
-      assert.equal(await headline.locator(`[data-metric="${path}"]`).count(), 1, path);
-    }
+    assert.equal(await headline.locator('[data-metric="reach.aToB.mean"]').count(), 1);
+    const chance = page.locator(".chance");
+    assert.equal(await chance.getAttribute("data-answer"), "more-than-chance");
+    assert.match(
+      await chance.innerText(),
+      /^More than chance: male heads lie .* random groups of 200/,
+    );
     await assertShows(page, report);
   });
 });

@@ -99,7 +99,10 @@ test("identity against expression of one file is one click, and each part says w
       assert.equal(await parts.inputValue(), part);
     }
     assert.equal(await button.count(), 0);
-    assert.match(await page.locator(".headline").innerText(), /^Expression can make .* identity/);
+    assert.match(
+      await page.locator(".headline").innerText(),
+      /^A shape of the identity model lies .* the expression model can make/,
+    );
   });
 });
 

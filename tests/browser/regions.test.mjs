@@ -14,9 +14,13 @@ async function openDemo(page, url, demo, more = "") {
 }
 
 for (const demo of ["heads-sex", "stars-1", "planes"]) {
-  test(`${demo}: every pane shows something as mean, samples and standard deviation`, async () => {
+  test(`${demo}: every pane shows something as contrast, mean, samples and standard deviation`, async () => {
     await withPage({}, async ({ url, page }) => {
       let seen = await openDemo(page, url, demo);
+      const contrast = page.getByLabel("What each model misses of the other", { exact: true });
+      await canvas(page).and(contrast).waitFor();
+      const caption = page.locator(".contrast-caption");
+      assert.match(await caption.innerText(), /A∖B: .* pushed [\d.]+× as far from B as it lies/);
       for (const [mode, label] of [
         ["Samples", /^Random shapes of the five regions$/],
         ["Map", /^Standard deviations of the five regions$/],
@@ -79,7 +83,7 @@ test("each region of the map is a button with its name; choosing one enlarges it
     const large = await view.boundingBox();
     assert.ok(large.width > 1.5 * small.width, `${small.width} px wide, then ${large.width}`);
     await untilDrawn(page, ["intersection"]);
-    await canvas(page).and(page.getByLabel("Mean shapes of A∩B, both can make")).waitFor();
+    await canvas(page).and(page.getByLabel("What each model misses of the other, A∩B")).waitFor();
     await page.getByRole("button", { name: "All five", exact: true }).click();
     await untilDrawn(page);
 

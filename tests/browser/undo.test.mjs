@@ -69,7 +69,7 @@ test("Undo and Redo are named, say their keys, and are there only where there is
     await until(page, can, "true,false");
     await undo(page).click();
     await until(page, can, "false,true");
-    assert.equal(await radio(page, "Mean").isChecked(), true);
+    assert.equal(await radio(page, "Contrast").isChecked(), true);
     await page.keyboard.press("Control+Shift+z");
     await until(page, can, "true,false");
     assert.equal(await radio(page, "Samples").isChecked(), true);
@@ -103,7 +103,7 @@ test("pressing Undo fast goes back as many steps as were taken", async () => {
     await until(page, () => radio(page, "Samples").isChecked(), true);
     assert.equal(await undo(page).isEnabled(), true);
     await undo(page).click();
-    await until(page, () => radio(page, "Mean").isChecked(), true);
+    await until(page, () => radio(page, "Contrast").isChecked(), true);
     assert.equal(await undo(page).isDisabled(), true);
   });
 });

@@ -463,7 +463,7 @@ export type ReachOfSide = {
   quantiles: Quantiles,
   /** Their Monte-Carlo standard errors, from order statistics. */
   quantileErrors: Quantiles,
-  /** `mean` over the mean distance of shapes of the model from its mean shape. */
+  /** Root mean square distance over that of the same shapes from their mean: what the other model leaves of them. */
   relative: number,
   /** What the mean square of the distances is made of. */
   meanSquare: MeanSquare,
@@ -579,7 +579,8 @@ export type LeftOut = {
   standardDeviation: number,
   /**
    * Share of the shapes that count as outside the model of the others at the σ of the comparison,
-   * E[1 − exp(−½(d/σ)²)]: what the shares of the differences are to be seen beside. Absent without a σ.
+   * E[1 − exp(−½(d/σ)²)]: what the shares of the differences are to be seen beside. Absent without a σ, and where the
+   * errors are zero.
    */
   beyondSigma: number | null,
 };
@@ -619,6 +620,8 @@ export type VertexEvidence = {
 export type ModeStability = {
   /** Mean squared cosine of the principal angles between the first k modes of two halves, k = 1, 2, … */
   overlap: Array<number>,
+  /** The same between a half and the whole group: how far the modes of the group may be off. */
+  withWhole: Array<number>,
   /** Dimensions r among which modes can turn: random spaces of k dimensions have an overlap of k/r. */
   dimensions: number,
   /** Number of modes up to which each adds more than half of a shared direction, chance deducted; at least one. */
@@ -659,7 +662,7 @@ export type EvidenceReport = {
 export type Topic = "reach-of-a" | "reach-of-b" | "more-than-chance" | "no-more-than-chance" | "chance-unknown" | "told-apart-a" | "told-apart-b";
 
 /** What a number is, which decides how it is written. */
-export type Quantity = "length" | "length-without-unit" | "share" | "count" | "p-value";
+export type Quantity = "length" | "length-without-unit" | "spread" | "share" | "count" | "p-value";
 
 /** A model or its shapes, as a sentence names them. */
 export type Name = "model-a" | "model-b" | "shape-of-a" | "shape-of-b" | "shapes-of-a" | "shapes-of-b";

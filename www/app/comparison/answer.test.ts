@@ -33,6 +33,7 @@ test("numbers of every kind keep their path and are written as elsewhere on the 
   };
   assert.equal(written(1.2345, "length"), "1.23\u202fmm");
   assert.equal(written(1.2345, "length-without-unit"), "1.23");
+  assert.equal(written(0.0149, "spread"), "0.01\u202fmm");
   assert.equal(written(0.4235, "share"), "42\u202f%");
   assert.equal(written(20, "count"), "20");
   assert.equal(written(0.0071, "p-value"), "0.007");

@@ -11,6 +11,8 @@ function written(value: number, quantity: Quantity, unit: string): string {
       return length(value, unit);
     case "length-without-unit":
       return number(value);
+    case "spread":
+      return `${number(value, 1)}\u202f${unit}`;
     case "share":
       return percent(value);
     case "count":

@@ -79,8 +79,18 @@ export function madeUpEvidence(
     toldApart: { a: told, b: told },
     vertices: { p: [0.4, 0.6], differ: 0, falseDiscovery: 0 },
     stability: {
-      a: { overlap: [0.9, 0.8, 0.4], dimensions: 300, suggestedModes: 2 },
-      b: { overlap: [0.9, 0.8, 0.7], dimensions: 300, suggestedModes: 3 },
+      a: {
+        overlap: [0.9, 0.8, 0.4],
+        withWhole: [0.97, 0.94, 0.7],
+        dimensions: 300,
+        suggestedModes: 2,
+      },
+      b: {
+        overlap: [0.9, 0.8, 0.7],
+        withWhole: [0.97, 0.94, 0.9],
+        dimensions: 300,
+        suggestedModes: 3,
+      },
     },
     conditions: [],
     ...others,

@@ -51,7 +51,10 @@ test("modes are stable up to one, all of them, one alone, or not even that", () 
       said.stabilitySentence(
         {
           ...null_,
-          stability: { ...null_.stability, a: { overlap, dimensions: 300, suggestedModes } },
+          stability: {
+            ...null_.stability,
+            a: { overlap, withWhole: overlap, dimensions: 300, suggestedModes },
+          },
         },
         "a",
       ),

@@ -24,7 +24,7 @@ test("the headline says how far the shapes of one lie from the other", () => {
   );
   assert.equal(
     plain(words.variances(report, nouns)),
-    "Female heads can make 83\u202f% of the variance of male heads; the other way round it is 80\u202f%.",
+    "About their own mean, the female model holds 83\u202f% of how male heads vary, the male model 80\u202f% of how female heads do.",
   );
 });
 
@@ -65,8 +65,19 @@ test("differences that a run was ended before are not said to be none", () => {
     probability: 0,
     diagnostics: { ...side.diagnostics, evaluations: 0, draws: 0 },
   });
+  const warnings = [{ code: "cancelled", message: "", hint: "" }];
   const said = (differences: typeof report.differences) =>
-    plain(words.differences({ ...report, differences }, nouns));
+    plain(words.differences({ ...report, warnings, differences }, nouns));
+  assert.match(
+    plain(
+      words.differences(
+        { ...report, differences: { aWithoutB, bWithoutA: undrawn(bWithoutA) } },
+        nouns,
+      ),
+    ),
+    /and 0\u202f% of female heads cannot be made/,
+    "an empty difference of a run that was not ended is no unfinished one",
+  );
   assert.equal(
     said({ aWithoutB: undrawn(aWithoutB), bWithoutA: undrawn(bWithoutA) }),
     "The run was ended before the differences were drawn.",

@@ -41,11 +41,11 @@ export function headline(report: Report, nouns: Nouns): Phrase {
 export function variances(report: Report, nouns: Nouns): Phrase {
   const { varianceOfAInB, varianceOfBInA } = report.overlap;
   return [
-    `${capital(nouns.b)} can make `,
+    `About their own mean, ${nouns.modelB} holds `,
     reported("overlap.varianceOfAInB", varianceOfAInB, percent(varianceOfAInB)),
-    ` of the variance of ${nouns.a}; the other way round it is `,
+    ` of how ${nouns.shapesOfA} vary, ${nouns.modelA} `,
     reported("overlap.varianceOfBInA", varianceOfBInA, percent(varianceOfBInA)),
-    ".",
+    ` of how ${nouns.shapesOfB} do.`,
   ];
 }
 
@@ -81,7 +81,8 @@ export function differences(report: Report, nouns: Nouns): Phrase {
   const ofB = reported("differences.bWithoutA.probability", b, percent(b));
   const { aWithoutB, bWithoutA } = report.differences;
   // A cancelled run may have drawn no difference, or only one: 0 % is no result then.
-  if (bWithoutA.diagnostics.evaluations === 0) {
+  const cancelled = report.warnings.some(({ code }) => code === "cancelled");
+  if (cancelled && bWithoutA.diagnostics.evaluations === 0) {
     if (aWithoutB.diagnostics.evaluations === 0) {
       return ["The run was ended before the differences were drawn."];
     }

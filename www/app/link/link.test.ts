@@ -16,7 +16,7 @@ test("an empty link is the first comparison, with the σ that it is stored with"
   const { settings, ...rest } = defaultLink();
   const expected = { ...rest, settings: { ...settings, sigma: FIRST_DEMO.sigma } };
   assert.deepEqual(readLink(""), expected);
-  assert.deepEqual(readLink("v=1&demo=heads-sex&view=mean"), expected);
+  assert.deepEqual(readLink("v=1&demo=heads-sex&view=contrast"), expected);
   assert.equal(readLink("v=1&seed=1").settings.sigma, null, "who sets one thing leaves σ open");
   assert.equal(readLink("v=1&demo=planes").settings.sigma, null, "so do other examples");
 });

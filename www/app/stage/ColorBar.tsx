@@ -30,7 +30,10 @@ export function ColorBar() {
         <span class="ramp" style={{ background: gradientOf(map.palette) }}>
           {map.signed && <span class="zero">0</span>}
         </span>
-        <span class="num">{text(high)}</span>
+        <span class="num">
+          {map.covers === undefined ? "" : "≥\u202f"}
+          {text(high)}
+        </span>
         {ends && <span class="scale-end">{ends[1]}</span>}
       </span>
       <Check

@@ -17,7 +17,7 @@ import {
   vertexMap,
   view,
 } from "../state/state";
-import { commonRange, type Palette, symmetricRange } from "../text/colormap";
+import { commonRange, type Palette, rangeBelow, symmetricRange } from "../text/colormap";
 import { MAP_WORDS } from "./map-words";
 
 interface Fetched {
@@ -36,6 +36,8 @@ export interface ShownMap {
   signed: boolean;
   palette: Palette;
   values: Partial<Record<Region, Float32Array>>;
+  /** Share of the values up to which the scale goes from 0; if left out, it goes from the least to the largest. */
+  covers?: number;
 }
 
 /** Maps that are the same in all regions. */
@@ -70,6 +72,9 @@ export const deviationMap = computed<ShownMap>(() => ({
   values: deviations(),
 }));
 
+/** A cut rim or a single point that is missed by far would darken all the rest. */
+const COVERED = 0.98;
+
 /** What the other model misses, on the differences alone: the map of the contrast. */
 const contrastMap = computed<ShownMap>(() => {
   const values: ShownMap["values"] = {};
@@ -77,7 +82,7 @@ const contrastMap = computed<ShownMap>(() => {
     const missed = shapes.value[region]?.contrast?.missed;
     if (missed) values[region] = missed;
   }
-  return { name: "reach", mode: 0, signed: false, palette: "viridis", values };
+  return { name: "reach", mode: 0, signed: false, palette: "magma", values, covers: COVERED };
 });
 
 /** The shown map, without values until the engine has sent them. */
@@ -123,7 +128,8 @@ export const ownRange = computed(() => rangeOf(shownMap.value));
 
 export const mapRange = computed(() => ownRange.value && (lockedRange.value ?? ownRange.value));
 
-export function rangeOf({ signed, values }: ShownMap): [number, number] | null {
+export function rangeOf({ signed, values, covers }: ShownMap): [number, number] | null {
+  if (covers !== undefined) return rangeBelow(Object.values(values), covers);
   return signed ? symmetricRange(Object.values(values)) : commonRange(Object.values(values));
 }
 

@@ -26,7 +26,7 @@ export function shownIn(region: Region): string {
     return ahead === null ? meaning : `preview, σ ${length(ahead.sigma, unit.value)}`;
   }
   if (!isDifference(region)) return meaning;
-  if (view.value === "contrast") return "what the other misses";
+  if (view.value === "contrast") return region === "aWithoutB" ? "what B misses" : "what A misses";
   const drawn = differencePicture();
   if (drawn === "") return meaning;
   return showsExclusive(view.value) ? drawn : `exaggerated, ${drawn}`;

@@ -2,7 +2,8 @@
  * Colour maps: numbers to colours by linear interpolation between a few colours of a published map. Neither map
  * requires telling red from green.
  *
- * Sizes: viridis (Smith & van der Walt, Matplotlib 2.0, CC0). Signed numbers: orange to blue by the
+ * Sizes: viridis and magma (Smith & van der Walt, Matplotlib 2.0, CC0); of magma the lighter four fifths, from light to
+ * dark, so that what is not missed looks like a plain surface. Signed numbers: orange to blue by the
  * construction of Moreland, “Diverging color maps for scientific visualization” (ISVC 2009): polar
  * coordinates of CIELAB, grey (221, 221, 221) between two ends of equal lightness (L* 42), which
  * here have the hues of B and A. Both sides are equally light at equal distance from the middle.
@@ -10,8 +11,8 @@
 
 export type Rgb = readonly [number, number, number];
 
-/** Colour maps: viridis for values from 0, diverging for signed values. */
-export type Palette = "viridis" | "diverging";
+/** Colour maps: viridis for values from 0, diverging for signed values, magma from light to dark for what is missed. */
+export type Palette = "viridis" | "diverging" | "magma";
 
 const STOPS: Record<Palette, readonly [Rgb, Rgb, ...Rgb[]]> = {
   viridis: [
@@ -25,6 +26,17 @@ const STOPS: Record<Palette, readonly [Rgb, Rgb, ...Rgb[]]> = {
     [110, 206, 88],
     [181, 222, 43],
     [253, 231, 37],
+  ],
+  magma: [
+    [252, 253, 191],
+    [254, 207, 146],
+    [254, 159, 109],
+    [247, 112, 92],
+    [222, 73, 104],
+    [183, 55, 121],
+    [140, 41, 129],
+    [100, 26, 128],
+    [59, 15, 112],
   ],
   diverging: [
     [156, 77, 5],
@@ -88,6 +100,14 @@ export function commonRange(maps: Iterable<Float32Array>): [number, number] | nu
     }
   }
   return least <= most ? [least, most] : null;
+}
+
+/** From 0 to the value below which a share of all values of several maps lies, so that single large ones do not darken the rest. */
+export function rangeBelow(maps: Iterable<Float32Array>, share: number): [number, number] | null {
+  const values = [...maps].flatMap((map) => [...map]).filter(Number.isFinite);
+  if (values.length === 0) return null;
+  values.sort((one, other) => one - other);
+  return [0, values[Math.floor(share * (values.length - 1))] ?? 0];
 }
 
 /** Common range of several signed maps: 0 is in the middle. */

@@ -71,12 +71,9 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
   // A canvas shows 2-D or 3-D shapes, not both: if the models differ, A.
   if (!geometry || geometry.dimension !== dimensionOf(scene)) return null;
   const shown = current && found ? found : { mean: geometry.mean, vertexSd: geometry.vertexSd };
-  const many = scene.mode === "samples" && current && found;
   const surface = geometry.triangles !== null;
   const cloud = isCloud(geometry);
-  const contrast = scene.mode === "contrast" && current ? found?.contrast : undefined;
-  const mean = contrast?.shape ?? shown.mean;
-  const shapes = many || (cloud && found && current && !contrast) ? samplesOf(found) : [mean];
+  const shapes = (current && found && drawnShapes(scene.mode, found, cloud)) || [shown.mean];
   const shade = scene.dark ? "dark" : "light";
   return {
     region,
@@ -93,6 +90,12 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
     marks: null,
     tint: (surface ? CLAY : INK)[shade][ownerOf(region)],
   };
+}
+
+/** The shapes of a region that a view draws; null for the mean alone. */
+function drawnShapes(mode: ViewMode, found: RegionShapes, cloud: boolean): Float32Array[] | null {
+  if (mode === "contrast" && found.contrast) return [found.contrast.shape];
+  return mode === "samples" || cloud ? samplesOf(found) : null;
 }
 
 /** The geometry for a shape of a region by its number of coordinates; null if no model has as many. */

@@ -1,5 +1,5 @@
 import type { ComponentChildren } from "preact";
-import type { EvidenceReport } from "../../../worker/protocol";
+import type { EvidenceReport, Side } from "../../../worker/protocol";
 import { CHANCE, chanceTopic, said } from "../../comparison/answer";
 import { caution, HYPOTHESES, hypothesisSentence, QUESTIONS } from "../../comparison/evidence";
 import { leftOutSentence, matchedSentence, pointsSentence } from "../../comparison/groups";
@@ -54,6 +54,7 @@ function Answer({
 function OfShapes({ found, evidence }: { found: Result; evidence: EvidenceReport }) {
   const { report } = found;
   const { unit } = report.models.a;
+  const tells = (side: Side) => said(report, found.nouns, `told-apart-${side}`) !== null;
   const careful = caution(evidence);
   const matched = matchedSentence(evidence);
   return (
@@ -90,11 +91,18 @@ function OfShapes({ found, evidence }: { found: Result; evidence: EvidenceReport
           Each shape is left out of its own model, and compared with that and with the other model.{" "}
           <Phrase parts={leftOutSentence(evidence, unit)} />
         </p>
-        <div class="charts">
-          {SIDES.map((side) => (
-            <ToldApart key={side} evidence={evidence} side={side} />
-          ))}
-        </div>
+        {SIDES.some((side) => tells(side)) ? (
+          <div class="charts">
+            {SIDES.map((side) => (
+              <ToldApart key={side} evidence={evidence} side={side} />
+            ))}
+          </div>
+        ) : (
+          <p class="answer">
+            Cannot be said: what the models miss of shapes that they have not seen is not known, or
+            the shapes of each group fill the space of all of them.
+          </p>
+        )}
       </section>
       <section class="evidence-part">
         <h3>How many modes are stable?</h3>

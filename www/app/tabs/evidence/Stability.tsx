@@ -16,11 +16,11 @@ interface Props {
 
 /** Overlap of the first k modes of random halves of a group, with the number of modes that it suggests. */
 export function Stability({ report, evidence, side }: Props) {
-  const { overlap, dimensions, suggestedModes } = evidence.stability[side];
+  const { overlap, withWhole, dimensions, suggestedModes } = evidence.stability[side];
   const name = side.toUpperCase();
   const sentence = stabilitySentence(evidence, side);
   const byChance = overlap.map((_, i) => Math.min(1, (i + 1) / dimensions));
-  const path = `evidence.stability.${side}.overlap`;
+  const path = `evidence.stability.${side}`;
   return (
     <CurveChart
       name={`stability-${side}`}
@@ -29,11 +29,14 @@ export function Stability({ report, evidence, side }: Props) {
       label={plain(sentence)}
       plot={{
         height: 206,
-        curves: [{ key: side, label: "two halves", mark: "circle", values: overlap }],
+        curves: [
+          { key: side, label: "two halves", mark: "circle", values: overlap },
+          { key: "both", label: `a half and all of ${name}`, mark: "square", values: withWhole },
+        ],
         chance: { label: "random directions", mean: byChance },
         level: { at: suggestedModes, label: `${count(suggestedModes)} suggested` },
         acrossName: "first modes",
-        upName: "overlap of two halves",
+        upName: "overlap of the first modes",
         top: 1,
         up: [0, 0.25, 0.5, 0.75, 1],
         showUp: (value) => `${100 * value}\u202f%`,
@@ -44,10 +47,18 @@ export function Stability({ report, evidence, side }: Props) {
           caption={`Overlap of the first modes of two halves of ${name}`}
           corner="Modes"
           columns={[
-            { title: "Overlap", show: percent, metric: (row) => `${path}.${row}` },
+            { title: "two halves", show: percent, metric: (row) => `${path}.overlap.${row}` },
+            {
+              title: `a half and all of ${name}`,
+              show: percent,
+              metric: (row) => `${path}.withWhole.${row}`,
+            },
             { title: "random directions", show: percent },
           ]}
-          rows={overlap.map((value, i) => ({ head: i + 1, values: [value, byChance[i]] }))}
+          rows={overlap.map((value, i) => ({
+            head: i + 1,
+            values: [value, withWhole[i], byChance[i]],
+          }))}
         />
       )}
     >

@@ -32,8 +32,8 @@ import { isColoured } from "../../state/view";
 import { number, signed, withoutRoundingError } from "../../text/format";
 import { BackIcon, ExpandIcon } from "../../ui/icons";
 import { contentOf, ownGeometry } from "../../viewer/contents";
-import { DifferenceBar } from "./DifferenceBar";
 import { ContrastCaption } from "./ContrastCaption";
+import { DifferenceBar } from "./DifferenceBar";
 import { Toolbar } from "./Toolbar";
 
 /** The five regions side by side: A at the left, B at the right, A∩B between them above the Venn diagram. */
@@ -107,6 +107,9 @@ function canvasLabel(): string {
     samples: "Random shapes",
     sd: map,
   }[view.value];
+  if (view.value === "contrast") {
+    return alone.value === null ? what : `${what}, ${REGION_NAMES[alone.value].sign}`;
+  }
   return alone.value === null
     ? `${what} of the five regions`
     : `${what} of ${regionLabel(alone.value)}`;
