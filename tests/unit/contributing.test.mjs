@@ -41,7 +41,6 @@ const TRIED = {
   "npm run fuzz -- TARGET -- -runs=1000000": notHere,
   "npm run bench": notHere,
   "npm run bench -- --sizes": notHere,
-  "npm run bench -- --evidence": notHere,
   "npm run first": "a Rust test compares what it wrote with what it would write now",
   "npm run gallery -- NAME": notHere,
   "npm run plot": notHere,

@@ -1,9 +1,36 @@
 import { lockedRange, unit } from "../state/state";
 import { gradientOf } from "../text/colormap";
-import { number, signed, withoutRoundingError } from "../text/format";
+import { number, percent, signed, withoutRoundingError } from "../text/format";
 import { Check } from "../ui/Check";
+import { Slider } from "../ui/Slider";
 import { MAP_WORDS, mapCaption, scaleEnds } from "./map-words";
-import { mapProblem, mapRange, ownRange, shownMap } from "./maps";
+import { LEVEL, mapProblem, mapRange, ownRange, shownMap } from "./maps";
+
+/** The level up to which p-values are coloured, and the share of the points that differ at it. */
+function Level({ level, values }: { level: number; values: Float32Array | undefined }) {
+  const differ = values?.filter((p) => p <= level).length ?? 0;
+  const share = values && values.length > 0 ? percent(differ / values.length) : "–";
+  const set = (value: number) => {
+    lockedRange.value = value === LEVEL ? null : [0, value];
+  };
+  return (
+    <>
+      <Slider
+        label="Level"
+        name="Level of the family-wise p-values"
+        value={level}
+        least={0.005}
+        most={0.2}
+        step={0.005}
+        words={number(level, 2)}
+        shown={number(level, 2)}
+        onMove={set}
+        onReset={() => set(LEVEL)}
+      />
+      <span class="small">The means differ at {share} of the points.</span>
+    </>
+  );
+}
 
 /** Colour bar of the map: one scale for all panes, with a caption. */
 export function ColorBar() {
@@ -22,7 +49,11 @@ export function ColorBar() {
     <figure class="color-bar" data-low={low} data-high={high}>
       <figcaption title={MAP_WORDS[map.name].help}>
         {mapCaption(map.name, map, unit.value)}
-        {lockedRange.value ? (beyond ? " (locked; some values lie beyond)" : " (locked)") : ""}
+        {lockedRange.value && map.name !== "chance"
+          ? beyond
+            ? " (locked; some values lie beyond)"
+            : " (locked)"
+          : ""}
       </figcaption>
       <span class="scale">
         {ends && <span class="scale-end">{ends[0]}</span>}
@@ -36,14 +67,18 @@ export function ColorBar() {
         </span>
         {ends && <span class="scale-end">{ends[1]}</span>}
       </span>
-      <Check
-        checked={lockedRange.value !== null}
-        onChange={(checked) => {
-          lockedRange.value = checked ? mapRange.value : null;
-        }}
-      >
-        Lock scale
-      </Check>
+      {map.name === "chance" ? (
+        <Level level={high} values={map.values.a} />
+      ) : (
+        <Check
+          checked={lockedRange.value !== null}
+          onChange={(checked) => {
+            lockedRange.value = checked ? mapRange.value : null;
+          }}
+        >
+          Lock scale
+        </Check>
+      )}
     </figure>
   );
 }

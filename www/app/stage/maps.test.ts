@@ -1,7 +1,14 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { MAPS } from "../state/view";
-import { colourOf, commonRange, gradientOf, type Rgb, symmetricRange } from "../text/colormap";
+import {
+  colourOf,
+  commonRange,
+  gradientOf,
+  type Rgb,
+  rangeBelow,
+  symmetricRange,
+} from "../text/colormap";
 import { signed, withoutRoundingError } from "../text/format";
 import { contentsOf, type Scene } from "../viewer/contents";
 import { semiAxes } from "./ellipsoid";
@@ -62,6 +69,27 @@ test("both sides of the signed scale are equally light, darker outwards, and gre
       assert.ok(low > lightness(colourOf("diverging", share - 0.02)), String(share));
   }
   assert.deepEqual(colourOf("diverging", 0.5), [221, 221, 221]);
+});
+
+test("what is missed goes from light to dark in equal steps, and p-values from dark to light", () => {
+  const steps = Array.from({ length: 9 }, (_, i) => lightness(colourOf("magma", i / 8)));
+  const falls = steps.slice(1).map((light, i) => (steps[i] ?? 0) - light);
+  for (const fall of falls) assert.ok(fall > 6 && fall < 13, `${falls}`);
+  for (const share of [0, 0.25, 1]) {
+    assert.deepEqual(colourOf("magma-reversed", share), colourOf("magma", 1 - share));
+  }
+  // Lightness alone tells them apart, also for people who lack a cone.
+  for (const [name, matrix] of Object.entries(LACKING)) {
+    const seenSteps = [0, 0.5, 1].map((share) => labOf(seen(colourOf("magma", share), matrix))[0]);
+    assert.ok((seenSteps[0] ?? 0) > (seenSteps[1] ?? 0) + 20, name);
+    assert.ok((seenSteps[1] ?? 0) > (seenSteps[2] ?? 0) + 20, name);
+  }
+});
+
+test("a scale that begins at 0 leaves out the largest values", () => {
+  const maps = [Float32Array.from([1, 2, 3, Number.NaN]), Float32Array.from([4, 100])];
+  assert.deepEqual(rangeBelow(maps, 0.75), [0, 4]);
+  assert.equal(rangeBelow([], 0.9), null);
 });
 
 test("the end that stands for A is blue, that for B orange", () => {

@@ -72,6 +72,8 @@ export const deviationMap = computed<ShownMap>(() => ({
   values: deviations(),
 }));
 
+/** Level of the test at which the map of chance begins to colour. */
+export const LEVEL = 0.05;
 /** A cut rim or a single point that is missed by far would darken all the rest. */
 const COVERED = 0.98;
 
@@ -98,8 +100,14 @@ export const shownMap = computed<ShownMap>(() => {
     const map = maps[region];
     if (map) values[region] = map.values;
   }
-  return { name, mode, signed, palette: signed ? "diverging" : "viridis", values };
+  return { name, mode, signed, palette: paletteOf(name, signed), values };
 });
+
+/** Small p-values are what counts. */
+function paletteOf(name: MapName, signed: boolean): Palette {
+  if (name === "chance") return "magma-reversed";
+  return signed ? "diverging" : "viridis";
+}
 
 /** Why the chosen map cannot be shown. */
 export const mapProblem = computed(() => {
@@ -128,7 +136,9 @@ export const ownRange = computed(() => rangeOf(shownMap.value));
 
 export const mapRange = computed(() => ownRange.value && (lockedRange.value ?? ownRange.value));
 
-export function rangeOf({ signed, values, covers }: ShownMap): [number, number] | null {
+export function rangeOf({ name, signed, values, covers }: ShownMap): [number, number] | null {
+  const known = Object.values(values).length > 0;
+  if (name === "chance") return known ? [0, LEVEL] : null;
   if (covers !== undefined) return rangeBelow(Object.values(values), covers);
   return signed ? symmetricRange(Object.values(values)) : commonRange(Object.values(values));
 }

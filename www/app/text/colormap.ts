@@ -11,8 +11,23 @@
 
 export type Rgb = readonly [number, number, number];
 
-/** Colour maps: viridis for values from 0, diverging for signed values, magma from light to dark for what is missed. */
-export type Palette = "viridis" | "diverging" | "magma";
+/**
+ * Colour maps: viridis for values from 0, diverging for signed values, magma from light to dark for what is missed, from
+ * dark to light for p-values.
+ */
+export type Palette = "viridis" | "diverging" | "magma" | "magma-reversed";
+
+const MAGMA: readonly [Rgb, Rgb, ...Rgb[]] = [
+  [252, 253, 191],
+  [254, 207, 146],
+  [254, 159, 109],
+  [247, 112, 92],
+  [222, 73, 104],
+  [183, 55, 121],
+  [140, 41, 129],
+  [100, 26, 128],
+  [59, 15, 112],
+];
 
 const STOPS: Record<Palette, readonly [Rgb, Rgb, ...Rgb[]]> = {
   viridis: [
@@ -27,17 +42,8 @@ const STOPS: Record<Palette, readonly [Rgb, Rgb, ...Rgb[]]> = {
     [181, 222, 43],
     [253, 231, 37],
   ],
-  magma: [
-    [252, 253, 191],
-    [254, 207, 146],
-    [254, 159, 109],
-    [247, 112, 92],
-    [222, 73, 104],
-    [183, 55, 121],
-    [140, 41, 129],
-    [100, 26, 128],
-    [59, 15, 112],
-  ],
+  magma: MAGMA,
+  "magma-reversed": [...MAGMA].reverse() as unknown as typeof MAGMA,
   diverging: [
     [156, 77, 5],
     [179, 117, 44],

@@ -31,7 +31,12 @@ export function Stability({ report, evidence, side }: Props) {
         height: 206,
         curves: [
           { key: side, label: "two halves", mark: "circle", values: overlap },
-          { key: "both", label: `a half and all of ${name}`, mark: "square", values: withWhole },
+          {
+            key: "intersection",
+            label: `a half and all of ${name}`,
+            mark: "square",
+            values: withWhole,
+          },
         ],
         chance: { label: "random directions", mean: byChance },
         level: { at: suggestedModes, label: `${count(suggestedModes)} suggested` },
