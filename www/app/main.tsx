@@ -10,6 +10,7 @@ import "./tabs/explore/explore.css";
 import "./stage/maps.css";
 import "./tabs/models/models.css";
 import "./ui/charts.css";
+import "./panels/reach.css";
 import "./tabs/evidence/evidence.css";
 import "./share/share.css";
 import "./shell/embed.css";

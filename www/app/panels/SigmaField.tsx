@@ -1,5 +1,4 @@
 import type { Prediction } from "../../worker/protocol";
-import { takeSigma, trySigma } from "../comparison/run";
 import { parsePositive } from "../state/settings";
 import {
   change,
@@ -16,12 +15,10 @@ import {
 import { length, number, percent } from "../text/format";
 import { Metric } from "../ui/Phrase";
 import { TypedField } from "../ui/TypedField";
+import { ReachCurve } from "./ReachCurve";
+import { axisOf, middleSigma, SigmaRange, shownSigma } from "./SigmaRange";
 
-/** Range of the slider above and below the recommended σ, in powers of ten. */
-const DECADES = 2;
-const STEP = 0.02;
-
-/** Sets the tolerance σ, by number or slider, with the distance that is predicted for it. */
+/** Sets the tolerance σ, by number or slider, with the distance that is predicted for it and the curve of what it leaves outside. */
 export function SigmaField() {
   const now = settings.value;
   const shown = recommended.value;
@@ -42,49 +39,27 @@ export function SigmaField() {
       />
       <SigmaSlider />
       <Expected />
+      <ReachCurve />
     </>
   );
 }
 
 function SigmaSlider() {
-  const used = result.value?.report.settings.sigma ?? null;
-  const middle = recommended.value ?? used;
-  if (middle === null) return null;
-  const sigma = tried.value ?? settings.value.sigma ?? middle;
-  const power = Math.max(-DECADES, Math.min(DECADES, Math.log10(sigma / middle)));
-  const at = (element: HTMLInputElement) => {
-    const power = Number(element.value);
-    return power === 0 ? middle : Number((middle * 10 ** power).toPrecision(3));
-  };
-  const take = (element: HTMLInputElement) => {
-    const value = at(element);
-    takeSigma(value === recommended.value ? null : value);
-  };
-  // A slider that is moved back to where it was sends no change event.
-  const release = ({ currentTarget: element }: { currentTarget: HTMLInputElement }) =>
-    setTimeout(() => {
-      if (tried.peek() !== null) take(element);
-    });
+  const [middle, sigma] = [middleSigma.value, shownSigma.value];
+  if (middle === null || sigma === null) return null;
+  const [low, high] = axisOf(middle);
   return (
     <div class="sigma-slider" data-tick={recommended.value !== null}>
-      <input
-        type="range"
-        aria-label="Tolerance σ, on a logarithmic scale"
-        aria-valuetext={valueText(sigma)}
-        min={-DECADES}
-        max={DECADES}
-        step={STEP}
-        value={power}
-        onInput={(event) => trySigma(at(event.currentTarget))}
-        onChange={(event) => take(event.currentTarget)}
-        onPointerUp={release}
-        onPointerCancel={release}
-        onBlur={release}
+      <SigmaRange
+        label="Tolerance σ, on a logarithmic scale"
+        words={valueText(sigma)}
+        middle={middle}
+        sigma={sigma}
       />
       <span class="sigma-ends" aria-hidden="true">
-        <span>{number(middle / 10 ** DECADES)}</span>
+        <span>{number(low)}</span>
         {recommended.value !== null && <span class="sigma-tick">recommended</span>}
-        <span>{number(middle * 10 ** DECADES)}</span>
+        <span>{number(high)}</span>
       </span>
     </div>
   );

@@ -265,6 +265,16 @@ export const outOfDate = computed(
   () => result.value !== null && currentKey.value !== null && result.value.key !== currentKey.value,
 );
 
+/** Whether the shown result is of the chosen models and settings, σ apart. */
+export const onlySigmaDiffers = computed(() => {
+  const [shown, key] = [result.value, currentKey.value];
+  if (shown === null || key === null) return shown !== null;
+  // A recommended σ may have been given along with the settings.
+  return [null, shown.report.settings.sigma].some(
+    (sigma) => keyWith({ ...settings.value, sigma }) === shown.key,
+  );
+});
+
 export const unit = computed(
   () =>
     settings.value.prepare.a.unit ??

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { linear, logarithmic, sweepSigmas, ticks, tickText } from "./plots";
+import { decades, linear, logarithmic, sweepSigmas, ticks, tickText } from "./plots";
 
 const near = (found: number, wanted: number) =>
   assert.ok(Math.abs(found - wanted) < 1e-9 * Math.max(1, Math.abs(wanted)), `${found}, ${wanted}`);
@@ -23,6 +23,12 @@ test("ticks are round and reach from below to above", () => {
   const found = ticks(0, 37, 4);
   assert.ok(found.length >= 3 && found.length <= 6, String(found));
   assert.ok((found.at(-1) ?? 0) >= 37);
+});
+
+test("decades are the powers of ten between two values, the ends included", () => {
+  assert.deepEqual(decades(0.01, 100), [0.01, 0.1, 1, 10, 100]);
+  assert.deepEqual(decades(0.0073, 73), [0.01, 0.1, 1, 10]);
+  assert.deepEqual(decades(2, 9), []);
 });
 
 test("a sweep goes from a hundredth to a hundred times the recommended σ, through it", () => {

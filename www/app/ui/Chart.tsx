@@ -21,6 +21,8 @@ export interface ChartProps {
   /** Height in pixels for a given width. */
   height: (width: number) => number;
   draw: (width: number) => ComponentChildren;
+  /** Laid over the plot, as a handle. */
+  over?: ComponentChildren;
   legend?: ComponentChildren;
   advice?: Advice | null;
   table?: () => ComponentChildren;
@@ -30,7 +32,7 @@ export interface ChartProps {
 
 /** A plot with title, explanation, advice, and a table of its numbers. */
 export function Chart(props: ChartProps) {
-  const { title, about, label, height, draw, legend, advice, table, children, name } = props;
+  const { title, about, label, height, draw, over, legend, advice, table, children, name } = props;
   const box = useRef<HTMLDivElement>(null);
   const width = useSignal(0);
   // Drawn at its size in pixels, so that letters have the same size in every plot.
@@ -65,6 +67,7 @@ export function Chart(props: ChartProps) {
             {draw(wide)}
           </svg>
         )}
+        {wide > 0 && over}
       </div>
       {legend}
       {advice && <AdviceLine advice={advice} />}

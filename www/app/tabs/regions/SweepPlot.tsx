@@ -1,7 +1,7 @@
 import type { SweepPoint } from "../../../worker/protocol";
 import { recommended, settings, unit } from "../../state/state";
 import { length, number } from "../../text/format";
-import { linear, logarithmic, ticks } from "../../text/plots";
+import { decades, linear, logarithmic, ticks } from "../../text/plots";
 import { CurveLegend } from "../../ui/Curves";
 import { Mark } from "../../ui/Mark";
 import { SaveTable } from "../../ui/SaveTable";
@@ -23,7 +23,8 @@ interface Props {
 /** Plot of distance, nearest common shape and SD per vertex over σ, with the recommended σ and the one in use. */
 export function SweepLines({ points, width, height }: Props) {
   const sigmas = points.map((point) => point.sigma);
-  const x = logarithmic(Math.min(...sigmas), Math.max(...sigmas), BOX.left, width - BOX.right);
+  const [least, most] = [Math.min(...sigmas), Math.max(...sigmas)];
+  const x = logarithmic(least, most, BOX.left, width - BOX.right);
   const highest = Math.max(...points.flatMap((point) => SERIES.map(({ key }) => point[key])));
   const steps = ticks(0, highest, 4);
   const top = Math.max(highest, steps.at(-1) ?? 0);
@@ -46,7 +47,7 @@ export function SweepLines({ points, width, height }: Props) {
       <text class="tick" x={0} y={BOX.top - 7}>
         {unit.value}
       </text>
-      {decades(sigmas).map((sigma) => (
+      {decades(least, most).map((sigma) => (
         <text
           key={sigma}
           class="tick"
@@ -101,13 +102,6 @@ function anchor(
 ): "start" | "middle" | "end" {
   if (used === null || theirs === null || used === theirs) return "middle";
   return (kind === "used") === used < theirs ? "end" : "start";
-}
-
-function decades(sigmas: number[]): number[] {
-  const [low, high] = [Math.min(...sigmas), Math.max(...sigmas)];
-  const first = Math.ceil(Math.log10(low) - 1e-9);
-  const last = Math.floor(Math.log10(high) + 1e-9);
-  return Array.from({ length: Math.max(0, last - first + 1) }, (_, i) => 10 ** (first + i));
 }
 
 export function SweepTable({ points }: { points: SweepPoint[] }) {
