@@ -52,7 +52,7 @@ export const STATISTICS: Record<StatisticName, string> = {
 };
 
 /** Names of the statistics in a sentence. */
-const IN_A_SENTENCE: Record<StatisticName, string> = {
+export const IN_A_SENTENCE: Record<StatisticName, string> = {
   means: "the distance of the means",
   varianceAOutsideB: "the variance of A outside B",
   varianceBOutsideA: "the variance of B outside A",
@@ -210,6 +210,7 @@ export function statisticSentence(
   ];
 }
 
-function listed(words: string[]): string {
+/** “one, two and three”. */
+export function listed(words: string[]): string {
   return words.length < 2 ? words.join("") : `${words.slice(0, -1).join(", ")} and ${words.at(-1)}`;
 }

@@ -1,15 +1,21 @@
 /** Writes the methods paragraph of a paper and its BibTeX from a report. Pure; every number is the report's. */
-import type { InferenceReport, Report, Sampler, Sides } from "../../worker/protocol";
+import type { InferenceReport, Report, Sampler, Side, Sides, Topic } from "../../worker/protocol";
+import { nounsOf } from "../state/demos";
 import { completed, preparationWords } from "../state/preparation";
 import type { Difference } from "../state/regions";
 import { count, length, number, percent, plusMinus } from "../text/format";
 import { type Phrase, reported } from "../text/phrase";
+import { CHANCE, chanceTopic, said } from "./answer";
+import { IN_A_SENTENCE, listed } from "./evidence";
+import { isContained } from "./reach";
 import { DEFINITIONS } from "./words";
 
 export function methods(report: Report): Phrase {
   return [
     ...models(report),
     ...preparation(report),
+    ...reach(report),
+    ...evidence(report),
     ...tolerance(report),
     ...sampling(report),
     ...convergence(report),
@@ -58,6 +64,78 @@ function preparation(report: Report): Phrase {
       : [", the first ", reported("settings.modes", modes, count(modes)), " modes of each"];
   const also = steps.length === 0 ? "" : ` (preparation: ${steps.join("; ")})`;
   return [` They were compared ${ALIGNED[align]}`, ...kept, `${also}.`];
+}
+
+/** A sentence of the answer in terms of A and B, after a space. */
+function answered(report: Report, ...topics: Topic[]): Phrase {
+  const sentence = said(report, nounsOf("A", "B"), ...topics);
+  return sentence ? [" ", ...sentence] : [];
+}
+
+/** How far the shapes of each model lie from the other, with the standard errors of the means. */
+function reach(report: Report): Phrase {
+  const found = report.reach;
+  if (!found) return [];
+  const sides = (["a", "b"] as const).filter((side) => !isContained(report, side));
+  const means = sides.flatMap(
+    (side, i): Phrase => [
+      ...(i === 0 ? [] : [" and "]),
+      ...meanOf(side, side === "a" ? found.aToB : found.bToA, report.models.a.unit),
+    ],
+  );
+  const many = sides.length > 1;
+  return [
+    ...answered(report, "reach-of-a"),
+    ...answered(report, "reach-of-b"),
+    ...(sides.length === 0
+      ? []
+      : [
+          ` With ${many ? "their standard errors these means" : "its standard error this mean"} over random shapes ${many ? "are " : "is "}`,
+          ...means,
+          ".",
+        ]),
+  ];
+}
+
+function meanOf(
+  side: Side,
+  { mean, standardError }: { mean: number; standardError: number },
+  unit: string,
+): Phrase {
+  const path = `reach.${side === "a" ? "aToB" : "bToA"}`;
+  const text = plusMinus(mean, standardError);
+  return [
+    reported(`${path}.mean`, mean, text.mean),
+    " ± ",
+    reported(`${path}.standardError`, standardError, `${text.spread}\u202f${unit}`),
+  ];
+}
+
+/** Whether that is more than chance, and how it was tested; nothing while it is being computed. */
+function evidence(report: Report): Phrase {
+  const topic = chanceTopic(report);
+  if (topic === null) return [];
+  if (topic === "chance-unknown" || !report.evidence) {
+    return [" Whether these distances are more than chance is not known."];
+  }
+  const { shapes, modes, onePopulation } = report.evidence;
+  const { permutations, exhaustive, statistics } = onePopulation;
+  const number = (path: string, value: number) => reported(`evidence.${path}`, value, count(value));
+  const many = number("onePopulation.permutations", permutations);
+  return [
+    " Whether this is more than chance was tested by relabelling: ",
+    number("shapes.a", shapes.a),
+    " training shapes of A and ",
+    number("shapes.b", shapes.b),
+    " of B were divided into two groups of these sizes ",
+    ...(exhaustive ? ["in all ", many, " ways"] : ["at random, ", many, " times"]),
+    `, and ${statistics.length} statistics of the first `,
+    number("modes", modes),
+    ` modes (${listed(statistics.map(({ name }) => IN_A_SENTENCE[name]))}) were compared, with Holm’s correction of their p.`,
+    ...answered(report, ...CHANCE),
+    ...answered(report, "told-apart-a"),
+    ...answered(report, "told-apart-b"),
+  ];
 }
 
 function tolerance(report: Report): Phrase {

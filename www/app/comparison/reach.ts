@@ -92,6 +92,12 @@ export function marksText(marks: readonly SigmaMark[], unit: string): string {
   return each.length === 0 ? "" : `Marks: ${each.join(", ")}.`;
 }
 
+/** Whether the other model makes all shapes of this one. */
+export function isContained({ reach }: Report, side: Side): boolean {
+  const found = side === "a" ? reach?.aToB : reach?.bToA;
+  return found !== undefined && found.relative <= NO_DISTANCE;
+}
+
 /** Whether two σ are the same but for rounding. */
 const same = (one: number, other: number | null) =>
   other !== null && Math.abs(one / other - 1) < 1e-9;
@@ -124,8 +130,7 @@ function outside(
   used: boolean,
 ): Phrase {
   const key = DIFFERENCE_OF[side];
-  const reach = side === "a" ? report.reach?.aToB : report.reach?.bToA;
-  if (reach && reach.relative <= NO_DISTANCE) return ["none"];
+  if (isContained(report, side)) return ["none"];
   const { probability, diagnostics } = report.differences[key];
   const soft = (report.settings.difference ?? "soft") === "soft";
   // A run that was ended early may have drawn no difference.

@@ -2,10 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { crc32 } from "node:zlib";
 import type { Settings } from "../../worker/protocol";
-import { bibTeX, methods } from "../comparison/methods";
-import { valueAt } from "../comparison/numbers";
 import { madeUpReport } from "../comparison/report.fixture";
-import { plain } from "../text/phrase";
 import { captionOf, type Shown } from "./caption";
 import {
   blend,
@@ -31,55 +28,6 @@ const shown: Shown = {
   differences: "",
   vertex: null,
 };
-
-test("the methods paragraph holds σ, how it was chosen, the seed, the engine and the paper", () => {
-  const chosen = plain(methods(reportWith({ sigma: 0.3, seed: "4711" })));
-  assert.match(
-    chosen,
-    /σ of the distance likelihood was chosen as 0\.300\u202funits \(recommended would be/,
-  );
-  assert.match(chosen, /seed 4711/);
-  assert.match(chosen, /Shapevenn of a test/);
-  assert.match(chosen, /“stars-1-a”/);
-  assert.match(chosen, /WACV 2024, arXiv:2211\.16314\.$/);
-  const recommended = plain(methods(reportWith({ sigma: null })));
-  assert.match(
-    recommended,
-    /recommended by the program from the expected distance to the other model/,
-  );
-  assert.doesNotMatch(recommended, /chosen as/);
-});
-
-test("every number of the methods paragraph is the report's own", () => {
-  const report = reportWith({ modes: 3 });
-  const figures = methods(report).filter((part) => typeof part !== "string");
-  assert.ok(figures.length > 25, `${figures.length} numbers`);
-  for (const part of figures) {
-    if (typeof part !== "string")
-      assert.equal(part.value, valueAt(report, part.metric), part.metric);
-  }
-});
-
-test("the methods paragraph says what was done to the models and which sampler ran where", () => {
-  const report = reportWith({ align: "similarity", plausibility: "idempotent", pooling: "a" });
-  const text = plain(methods(report));
-  assert.match(text, /aligned to A, scale included/);
-  assert.match(text, /from A alone/);
-  assert.match(
-    text,
-    /independence sampler.*\(from A\) and split Hamiltonian Monte Carlo \(from B\)/,
-  );
-  assert.match(text, /geometric mean/);
-  assert.match(plain(methods(reportWith({ difference: "outside" }))), /outside Q₂ definition/);
-  assert.doesNotMatch(text, /undefined|null|NaN/);
-});
-
-test("BibTeX has the paper and this version of the program", () => {
-  const text = bibTeX("0.1.0");
-  assert.match(text, /@inproceedings\{[\s\S]*eprint +=.*2211\.16314/);
-  assert.match(text, /@software\{shapevenn,[\s\S]*version = \{0\.1\.0\}/);
-  assert.equal(text.split("{").length, text.split("}").length);
-});
 
 test("a caption says models, σ, seed and what is shown", () => {
   const report = reportWith({ sigma: 0.3, seed: "7", align: "rigid" });

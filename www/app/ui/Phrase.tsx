@@ -4,11 +4,12 @@ import type { Phrase as Parts } from "../text/phrase";
 export function Phrase({ parts }: { parts: Parts }) {
   return (
     <>
-      {parts.map((part) =>
+      {/* A number may stand in it twice. */}
+      {parts.map((part, i) =>
         typeof part === "string" ? (
           part
         ) : (
-          <Metric key={part.metric} path={part.metric} value={part.value} text={part.text} />
+          <Metric key={i} path={part.metric} value={part.value} text={part.text} />
         ),
       )}
     </>
