@@ -49,6 +49,73 @@ async function lookAt(page, { bytes }) {
   }, bytes.toString("base64"));
 }
 
+/** Share of the dark pixels in the upper half of each fifth of a picture: those of the low end of a map, not of clay. */
+async function darkShares(page, { bytes }) {
+  return page.evaluate(async (base64) => {
+    const raw = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
+    const image = await createImageBitmap(new Blob([raw]));
+    const pen = new OffscreenCanvas(image.width, image.height).getContext("2d");
+    pen.drawImage(image, 0, 0);
+    const fifth = Math.floor(image.width / 5);
+    return Array.from({ length: 5 }, (_, block) => {
+      const { data } = pen.getImageData(block * fifth, 0, fifth, Math.floor(image.height / 2));
+      let dark = 0;
+      for (let i = 0; i < data.length; i += 4) {
+        if (Math.max(data[i], data[i + 1], data[i + 2]) < 130) dark += 1;
+      }
+      return dark / (data.length / 4);
+    });
+  }, bytes.toString("base64"));
+}
+
+const PUSHED =
+  /A, B and A∩B are means\. A∖B: the mean of A, pushed [\d.]+× as far from B as it lies\./;
+
+test("a figure of the contrast colours the differences alone, with a bar, and says what was pushed", async () => {
+  await withPage({}, async ({ url, page }) => {
+    // Another view and map than those of the figure.
+    await open(page, url, "demo=heads-sex&sigma=1&view=sd&map=ratio");
+    const picture = await download(page, () => button(page, "Figure of the contrast .png").click());
+    assert.equal(picture.name, "shapevenn-figure-contrast.png");
+    const shares = await darkShares(page, picture);
+    const [a, aWithoutB, both, bWithoutA, b] = shares;
+    assert.ok(Math.max(a, both, b) < 0.03, `means are not coloured: ${shares}`);
+    assert.ok(Math.min(aWithoutB, bWithoutA) > 0.1, `differences are: ${shares}`);
+
+    const dialog = await openDialog(page);
+    await dialog.getByRole("radio", { name: "Contrast" }).dispatchEvent("click");
+    const preview = dialog.getByRole("img", { name: PUSHED });
+    await preview.locator("canvas").waitFor();
+    assert.match(
+      await preview.getAttribute("aria-label"),
+      /Colours: mean distance to the nearest shape of the other model, mm\. A: Male heads/,
+    );
+    const save = () =>
+      download(page, () => dialog.getByRole("button", { name: "Save PNG" }).click());
+    const whole = await save();
+    await dialog.getByRole("checkbox", { name: "Colour bar" }).uncheck();
+    assert.ok(sizeOf(await save()).height < sizeOf(whole).height, "the bar is in it");
+    await dialog.getByRole("checkbox", { name: "Colour bar" }).check();
+
+    // The chosen map is a kind of its own, the same in whatever view of the page.
+    const ratio = async () => {
+      const shown = page.getByRole("dialog", { name: "Figure of the five regions" });
+      await shown.getByRole("radio", { name: /^Variance ratio/ }).dispatchEvent("click");
+      const name = /^Preview of the figure: Variance of A over variance of B, log₂/;
+      await shown.getByRole("img", { name }).locator("canvas").waitFor();
+      const saved = await save();
+      await page.keyboard.press("Escape");
+      await shown.waitFor({ state: "detached" });
+      return saved;
+    };
+    const inMap = await ratio();
+    await page.getByRole("radio", { name: "Contrast" }).dispatchEvent("click");
+    await page.locator(".contrast-caption").waitFor();
+    await openDialog(page);
+    assert.ok(inMap.bytes.equals((await ratio()).bytes), "the same figure");
+  });
+});
+
 test("the paper's two figures are one click each, as wide as a page at 300 dpi", async () => {
   await withPage({}, async ({ url, page }) => {
     await open(page, url, "demo=heads-sex");
@@ -261,6 +328,23 @@ test("the methods paragraph and BibTeX are copied, with the numbers of the repor
     assert.equal(Number(await sigma.getAttribute("data-value")), report.settings.sigma);
     const citations = await copied("Copy BibTeX");
     assert.ok(citations.includes("2211.16314") && citations.includes(`{${report.engine}}`));
+  });
+});
+
+test("PNG of the contrast has its colour bar, and lines that say what was pushed", async () => {
+  await withPage({}, async ({ url, page }) => {
+    const heightOf = async () => {
+      const canvas = await page.getByRole("application").boundingBox();
+      const { bytes } = await download(page, () => button(page, "PNG").click());
+      return bytes.readUInt32BE(20) / 2 - canvas.height;
+    };
+    await open(page, url, "demo=heads-sex&sigma=1");
+    assert.match(await page.locator(".contrast-caption").innerText(), PUSHED);
+    const contrast = await heightOf();
+    await page.getByRole("radio", { name: "Map" }).dispatchEvent("click");
+    await page.locator(".color-bar").waitFor();
+    const map = await heightOf();
+    assert.ok(contrast - map >= 15, `${contrast} and ${map} pixels below the shapes`);
   });
 });
 

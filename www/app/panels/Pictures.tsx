@@ -16,6 +16,15 @@ export function Pictures({ ready }: { ready: boolean }) {
         <button
           type="button"
           disabled={!ready}
+          title="Means of A, B and A∩B, and what each misses of the other, pushed and coloured"
+          aria-label="Figure of the contrast .png"
+          onClick={() => void saveAsOffered("contrast")}
+        >
+          contrast
+        </button>
+        <button
+          type="button"
+          disabled={!ready}
           title="Five blocks of random shapes, as in the paper"
           aria-label="Figure of random shapes .png"
           onClick={() => void saveAsOffered("shapes")}

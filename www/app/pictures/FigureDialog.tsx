@@ -1,7 +1,7 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { MAP_WORDS } from "../stage/map-words";
-import { mapIsWanted, shownMap } from "../stage/maps";
+import { chosenMap, contrastMap, mapIsWanted } from "../stage/maps";
 import { scene } from "../stage/stage-controller";
 import { latest } from "../state/latest";
 import { result, shapes, vertexMap } from "../state/state";
@@ -34,6 +34,8 @@ const UNITS: [FigureOptions["unit"], string][] = [
   ["px", "pixels"],
 ];
 const COUNTS = [4, 9, 16, 25];
+/** The kinds with a colour bar. */
+const COLOURED: FigureKind[] = ["contrast", "variance", "map"];
 
 function set(part: Partial<FigureOptions>): void {
   figureOptions.value = { ...figureOptions.value, ...part };
@@ -54,6 +56,7 @@ export function FigureDialog({ onClose }: { onClose: () => void }) {
   }, [options.shows]);
   useEffect(() => closeOffscreen, []);
   const kinds: [FigureKind, string][] = [
+    ["contrast", "Contrast"],
     ["shapes", "Random shapes"],
     ["variance", "Variance"],
     ...(vertexMap.value === "sd" ? [] : ([["map", MAP_WORDS[vertexMap.value].label]] as const)),
@@ -93,9 +96,7 @@ export function FigureDialog({ onClose }: { onClose: () => void }) {
           onChange={(points) => points !== null && set({ points })}
         />
         <Part label="Labels" part="labels" />
-        {(options.shows === "variance" || options.shows === "map") && (
-          <Part label="Colour bar" part="bar" />
-        )}
+        {COLOURED.includes(options.shows) && <Part label="Colour bar" part="bar" />}
         <Part label="Caption" part="caption" />
       </div>
       <div class="modal-foot">
@@ -204,9 +205,9 @@ function Preview({ options }: { options: FigureOptions }) {
       }
     }),
   );
-  const [map, drawn] = [shownMap.value, shapes.value];
+  const [map, contrast, drawn] = [chosenMap.value, contrastMap.value, shapes.value];
   // Drawn again also when the shapes change.
-  useEffect(() => draw.current(options), [options, map, drawn]);
+  useEffect(() => draw.current(options), [options, map, contrast, drawn]);
   return (
     <div
       class="figure-preview"

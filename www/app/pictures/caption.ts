@@ -5,7 +5,7 @@ import { completed, preparationWords } from "../state/preparation";
 import { count, length } from "../text/format";
 
 /** What the five blocks show: the two figures of the paper, and other views of the page. */
-export type FigureKind = "shapes" | "variance" | "map" | "means";
+export type FigureKind = "contrast" | "shapes" | "variance" | "map" | "means";
 
 export interface Shown {
   shows: FigureKind;
@@ -14,6 +14,8 @@ export interface Shown {
   /** Shapes in each block; drawn on top of each other if `overlaid`. */
   shapes: number;
   overlaid: boolean;
+  /** What was done to the shapes of a contrast; empty where there is no difference. */
+  contrast: string;
   /** What the differences show other than their draws; empty if only their draws. */
   differences: string;
   /** The vertex whose ellipsoid is drawn, its size in SD, and the dimension. */
@@ -28,9 +30,13 @@ export function captionOf(shown: Shown, report: Report): string {
 
 const BLOCKS = "A, A∖B, A∩B, B∖A and B";
 
-function what({ shows, map, shapes, overlaid, differences }: Shown): string {
+function what({ shows, map, shapes, overlaid, contrast, differences }: Shown): string {
   const also = differences === "" ? "" : ` Of A∖B and B∖A: ${differences}.`;
   switch (shows) {
+    case "contrast":
+      return contrast === ""
+        ? "Mean shapes of A, A∩B and B."
+        : `${contrast} Colours: ${decapitalised(map)}.`;
     case "means":
       return `Mean shapes of ${BLOCKS}.${also}`;
     case "shapes": {
@@ -43,8 +49,12 @@ function what({ shows, map, shapes, overlaid, differences }: Shown): string {
   }
 }
 
+function decapitalised(text: string): string {
+  return text.charAt(0).toLowerCase() + text.slice(1);
+}
+
 function ellipsoid({ vertex, shows }: Shown): string {
-  if (vertex === null || shows === "shapes") return "";
+  if (vertex === null || shows === "shapes" || shows === "contrast") return "";
   const name = vertex.dimension === 2 ? "Ellipses" : "Ellipsoids";
   return `${name}: covariance of vertex ${vertex.number} at ${vertex.deviations} SD.`;
 }

@@ -1,9 +1,12 @@
-/** Draws the paper's figures: five blocks of random shapes, or five maps with one colour bar. */
+/** Draws figures of five blocks: random shapes and variances as in the paper, maps, means, the contrast. */
 import { signal } from "@preact/signals";
 import type { Region, RegionShapes } from "../../worker/protocol";
 import { shapeCount } from "../comparison/run";
+import { contrastSentence } from "../stage/contrast";
 import { mapCaption, scaleEnds } from "../stage/map-words";
 import {
+  chosenMap,
+  contrastMap,
   deviationMap,
   ellipsoids,
   mapRange,
@@ -12,7 +15,7 @@ import {
   shownMap,
 } from "../stage/maps";
 import { differencePicture, REGION_NAMES } from "../stage/names";
-import { scene } from "../stage/stage-controller";
+import { mapOf, scene } from "../stage/stage-controller";
 import { engineClient, report as reportError } from "../state/engine";
 import { REGIONS } from "../state/regions";
 import {
@@ -26,7 +29,7 @@ import {
   unit,
   vertex,
 } from "../state/state";
-import type { ViewMode } from "../state/view";
+import { isColoured, type ViewMode } from "../state/view";
 import { saveBlob } from "../ui/download";
 import { contentsOf, ELLIPSOID_SD, type Scene, sceneFrame } from "../viewer/contents";
 import type { Frame, PaneContent } from "../viewer/viewer";
@@ -93,7 +96,11 @@ const MODES: Record<FigureKind, ViewMode> = {
   variance: "sd",
   map: "sd",
   means: "mean",
+  contrast: "contrast",
 };
+
+/** Figures of other shapes than means, to which the ellipsoids do not belong. */
+const WITHOUT_ELLIPSOIDS: FigureKind[] = ["shapes", "contrast"];
 
 type Shapes = Partial<Record<Region, RegionShapes>>;
 
@@ -135,7 +142,9 @@ export function captionFor(options: FigureOptions): string {
       map: mapCaption(map.name, map, unit.value),
       shapes: overlaid ? shapeCount() : options.shapes,
       overlaid,
-      differences: differencePicture(MODES[options.shows]),
+      // What is pushed in a contrast is not the draws, exaggerated or not.
+      differences: options.shows === "contrast" ? "" : differencePicture(MODES[options.shows]),
+      contrast: contrastSentence.value,
       vertex:
         number !== null && ellipsoid
           ? { number, deviations: ELLIPSOID_SD, dimension: ellipsoid.centre.length === 2 ? 2 : 3 }
@@ -152,10 +161,10 @@ async function compose(options: FigureOptions): Promise<Figure> {
     mode: MODES[shows],
     dark: background === "dark",
     shapes: await shapesFor(options),
-    map: shows === "variance" ? undefined : scene.peek().map,
-    ...(shows === "shapes" ? { ellipsoids: {} } : {}),
+    map: mapOf(mapFor(shows)),
+    ...(WITHOUT_ELLIPSOIDS.includes(shows) ? { ellipsoids: {} } : {}),
   };
-  const scale = MODES[shows] === "sd" ? barOf(mapFor(shows)) : null;
+  const scale = isColoured(MODES[shows]) ? barOf(mapFor(shows)) : null;
   const bar = options.bar ? scale : null;
   const frame = sceneFrame(found);
   const contents = contentsOf(found, REGIONS);
@@ -232,12 +241,13 @@ function letter(pen: CanvasRenderingContext2D, figure: Figure): void {
 }
 
 function mapFor(shows: FigureKind): ShownMap {
-  return shows === "variance" ? deviationMap.value : shownMap.value;
+  if (shows === "contrast") return contrastMap.value;
+  return shows === "variance" ? deviationMap.value : chosenMap.value;
 }
 
 /** The colour range of a map in a figure; locked if that of the page is. */
 export function barOf(map: ShownMap): Bar | null {
-  const range = map.name === shownMap.peek().name ? mapRange.peek() : rangeOf(map);
+  const range = map === shownMap.peek() ? mapRange.peek() : rangeOf(map);
   return (
     range && {
       range,

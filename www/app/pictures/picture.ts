@@ -2,6 +2,7 @@
 
 import { VENN_BOX, vennOf } from "../comparison/venn";
 import { headline, settingsSentence } from "../comparison/words";
+import { contrastSentence } from "../stage/contrast";
 import { shownMap } from "../stage/maps";
 import { differencePicture, REGION_NAMES } from "../stage/names";
 import { layoutOf, viewer } from "../stage/stage-controller";
@@ -11,11 +12,20 @@ import { isColoured } from "../state/view";
 import { plain } from "../text/phrase";
 import { saveBlob } from "../ui/download";
 import { barOf } from "./figure";
+import { wrapped } from "./layout";
 import { drawBar, FONT, INK } from "./lettering";
 
 const SCALE = 2;
-/** Height of the texts below the shapes; more with a colour bar. */
-const FOOT = { bar: 48, words: 48 };
+/** Heights below the shapes: of the colour bar, of a line of text, of what is left below the last one. */
+const FOOT = { bar: 48, line: 17, below: 12 };
+/** Distance of the texts from the sides. */
+const MARGIN = 12;
+
+/** A line below the shapes. */
+interface Line {
+  text: string;
+  font: string;
+}
 
 /** Background and lettering: white on the light theme, transparent with light letters on the dark one. */
 export async function savePicture(): Promise<void> {
@@ -23,12 +33,15 @@ export async function savePicture(): Promise<void> {
   const made = viewer.peek();
   if (!canvas || !made) return;
   const [width, height, panes] = layoutOf(canvas);
-  const foot = isColoured(view.peek()) ? FOOT.bar + FOOT.words : FOOT.words;
   const picture = document.createElement("canvas");
-  picture.width = width * SCALE;
-  picture.height = (height + foot) * SCALE;
   const pen = picture.getContext("2d");
   if (!pen) return;
+  const lines = footLines(pen, width);
+  const bar = isColoured(view.peek()) ? FOOT.bar : 0;
+  const foot = bar + FOOT.line * lines.length + FOOT.below;
+  // A canvas forgets its font with its size.
+  picture.width = width * SCALE;
+  picture.height = (height + foot) * SCALE;
   pen.scale(SCALE, SCALE);
   const dark = isDark();
   if (!dark) {
@@ -44,7 +57,7 @@ export async function savePicture(): Promise<void> {
     }
   }
   if (region.peek() === null) drawMap(pen, canvas, dark);
-  drawFoot(pen, width, height);
+  drawFoot(pen, width, height, lines);
   const blob = await new Promise<Blob | null>((resolve) => picture.toBlob(resolve));
   if (blob) saveBlob(`shapevenn-${view.peek()}.png`, blob);
 }
@@ -89,19 +102,37 @@ function drawMap(pen: CanvasRenderingContext2D, canvas: HTMLCanvasElement, dark:
   pen.restore();
 }
 
-function drawFoot(pen: CanvasRenderingContext2D, width: number, top: number): void {
+/** Headline, what was pushed in the view Contrast, and settings, in lines that fit. */
+function footLines(pen: CanvasRenderingContext2D, width: number): Line[] {
   const held = result.peek();
-  const bar = isColoured(view.peek()) ? barOf(shownMap.peek()) : null;
-  const above = isColoured(view.peek()) ? FOOT.bar : 0;
-  const line = (text: string, y: number, font: string) => {
+  if (!held) return [];
+  const pushed = view.peek() === "contrast";
+  const drawn = pushed ? "" : differencePicture();
+  const note = drawn === "" ? "" : ` · differences: ${drawn}`;
+  const small = `11px ${FONT}`;
+  return [
+    { text: plain(headline(held.report, held.nouns)), font: `500 13px ${FONT}` },
+    { text: pushed ? contrastSentence.peek() : "", font: small },
+    { text: `${settingsSentence(held.report)}${note} · Shapevenn`, font: small },
+  ].flatMap(({ text, font }) => {
     pen.font = font;
-    pen.fillText(text, 12, top + y, width - 24);
-  };
-  if (held) {
-    line(plain(headline(held.report, held.nouns)), above + 16, `500 13px ${FONT}`);
-    const drawn = differencePicture();
-    const note = drawn === "" ? "" : ` · differences: ${drawn}`;
-    line(`${settingsSentence(held.report)}${note} · Shapevenn`, above + 36, `11px ${FONT}`);
-  }
-  if (bar) drawBar(pen, bar, { left: 12, top: top + 6, width: width - 24, em: 12 });
+    const fits = wrapped(text, width - 2 * MARGIN, (part) => pen.measureText(part).width);
+    return fits.map((line) => ({ text: line, font }));
+  });
+}
+
+function drawFoot(
+  pen: CanvasRenderingContext2D,
+  width: number,
+  top: number,
+  lines: readonly Line[],
+): void {
+  const coloured = isColoured(view.peek());
+  const bar = coloured ? barOf(shownMap.peek()) : null;
+  const first = top + (coloured ? FOOT.bar : 0);
+  lines.forEach(({ text, font }, i) => {
+    pen.font = font;
+    pen.fillText(text, MARGIN, first + FOOT.line * (i + 1));
+  });
+  if (bar) drawBar(pen, bar, { left: MARGIN, top: top + 6, width: width - 2 * MARGIN, em: 12 });
 }

@@ -25,6 +25,7 @@ const shown: Shown = {
   map: "Standard deviation per vertex, mm",
   shapes: 9,
   overlaid: false,
+  contrast: "",
   differences: "",
   vertex: null,
 };
@@ -41,6 +42,23 @@ test("a caption says models, σ, seed and what is shown", () => {
   assert.match(map, /^Standard deviation per vertex, mm, on the mean shapes of A/);
   assert.match(map, /Of A∖B and B∖A: γ 1\.0\. Ellipses: covariance of vertex 5 at 2 SD\./);
   assert.match(captionOf({ ...shown, overlaid: true, shapes: 60 }, report), /60 of each, overlaid/);
+});
+
+test("the caption of a contrast says what was pushed and what the colour is, and has no ellipsoid", () => {
+  const report = reportWith({ sigma: 0.3 });
+  const contrast =
+    "A, B and A∩B are means. A∖B: the mean of A, pushed 3.0× as far from B as it lies.";
+  const vertex = { number: 5, deviations: 2, dimension: 3 as const };
+  const map = "Mean distance to the nearest shape of the other model, mm";
+  const of = (part: Partial<Shown>) =>
+    captionOf({ ...shown, shows: "contrast", map, vertex, ...part }, report);
+  assert.ok(
+    of({ contrast }).startsWith(
+      `${contrast} Colours: mean distance to the nearest shape of the other model, mm. A: stars-1-a`,
+    ),
+    of({ contrast }),
+  );
+  assert.match(of({}), /^Mean shapes of A, A∩B and B\. A: stars-1-a/);
 });
 
 test("a figure is as wide as asked for, in pixels or in print", () => {

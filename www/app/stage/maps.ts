@@ -78,7 +78,7 @@ export const LEVEL = 0.05;
 const COVERED = 0.98;
 
 /** What the other model misses, on the differences alone: the map of the contrast. */
-const contrastMap = computed<ShownMap>(() => {
+export const contrastMap = computed<ShownMap>(() => {
   const values: ShownMap["values"] = {};
   for (const region of REGIONS) {
     const missed = shapes.value[region]?.contrast?.missed;
@@ -87,9 +87,8 @@ const contrastMap = computed<ShownMap>(() => {
   return { name: "reach", mode: 0, signed: false, palette: "magma", values, covers: COVERED };
 });
 
-/** The shown map, without values until the engine has sent them. */
-export const shownMap = computed<ShownMap>(() => {
-  if (view.value === "contrast") return contrastMap.value;
+/** The map chosen for the view Map, without values until the engine has sent them. */
+export const chosenMap = computed<ShownMap>(() => {
   const [name, mode] = [vertexMap.value, mapMode.value];
   if (name === "sd") return deviationMap.value;
   const found = fetched.value;
@@ -108,6 +107,11 @@ function paletteOf(name: MapName, signed: boolean): Palette {
   if (name === "chance") return "magma-reversed";
   return signed ? "diverging" : "viridis";
 }
+
+/** The map of the shown view. */
+export const shownMap = computed(() =>
+  view.value === "contrast" ? contrastMap.value : chosenMap.value,
+);
 
 /** Why the chosen map cannot be shown. */
 export const mapProblem = computed(() => {

@@ -53,7 +53,7 @@ export const scene = computed<Scene>(() => ({
 }));
 
 /** The map to draw; standard deviations come with the shapes themselves. */
-function mapOf({ name, values, palette }: ShownMap): Scene["map"] {
+export function mapOf({ name, values, palette }: ShownMap): Scene["map"] {
   return name === "sd" ? undefined : { values, palette };
 }
 
