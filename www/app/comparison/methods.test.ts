@@ -81,16 +81,16 @@ test("reach is said in the words of the answer, with means and their standard er
   const text = plain(methods(tested()));
   assert.match(
     text,
-    /\. A shape of A lies 3\.02.units from the nearest that B can make\. A shape of B lies as far\. With their standard errors these means over random shapes are 3\.020 ± 0\.011.units and 2\.910 ± 0\.011.units\./,
+    /\. A shape of A lies 3\.02.units from the nearest that B can make\. A shape of B lies as far\. The mean distance over random shapes, with its standard error, is 3\.020 ± 0\.011.units from A to B and 2\.910 ± 0\.011.units from B to A\./,
   );
   const { reach, ...others } = tested();
   assert.ok(reach);
   const contained = { ...reach, bToA: { ...reach.bToA, relative: 1e-9 } };
   assert.match(
     plain(methods({ ...others, reach: contained })),
-    /With its standard error this mean over random shapes is 3\.020 ± 0\.011.units\. Whether/,
+    /with its standard error, is 3\.020 ± 0\.011.units from A to B\. Whether/,
   );
-  assert.doesNotMatch(plain(methods({ ...others, reach: null })), /standard error.* random shapes/);
+  assert.doesNotMatch(plain(methods({ ...others, reach: null })), /over random shapes/);
 });
 
 test("the test of chance is said with shapes, relabellings, statistics and correction", () => {
@@ -108,7 +108,7 @@ test("where chance is not known that is said without advice, and nothing while i
   const report = reportWith({});
   assert.match(
     plain(methods(report)),
-    /random shapes are .*\. Whether these distances are more than chance is not known\. The tolerance/,
+    /from B to A\. Whether these distances are more than chance is not known\. The tolerance/,
   );
   const pending = { ...report, answer: report.answer.slice(0, 1) };
   assert.doesNotMatch(plain(methods(pending)), /chance/);

@@ -2,7 +2,7 @@
 import type { InferenceReport, Report, Sampler, Side, Sides, Topic } from "../../worker/protocol";
 import { nounsOf } from "../state/demos";
 import { completed, preparationWords } from "../state/preparation";
-import type { Difference } from "../state/regions";
+import { type Difference, letters } from "../state/regions";
 import { count, length, number, percent, plusMinus } from "../text/format";
 import { type Phrase, reported } from "../text/phrase";
 import { CHANCE, chanceTopic, said } from "./answer";
@@ -76,24 +76,20 @@ function answered(report: Report, ...topics: Topic[]): Phrase {
 function reach(report: Report): Phrase {
   const found = report.reach;
   if (!found) return [];
-  const sides = (["a", "b"] as const).filter((side) => !isContained(report, side));
-  const means = sides.flatMap(
-    (side, i): Phrase => [
-      ...(i === 0 ? [] : [" and "]),
-      ...meanOf(side, side === "a" ? found.aToB : found.bToA, report.models.a.unit),
-    ],
-  );
-  const many = sides.length > 1;
+  const { unit } = report.models.a;
+  const means = (["a", "b"] as const)
+    .filter((side) => !isContained(report, side))
+    .flatMap((side, i): Phrase => {
+      const [own, other] = letters(side);
+      const lies = side === "a" ? found.aToB : found.bToA;
+      return [i === 0 ? "" : " and ", ...meanOf(side, lies, unit), ` from ${own} to ${other}`];
+    });
   return [
     ...answered(report, "reach-of-a"),
     ...answered(report, "reach-of-b"),
-    ...(sides.length === 0
+    ...(means.length === 0
       ? []
-      : [
-          ` With ${many ? "their standard errors these means" : "its standard error this mean"} over random shapes ${many ? "are " : "is "}`,
-          ...means,
-          ".",
-        ]),
+      : [" The mean distance over random shapes, with its standard error, is ", ...means, "."]),
   ];
 }
 

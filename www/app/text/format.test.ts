@@ -25,6 +25,9 @@ test("a share is never rounded to all or nothing", () => {
 test("a mean and its spread end at the same decimal", () => {
   assert.deepEqual(plusMinus(0.5873, 0.0712), { mean: "0.587", spread: "0.071" });
   assert.deepEqual(plusMinus(8.213, 1.5), { mean: "8.2", spread: "1.5" });
+  // Of shapes in units of a thousandth.
+  assert.deepEqual(plusMinus(0.002774, 2.9e-5), { mean: "0.002774", spread: "0.000029" });
+  assert.deepEqual(plusMinus(3e-17, 4e-17), { mean: "0.0000", spread: "0.0000" });
 });
 
 test("counts and durations", () => {

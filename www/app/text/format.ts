@@ -40,9 +40,11 @@ export function length(value: number, unit: string): string {
   return `${number(value)}\u202f${unit}`;
 }
 
-/** A mean and its standard deviation, both to the same decimal. */
+/** A mean and its standard deviation, both to the same decimal: that of the second digit of the spread, at most the sixth. */
 export function plusMinus(mean: number, spread: number): { mean: string; spread: string } {
-  const finest = Math.max(Math.abs(spread), 1e-3);
+  const found = Math.max(Math.abs(spread), 1e-3 * Math.min(1, Math.abs(mean)));
+  // Rounding error has no digits.
+  const finest = found < 1e-9 ? 1e-3 : found;
   const decimals = Math.min(6, Math.max(0, 1 - Math.floor(Math.log10(finest))));
   return { mean: minus(mean.toFixed(decimals)), spread: spread.toFixed(decimals) };
 }
