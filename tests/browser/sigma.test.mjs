@@ -8,6 +8,7 @@ import {
   dropFiles,
   nextRun,
   openLink,
+  typeSetting,
   untilCompared,
   untilShown,
   withPage,
@@ -89,6 +90,8 @@ test("the line is moved by keys, and says in words what lies outside", async () 
     const ended = await nextRun(page);
     await page.keyboard.press("ArrowLeft");
     await page.waitForURL(/sigma=[\d.]+/);
+    const stale = (is) => page.locator(`.reach-curve[data-stale="${is}"]`).waitFor();
+    await stale(false);
     await ended();
     const after = await downloadReport(page);
     assert.ok(after.settings.sigma < settings.sigma);
@@ -97,6 +100,12 @@ test("the line is moved by keys, and says in words what lies outside", async () 
       (await sentence(page).innerText()).trim(),
     );
     assert.deepEqual(await accessibilityFaults(page), []);
+    // Of other draws the curve is another one, of another σ it is not.
+    const again = await nextRun(page);
+    await typeSetting(page, "Seed", "2");
+    await stale(true);
+    await again();
+    await stale(false);
   });
 });
 
