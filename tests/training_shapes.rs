@@ -7,9 +7,11 @@ use crate::common::files::{fixture, json};
 use crate::common::{compared, face_like_pair, model, random_orthonormal, report};
 use nalgebra::{DMatrix, DVector};
 use serde::Deserialize;
+use shapevenn::evidence::Evidence;
 use shapevenn::files::{self, Described};
 use shapevenn::formats::{self, Input, Options};
 use shapevenn::model::{Alignment, LinearModel, ShapesRole, model_of_population};
+use shapevenn::pair::Pair;
 use shapevenn::report::Report;
 use shapevenn::sampling::{Stream, fill_normal, stream};
 use shapevenn::settings::{Settings, SigmaSource};
@@ -265,4 +267,25 @@ fn shapes_that_do_not_fit_a_model_are_refused_with_both_names_and_numbers() {
     let one = inputs("one", &drawn(&face_like_pair(60, 9).0, 1, 1));
     let error = files::add_shapes(&opened, "one", &one, false).unwrap_err();
     assert_eq!(error.code(), "too-few-shapes", "{error}");
+}
+
+#[test]
+fn samples_that_are_known_within_modes_keep_the_level_of_the_test() {
+    // 40 pairs of one population, each known within 6 of its 11 modes: at a level of 5 % two false alarms, and no more
+    // than 8 but for one time in a thousand.
+    let population = face_like_pair(60, 12).0;
+    let of = |seed: u64| {
+        let whole = model_of_population(3, drawn(&population, 12, seed), Alignment::None).unwrap();
+        let coefficients = whole.training_coefficients().unwrap().rows(0, 6).into_owned();
+        whole.truncated(6).with_training_coefficients(coefficients)
+    };
+    let alarms = (0..40).filter(|pair| {
+        let pair = Pair::new(&of(100 + 2 * pair), &of(101 + 2 * pair), Alignment::None, None).unwrap();
+        let mut evidence = Evidence::of_pair(&pair, 199, 1, None).unwrap().unwrap();
+        evidence.run();
+        let found = evidence.report().unwrap();
+        found.one_population.statistics.iter().any(|one| one.p_adjusted <= 0.05)
+    });
+    let alarms = alarms.count();
+    assert!(alarms <= 8, "{alarms} of 40");
 }

@@ -347,6 +347,23 @@ impl Comparison {
         Ok(())
     }
 
+    /// About which share of the run is spent on relabelling: of eigenproblems in as many dimensions as a group has shapes,
+    /// or modes where these are fewer.
+    fn share_of_evidence(&self) -> f64 {
+        /// Operations of a relabelling, in cubes of the dimensions, and those of all the rest of an ordinary run.
+        const CUBES: f64 = 60.0;
+        const REST: f64 = 3e9;
+        let Sides { a, b } = self.pair().models();
+        let (Some(of_a), Some(of_b)) = (a.training_shapes(), b.training_shapes()) else {
+            return 0.0;
+        };
+        let dimensions = a.mode_count() + b.mode_count();
+        let cube = |count: usize| (count * count.min(dimensions) * count.min(dimensions)) as f64;
+        let cubes = cube(of_a.count()) + cube(of_b.count());
+        let operations = CUBES * cubes * self.settings.permutations as f64;
+        (operations / (operations + REST)).min(0.8)
+    }
+
     fn progress(&mut self) -> Progress {
         let inferences = self.run.drawn().map(|drawn| &drawn.inferences);
         let sum = |value: fn(&Draws) -> u64| {
@@ -357,7 +374,7 @@ impl Comparison {
         self.refresh_live(draws);
         Progress {
             stage: self.stage(),
-            fraction: self.run.fraction(&self.settings),
+            fraction: self.run.fraction(&self.settings, self.share_of_evidence()),
             evaluations: self.evaluations(),
             draws,
             acceptance: (made > 0).then(|| accepted as f64 / made as f64),

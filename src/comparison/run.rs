@@ -159,7 +159,8 @@ impl Run {
     }
 
     /// Share of the whole run that is done, 0 to 1. Shares of the stages are those of a run of the packaged heads.
-    pub(super) fn fraction(&self, settings: &crate::settings::Settings) -> f64 {
+    /// Shapes are relabelled in the last `of_evidence` of it.
+    pub(super) fn fraction(&self, settings: &crate::settings::Settings, of_evidence: f64) -> f64 {
         let done = match self {
             Self::Preparing(Preparing::OperatorOfA) => 0.0,
             Self::Preparing(Preparing::OperatorOfB) => 0.02,
@@ -182,20 +183,20 @@ impl Run {
                         0.7 + 0.1 * rejections.iter().map(Rejection::fraction).sum::<f64>()
                     }
                     DrawingStep::Measure(measuring) => match measuring {
-                        Measuring::ChainsOfA => 0.90,
-                        Measuring::ChainsOfB { .. } => 0.91,
-                        Measuring::AWithoutB { .. } => 0.92,
-                        Measuring::BWithoutA { .. } => 0.93,
-                        Measuring::Reach { .. } => 0.935,
-                        Measuring::Report { .. } => 0.94,
+                        Measuring::ChainsOfA => 0.95,
+                        Measuring::ChainsOfB { .. } => 0.96,
+                        Measuring::AWithoutB { .. } => 0.97,
+                        Measuring::BWithoutA { .. } => 0.98,
+                        Measuring::Reach { .. } => 0.985,
+                        Measuring::Report { .. } => 0.99,
                     },
                 }
             }
-            Self::Done(finished) => {
-                let evidence = finished.evidence.as_ref();
-                evidence.map_or(1.0, |evidence| 0.95 + 0.05 * evidence.fraction())
-            }
+            Self::Done(finished) => match &finished.evidence {
+                Some(evidence) => return 1.0 - of_evidence * (1.0 - evidence.fraction()),
+                None => return 1.0,
+            },
         };
-        done.clamp(0.0, 1.0)
+        (1.0 - of_evidence) * done.clamp(0.0, 1.0)
     }
 }

@@ -14,7 +14,7 @@ import {
   withPage,
 } from "./harness.mjs";
 
-const HEADS = "v=1&demo=heads-sex&sigma=1&draws=800&room=explore";
+const HEADS = "v=1&demo=heads-sex&sigma=1&draws=800&perms=0&room=explore";
 const STARS = "v=1&demo=stars-1&draws=800&room=explore";
 
 const slider = (page, axis) =>

@@ -49,8 +49,8 @@ async function lookAt(page, { bytes }) {
   }, bytes.toString("base64"));
 }
 
-/** Share of the dark pixels in the upper half of each fifth of a picture: those of the low end of a map, not of clay. */
-async function darkShares(page, { bytes }) {
+/** Share of the saturated pixels in the upper half of each fifth of a picture: those of a map, not of clay. */
+async function colouredShares(page, { bytes }) {
   return page.evaluate(async (base64) => {
     const raw = Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
     const image = await createImageBitmap(new Blob([raw]));
@@ -59,11 +59,12 @@ async function darkShares(page, { bytes }) {
     const fifth = Math.floor(image.width / 5);
     return Array.from({ length: 5 }, (_, block) => {
       const { data } = pen.getImageData(block * fifth, 0, fifth, Math.floor(image.height / 2));
-      let dark = 0;
+      let coloured = 0;
       for (let i = 0; i < data.length; i += 4) {
-        if (Math.max(data[i], data[i + 1], data[i + 2]) < 130) dark += 1;
+        const channels = [data[i], data[i + 1], data[i + 2]];
+        if (Math.max(...channels) - Math.min(...channels) > 90) coloured += 1;
       }
-      return dark / (data.length / 4);
+      return coloured / (data.length / 4);
     });
   }, bytes.toString("base64"));
 }
@@ -77,7 +78,7 @@ test("a figure of the contrast colours the differences alone, with a bar, and sa
     await open(page, url, "demo=heads-sex&sigma=1&view=sd&map=ratio");
     const picture = await download(page, () => button(page, "Figure of the contrast .png").click());
     assert.equal(picture.name, "shapevenn-figure-contrast.png");
-    const shares = await darkShares(page, picture);
+    const shares = await colouredShares(page, picture);
     const [a, aWithoutB, both, bWithoutA, b] = shares;
     assert.ok(Math.max(a, both, b) < 0.03, `means are not coloured: ${shares}`);
     assert.ok(Math.min(aWithoutB, bWithoutA) > 0.1, `differences are: ${shares}`);

@@ -17,7 +17,7 @@ import {
 } from "./harness.mjs";
 
 const STARS = "v=1&demo=stars-1&draws=800";
-const HEADS = "v=1&demo=heads-sex&draws=800";
+const HEADS = "v=1&demo=heads-sex&draws=800&perms=0";
 
 const sigmaSlider = (page) => page.getByRole("slider", { name: /^Tolerance σ/ });
 const fold = (page, name) =>

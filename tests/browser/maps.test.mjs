@@ -192,9 +192,9 @@ test("hovering says vertex, value and unit; a click picks it, and the table says
     await openLink(page, url, "v=1&demo=heads-sex&view=sd&map=sd-normal");
     await untilDrawn(page);
     await scale(page).waitFor();
+    await page.getByRole("button", { name: "Pick vertex" }).click();
     const { place, text } = await hoverVertex(page, "a");
     const [, vertex, value] = /^A · vertex (\d+) ([\d.]+) mm$/.exec(text) ?? assert.fail(text);
-    await page.getByRole("button", { name: "Pick vertex" }).click();
     await page.mouse.click(...place);
     assert.equal(await field(page).inputValue(), vertex);
     const row = page.getByRole("row", { name: /^SD, normal part, mm/ });

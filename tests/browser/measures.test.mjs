@@ -16,7 +16,7 @@ import {
 } from "./harness.mjs";
 import { headsOf, saveCsv, showNumbers, valuesOf } from "./tables.mjs";
 
-const HEADS = "v=1&demo=heads-sex&draws=800&seed=3&room=measures";
+const HEADS = "v=1&demo=heads-sex&draws=800&perms=0&seed=3&room=measures";
 const STARS = "v=1&demo=stars-1&draws=800&room=measures";
 
 const tab = (page) => page.getByRole("region", { name: "Measures", exact: true });

@@ -51,7 +51,7 @@ async function compares(address, threads) {
     await page.goto(`${address}#v=1&demo=stars-1&draws=400`);
     await untilState(page, "done");
     assert.ok((await metric(page, "overlap.varianceOfAInB")) > 0);
-    await page.goto(`${address}#v=1&demo=heads-sex&sigma=2&draws=400`);
+    await page.goto(`${address}#v=1&demo=heads-sex&sigma=2&draws=400&perms=0`);
     await page.reload();
     await untilState(page, "done");
     await page.goto(`${address}#v=1&page=learn&scene=step&steps=137`);

@@ -31,8 +31,8 @@ const CASES = [
   },
   {
     name: "heads",
-    link: "demo=heads-sex&draws=400",
-    command: ["demo:heads-male", "demo:heads-female"],
+    link: "demo=heads-sex&draws=400&perms=99",
+    command: ["demo:heads-male", "demo:heads-female", "--permutations", "99"],
     draws: "400",
   },
 ];

@@ -308,7 +308,7 @@ test("the size of a population goes back and forth", async () => {
     await dropFiles(page, "body", [...meshes("female", 0, 7), ...meshes("male", 20, 6)]);
     await untilCompared(page, { a: "female", b: "male" });
     const card = page.getByRole("region", { name: "Model A" });
-    const made = () => card.locator(".made").innerText();
+    const made = () => card.locator(".made").first().innerText();
     await undoes(page, "one size", made, () =>
       card.getByRole("checkbox", { name: "Also scale to one size" }).check(),
     );
@@ -317,7 +317,7 @@ test("the size of a population goes back and forth", async () => {
 
 test("what helps a pair, and what undoes it, go back and forth", async () => {
   await withPage({}, async ({ url, page }) => {
-    await openLink(page, url, "v=1&demo=heads-sex&sigma=1&draws=400");
+    await openLink(page, url, "v=1&demo=heads-sex&sigma=1&draws=400&perms=0");
     const pair = page.getByRole("region", { name: "Comparable?" });
     await pair.locator("summary").click();
     const done = () => pair.getByRole("button", { name: /^Undo: / }).count();

@@ -94,8 +94,8 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
 
 /** The shapes of a region that a view draws; null for the mean alone. */
 function drawnShapes(mode: ViewMode, found: RegionShapes, cloud: boolean): Float32Array[] | null {
-  if (mode === "contrast" && found.contrast) return [found.contrast.shape];
-  return mode === "samples" || cloud ? samplesOf(found) : null;
+  if (mode === "samples" || cloud) return samplesOf(found);
+  return mode === "contrast" && found.contrast ? [found.contrast.shape] : null;
 }
 
 /** The geometry for a shape of a region by its number of coordinates; null if no model has as many. */

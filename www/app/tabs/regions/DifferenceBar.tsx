@@ -33,7 +33,7 @@ function choose(name: DifferencePicture): void {
     if (name === "exclusiveModes") {
       picture.value = name;
       // Each shape shows one mode; the mean shows none of them.
-      if (view.value === "mean") view.value = "samples";
+      if (view.value === "mean" || view.value === "contrast") view.value = "samples";
       return;
     }
     picture.value = "draws";
@@ -140,7 +140,11 @@ function Exaggeration() {
         exaggeration.value = times;
       }}
       onSettle={(times) => {
-        settledExaggeration.value = times;
+        batch(() => {
+          settledExaggeration.value = times;
+          // The contrast has a push of its own.
+          if (view.value === "contrast") view.value = "mean";
+        });
       }}
     />
   );
