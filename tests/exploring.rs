@@ -439,16 +439,14 @@ fn distances_displacements_and_ratios_are_what_they_are_called() {
         let reach = run.map(MapName::Reach, region, 0).unwrap();
         let offset = run.map(MapName::Offset, region, 0).unwrap();
         let operators = sides.iter().map(|side| run.pair().residual_operator(side.other()));
-        let expected: Vec<(Vec<f64>, Vec<f64>)> =
-            operators.map(|of| (of.mean_vertex_residuals(), of.vertex_offsets())).collect();
+        let expected: Vec<[Vec<f64>; 2]> =
+            operators.map(|of| [of.mean_vertex_residuals(), of.vertex_offsets()]).collect();
         for v in 0..POINTS {
-            let most = |part: fn(&(Vec<f64>, Vec<f64>)) -> &Vec<f64>| {
-                expected.iter().map(|both| part(both)[v]).fold(0.0, f64::max)
-            };
-            let off = (f64::from(reach.values[v]) - most(|both| &both.0)).abs();
-            assert!(off < 2e-5, "{region:?}: reach at {v}");
-            let off = (f64::from(offset.values[v]) - most(|both| &both.1)).abs();
-            assert!(off < 2e-5, "{region:?}: offset at {v}");
+            for (which, map) in [&reach, &offset].into_iter().enumerate() {
+                let most = expected.iter().map(|both| both[which][v]).fold(0.0, f64::max);
+                let off = (f64::from(map.values[v]) - most).abs();
+                assert!(off < 2e-5, "{region:?}: map {which} at {v}");
+            }
         }
         let chance = run.map(MapName::Chance, region, 0);
         assert!(matches!(chance, Err(ComparisonError::NothingYet)), "no training shapes");

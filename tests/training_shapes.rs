@@ -280,7 +280,8 @@ fn samples_that_are_known_within_modes_keep_the_level_of_the_test() {
         whole.truncated(6).with_training_coefficients(coefficients)
     };
     let alarms = (0..40).filter(|pair| {
-        let pair = Pair::new(&of(100 + 2 * pair), &of(101 + 2 * pair), Alignment::None, None).unwrap();
+        let pair =
+            Pair::new(&of(100 + 2 * pair), &of(101 + 2 * pair), Alignment::None, None).unwrap();
         let mut evidence = Evidence::of_pair(&pair, 199, 1, None).unwrap().unwrap();
         evidence.run();
         let found = evidence.report().unwrap();

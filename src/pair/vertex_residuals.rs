@@ -28,7 +28,7 @@ impl ResidualOperator {
     }
 
     /// E‖r_v‖ of every point (n) over all shapes of the model, in its unit, by quadrature
-    /// ([`super::expected_norm`]); its mean over the points is the mean distance to the other model.
+    /// (`pair/expected_norm.rs`); its mean over the points is the mean distance to the other model.
     pub fn mean_vertex_residuals(&self) -> Vec<f64> {
         match self.dimension() {
             2 => self.mean_norms::<2>(),

@@ -208,9 +208,9 @@ test("hovering says vertex, value and unit; a click picks it, and the table says
 
 test("the vertex's ellipsoid is drawn in all five panes, also of other views", async () => {
   await withPage({}, async ({ url, page }) => {
-    await openLink(page, url, "v=1&demo=stars-1");
+    await openLink(page, url, "v=1&demo=stars-1&view=mean");
     const plain = await untilDrawn(page);
-    await page.goto(`${url}#v=1&demo=stars-1&vertex=0`);
+    await page.goto(`${url}#v=1&demo=stars-1&view=mean&vertex=0`);
     await figuresOf(page, /^Semi-axes at 2 SD/, 10);
     await page
       .getByText("Ellipses: covariance of this vertex in each region, drawn at 2 SD")
