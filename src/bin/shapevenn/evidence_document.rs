@@ -130,7 +130,9 @@ fn reading(found: &EvidenceStudy) -> String {
     });
     let limits = "**Limits.** Where chance is 100 to 100 % or 0 to 0 %, the shapes of one group fill the space that all \
                   of them span: nothing of the other lies outside, and neither P nor the shares told apart say \
-                  anything; p compares the first modes. The samples are Gaussian, independent and of one mesh: real populations may have tails, families and \
+                  anything; p compares the first modes. Of the packaged heads only what their modes hold is \
+                  known, so that no left-out shape of them is missed: told apart says nothing there either. The \
+                  samples are Gaussian, independent and of one mesh: real populations may have tails, families and \
                   faults of correspondence, which no test of this kind knows of. Models without training shapes \
                   (–) have a reach, but no p.\n";
     format!("## What it says, and what it does not\n\n{read}\n{further}\n{two}\n{limits}")
