@@ -11,11 +11,12 @@ mod common;
 use std::path::Path;
 use std::time::Instant;
 
+use common::packaged_head;
 use nalgebra::DMatrix;
 use shapevenn::comparison::Comparison;
 use shapevenn::evidence::{Evidence, Groups, Options};
-use shapevenn::formats::{self, Input};
-use shapevenn::model::{Alignment, LinearModel, Side};
+use shapevenn::formats;
+use shapevenn::model::{Alignment, Side};
 use shapevenn::pair::{Pair, ReachDraws};
 use shapevenn::report::ModelReport;
 use shapevenn::sampling::{Stream, fill_normal, stream};
@@ -47,7 +48,7 @@ fn measure(name: &str, a: &DMatrix<f64>, b: &DMatrix<f64>) {
             let begun = Instant::now();
             let groups = Groups::new(3, a, b, Alignment::None).unwrap();
             let options = Options { permutations, ..Options::default() };
-            let mut evidence = Evidence::new(groups, options).unwrap();
+            let mut evidence = Evidence::new(groups, options);
             evidence.run();
             assert!(evidence.report().is_some(), "done");
             *seconds = begun.elapsed().as_secs_f64();
@@ -86,23 +87,10 @@ fn reach() {
     println!("{:44} {:>12.1} %", "reach of the rest", 100.0 * reach / (whole - reach));
 }
 
-fn heads(name: &str) -> LinearModel {
-    let path = format!("demos/heads/heads-{name}.npz");
-    let file = Input::of_bytes(&path, std::fs::read(&path).unwrap());
-    formats::open(&[file], &formats::Options::default()).unwrap().part.model
-}
-
 fn drawn(name: &str, count: usize, sample: usize) -> DMatrix<f64> {
-    let model = heads(name);
+    let model = packaged_head(name);
     let mut random = stream(1, Stream::Experiment, 8, sample);
-    let mut coefficients = vec![0.0; model.mode_count()];
-    let shapes: Vec<_> = (0..count)
-        .map(|_| {
-            fill_normal(&mut random, &mut coefficients);
-            model.shape(&coefficients)
-        })
-        .collect();
-    DMatrix::from_columns(&shapes)
+    common::drawn(&model, count, &mut random)
 }
 
 /// Shapes of 4,284 points whose coordinates vary independently, by less and less.
@@ -122,7 +110,7 @@ fn write(folder: &Path) {
         for (index, shape) in drawn(name, 20, sample).column_iter().enumerate() {
             #[allow(clippy::cast_possible_truncation, reason = "a mesh file has single precision")]
             let points: Vec<f32> = shape.iter().map(|x| *x as f32).collect();
-            let bytes = formats::write_ply(&points, 3, heads(name).cells(), None);
+            let bytes = formats::write_ply(&points, 3, packaged_head(name).cells(), None);
             std::fs::write(of.join(format!("{name}-{index:02}.ply")), bytes).unwrap();
         }
     }

@@ -1,44 +1,31 @@
 //! Two groups of packaged heads, as a program that uses the library compares them.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+use crate::common::packaged_head;
 use nalgebra::DMatrix;
 use shapevenn::evidence::{Evidence, Groups, Options};
-use shapevenn::formats::{self, Input};
 use shapevenn::model::{Alignment, LinearModel};
 use shapevenn::report::EvidenceReport;
-use shapevenn::sampling::{Stream, fill_normal, stream};
+use shapevenn::sampling::{Stream, stream};
 
 const SHAPES: usize = 20;
 
-fn heads(name: &str) -> LinearModel {
-    let path = format!("demos/heads/heads-{name}.npz");
-    let file = Input::of_bytes(&path, std::fs::read(&path).unwrap());
-    formats::open(&[file], &formats::Options::default()).unwrap().part.model
-}
-
 fn drawn(model: &LinearModel, sample: usize) -> DMatrix<f64> {
     let mut random = stream(2, Stream::Experiment, 7, sample);
-    let mut coefficients = vec![0.0; model.mode_count()];
-    let shapes: Vec<_> = (0..SHAPES)
-        .map(|_| {
-            fill_normal(&mut random, &mut coefficients);
-            model.shape(&coefficients)
-        })
-        .collect();
-    DMatrix::from_columns(&shapes)
+    crate::common::drawn(model, SHAPES, &mut random)
 }
 
 fn compared(a: &DMatrix<f64>, b: &DMatrix<f64>) -> EvidenceReport {
     let groups = Groups::new(3, a, b, Alignment::None).unwrap();
     let options = Options { permutations: 199, ..Options::default() };
-    let mut evidence = Evidence::new(groups, options).unwrap();
+    let mut evidence = Evidence::new(groups, options);
     evidence.advance(usize::MAX);
     evidence.report().unwrap()
 }
 
 #[test]
 fn two_groups_of_male_heads_read_as_one_population() {
-    let male = heads("male");
+    let male = packaged_head("male");
     let found = compared(&drawn(&male, 0), &drawn(&male, 1));
     for statistic in found.one_population.statistics.iter().chain(&found.one_covariance.statistics)
     {
@@ -54,7 +41,7 @@ fn two_groups_of_male_heads_read_as_one_population() {
 
 #[test]
 fn male_and_female_heads_differ_in_mean_and_shares_at_nearly_every_vertex() {
-    let found = compared(&drawn(&heads("male"), 0), &drawn(&heads("female"), 1));
+    let found = compared(&drawn(&packaged_head("male"), 0), &drawn(&packaged_head("female"), 1));
     for statistic in &found.one_population.statistics[..5] {
         assert_eq!(statistic.p, 1.0 / 200.0, "the least there is: {statistic:?}");
     }

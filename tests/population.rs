@@ -1,41 +1,26 @@
 //! Reach, σ from the population and evidence of comparisons, against what they must be by construction.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use crate::common::{compared, face_like_pair, model, random_orthonormal, report};
+use crate::common::{compared, face_like_pair, model, packaged_head, random_orthonormal, report};
 use nalgebra::{DMatrix, DVector};
 use shapevenn::comparison::{Comparison, Stage};
-use shapevenn::demos::HEADS;
 use shapevenn::evidence::left_out_errors;
-use shapevenn::files;
 use shapevenn::model::{Alignment, LinearModel, Similarity, model_of_population};
 use shapevenn::pair::{PointSelection, Preparation};
 use shapevenn::report::{ModelReport, Report, StatisticName};
-use shapevenn::sampling::{Stream, fill_normal, stream};
+use shapevenn::sampling::{Stream, stream};
 use shapevenn::settings::{Settings, SigmaSource};
 
 /// `count` shapes of a model (d·n × N).
 fn drawn(model: &LinearModel, count: usize, seed: u64) -> DMatrix<f64> {
     let mut random = stream(seed, Stream::Display, 9, 0);
-    let mut coefficients = vec![0.0; model.mode_count()];
-    let shapes: Vec<_> = (0..count)
-        .map(|_| {
-            fill_normal(&mut random, &mut coefficients);
-            model.shape(&coefficients)
-        })
-        .collect();
-    DMatrix::from_columns(&shapes)
+    crate::common::drawn(model, count, &mut random)
 }
 
 /// A model of `count` shapes of another model.
 fn sampled(model: &LinearModel, count: usize, seed: u64) -> LinearModel {
     let shapes = drawn(model, count, seed);
     model_of_population(model.dimension(), shapes, Alignment::None).unwrap()
-}
-
-fn head(name: &str) -> LinearModel {
-    assert!(HEADS.contains(&name), "{name}");
-    let path = format!("{}/demos/heads/heads-{name}.npz", env!("CARGO_MANIFEST_DIR"));
-    files::open_demo(&format!("heads-{name}"), Some(&std::fs::read(path).unwrap())).unwrap().model
 }
 
 fn few() -> Settings {
@@ -49,7 +34,7 @@ fn smallest(found: &Report) -> f64 {
 
 #[test]
 fn two_samples_of_one_population_read_as_chance_and_those_of_two_do_not() {
-    let (male, female) = (head("male"), head("female"));
+    let (male, female) = (packaged_head("male"), packaged_head("female"));
     let of = |a: &LinearModel, b: &LinearModel| report(&compared(a, b, few()));
     let first = sampled(&male, 20, 101);
     let null = of(&first, &sampled(&male, 20, 102));
@@ -75,7 +60,7 @@ fn two_samples_of_one_population_read_as_chance_and_those_of_two_do_not() {
 fn the_recommended_tolerance_is_raised_to_where_the_models_meet() {
     // Without what the files know of their populations.
     let bare = |name: &str| {
-        let known = head(name);
+        let known = packaged_head(name);
         LinearModel::from_scaled_basis(3, known.mean().clone(), known.scaled_basis()).unwrap().0
     };
     let found = report(&compared(&bare("male"), &bare("female"), few()));

@@ -13,7 +13,7 @@ use shapevenn::formats::{self, Input, Options};
 use shapevenn::model::{Alignment, LinearModel, ShapesRole, model_of_population};
 use shapevenn::pair::Pair;
 use shapevenn::report::Report;
-use shapevenn::sampling::{Stream, fill_normal, stream};
+use shapevenn::sampling::{Stream, stream};
 use shapevenn::settings::{Settings, SigmaSource};
 
 /// What `make_training.py` noted about a file.
@@ -42,14 +42,7 @@ fn shapes_of(model: &LinearModel) -> DMatrix<f64> {
 
 fn drawn(model: &LinearModel, count: usize, seed: u64) -> DMatrix<f64> {
     let mut random = stream(seed, Stream::Display, 9, 0);
-    let mut coefficients = vec![0.0; model.mode_count()];
-    let shapes: Vec<DVector<f64>> = (0..count)
-        .map(|_| {
-            fill_normal(&mut random, &mut coefficients);
-            model.shape(&coefficients)
-        })
-        .collect();
-    DMatrix::from_columns(&shapes)
+    crate::common::drawn(model, count, &mut random)
 }
 
 #[test]

@@ -45,7 +45,7 @@ fn groups() -> Groups {
 
 fn found(permutations: usize) -> EvidenceReport {
     let options = Options { permutations, ..Options::default() };
-    let mut evidence = Evidence::new(groups(), options).unwrap();
+    let mut evidence = Evidence::new(groups(), options);
     evidence.run();
     evidence.report().unwrap()
 }

@@ -18,11 +18,14 @@ pub(crate) struct Prepared {
     plausibility: f64,
     operators: Sides<OnceLock<ResidualOperator>>,
     joint: OnceLock<Joint>,
+    /// Mean distance of every vertex to the other model.
+    missed: Sides<OnceLock<Vec<f64>>>,
 }
 
 impl Prepared {
     pub(super) fn new(pair: Pair, plausibility: f64) -> Self {
-        Self { pair, plausibility, operators: Sides::default(), joint: OnceLock::new() }
+        let (operators, joint, missed) = (Sides::default(), OnceLock::new(), Sides::default());
+        Self { pair, plausibility, operators, joint, missed }
     }
 
     pub(super) fn pair(&self) -> &Pair {
@@ -45,6 +48,11 @@ impl Prepared {
 
     pub(super) fn operators(&self) -> Sides<&ResidualOperator> {
         Sides::each(|side| self.operator(side))
+    }
+
+    /// [`ResidualOperator::mean_vertex_residuals`] of a side (n), which every picture of a difference needs.
+    pub(super) fn missed(&self, side: Side) -> &[f64] {
+        self.missed[side].get_or_init(|| self.operator(side).mean_vertex_residuals())
     }
 
     pub(super) fn joint(&self) -> &Joint {

@@ -38,8 +38,7 @@ impl Modes {
     /// The first `most` of the deviations, less where they span fewer.
     pub(super) fn of(deviations: &DMatrix<f64>, most: usize) -> Self {
         let by_shapes = deviations.ncols() <= deviations.nrows();
-        let small = if by_shapes { gram(deviations) } else { gram(&deviations.transpose()) };
-        let (vectors, values) = eigen(small);
+        let (vectors, values) = eigen(smaller_scatter(deviations));
         let least = SMALLEST_VARIANCE * values[0];
         let kept = values.iter().take(most).take_while(|value| **value > least).count();
         let vectors = vectors.columns(0, kept).into_owned();
@@ -66,11 +65,15 @@ pub(super) fn outside(vectors: DMatrix<f64>, basis: &DMatrix<f64>) -> DMatrix<f6
     vectors - within
 }
 
+/// DᵀD or DDᵀ of D (r × m), whichever is smaller; both have the same eigenvalues but for zeros.
+fn smaller_scatter(vectors: &DMatrix<f64>) -> DMatrix<f64> {
+    if vectors.ncols() <= vectors.nrows() { gram(vectors) } else { gram(&vectors.transpose()) }
+}
+
 /// Eigenvalues of the scatter of `vectors` (r × m), largest first, as many as the smaller of r and m.
 pub(super) fn scatter_eigenvalues(vectors: &DMatrix<f64>) -> Vec<f64> {
-    let small =
-        if vectors.ncols() <= vectors.nrows() { gram(vectors) } else { gram(&vectors.transpose()) };
-    let mut values: Vec<f64> = small.symmetric_eigenvalues().iter().copied().collect();
+    let scatter = smaller_scatter(vectors);
+    let mut values: Vec<f64> = scatter.symmetric_eigenvalues().iter().copied().collect();
     values.sort_unstable_by(|one, other| other.total_cmp(one));
     values
 }

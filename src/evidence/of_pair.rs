@@ -18,17 +18,7 @@ impl Evidence {
     ) -> Option<Result<Self, EvidenceError>> {
         let modes = pair.models().into_iter().filter_map(LinearModel::modes_cut_to).min();
         let groups = Groups::of_pair(pair)?;
-        Some(
-            groups
-                .and_then(|groups| Self::new(groups, Options { permutations, seed, modes, sigma })),
-        )
-    }
-
-    /// Takes all that is left.
-    pub fn run(&mut self) {
-        while !self.is_done() {
-            self.advance(usize::MAX);
-        }
+        Some(groups.map(|groups| Self::new(groups, Options { permutations, seed, modes, sigma })))
     }
 }
 

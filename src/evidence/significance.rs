@@ -10,6 +10,7 @@
 //! sequentially rejective multiple test procedure", Scand. J. Stat. 6 (1979); Benjamini & Hochberg,
 //! "Controlling the false discovery rate", J. R. Stat. Soc. B 57 (1995).
 
+use crate::linalg::quantile;
 use crate::report::{Chance, Histogram};
 
 /// Numbers that differ by less than this share are equal: the same relabelling with A and B exchanged gives
@@ -90,15 +91,6 @@ fn step_between(sorted: &[f64]) -> Option<f64> {
     let gaps = || sorted.windows(2).map(|pair| pair[1] - pair[0]).filter(|gap| *gap > 1e-9 * range);
     let step = gaps().fold(range, f64::min);
     gaps().all(|gap| (gap / step - libm::round(gap / step)).abs() < 1e-6).then_some(step)
-}
-
-/// Quantile of ascending numbers, linear between neighbours.
-fn quantile(sorted: &[f64], probability: f64) -> f64 {
-    let at = probability * (sorted.len() - 1) as f64;
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below the length")]
-    let below = (at as usize).min(sorted.len() - 1);
-    let above = (below + 1).min(sorted.len() - 1);
-    sorted[below] + (at - below as f64) * (sorted[above] - sorted[below])
 }
 
 /// Holm's adjusted p-values: the least level at which all of them together would call each different, with the

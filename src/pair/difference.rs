@@ -235,6 +235,16 @@ impl<'a> Difference<'a> {
     }
 }
 
+/// 1 − exp(−½(d/σ)²): how much of a shape at the distance d is outside the other model, softly (Weiherer et al. 2024).
+pub(crate) fn soft_share(distance: f64, sigma: f64) -> f64 {
+    -libm::expm1(-0.5 * (distance / sigma) * (distance / sigma))
+}
+
+/// Its mean over distances: the share of their shapes that counts as outside.
+pub(crate) fn share_beyond(distances: &[f64], sigma: f64) -> f64 {
+    distances.iter().map(|d| soft_share(*d, sigma)).sum::<f64>() / distances.len() as f64
+}
+
 impl RejectionTarget for Difference<'_> {
     fn dimension(&self) -> usize {
         self.distances.side.mode_count()
@@ -243,7 +253,7 @@ impl RejectionTarget for Difference<'_> {
     fn acceptance(&self, points: &[f64]) -> Vec<(f64, f64)> {
         let level = self.criterion.level;
         let share = |score: f64| match self.criterion.score.definition {
-            DifferenceDefinition::Soft => -libm::expm1(-0.5 * (score / level) * (score / level)),
+            DifferenceDefinition::Soft => soft_share(score, level),
             _ => f64::from(score >= level),
         };
         self.scores(points).into_iter().map(|(score, d)| (share(score), d)).collect()

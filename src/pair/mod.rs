@@ -21,6 +21,7 @@ mod tolerance;
 mod two_models;
 mod vertex_residuals;
 
+pub(crate) use difference::share_beyond;
 pub use difference::{Criterion, Difference, DifferenceDefinition, Level};
 pub use error::PairError;
 pub use fit::{

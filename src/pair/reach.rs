@@ -15,8 +15,8 @@
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
-use super::difference::about_the_mean;
-use crate::linalg::eigen;
+use super::difference::{about_the_mean, share_beyond};
+use crate::linalg::{eigen, quantile};
 use crate::model::LinearModel;
 use crate::pair::ResidualOperator;
 use crate::sampling::{Stream, fill_normal, stream};
@@ -127,8 +127,7 @@ impl ReachDraws {
 
     /// Share of the shapes that count as outside the other model at a tolerance, E[1 − exp(−½(d/σ)²)].
     pub fn share_beyond(&self, sigma: f64) -> f64 {
-        let beyond = |d: &f64| -libm::expm1(-0.5 * (d / sigma) * (d / sigma));
-        self.distances.iter().map(beyond).sum::<f64>() / self.distances.len() as f64
+        share_beyond(&self.distances, sigma)
     }
 }
 
@@ -176,15 +175,6 @@ impl ResidualOperator {
     pub fn vertex_offsets(&self) -> Vec<f64> {
         self.vertex_residuals(closing_coefficients(self).as_slice())
     }
-}
-
-/// By linear interpolation between ascending values, as `numpy.quantile`.
-fn quantile(ascending: &[f64], share: f64) -> f64 {
-    let place = share * (ascending.len() - 1) as f64;
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 ≤ share ≤ 1")]
-    let below = (place.floor() as usize).min(ascending.len() - 1);
-    let above = (below + 1).min(ascending.len() - 1);
-    ascending[below] + (place - place.floor()) * (ascending[above] - ascending[below])
 }
 
 /// Half the distance of the quantiles one binomial standard deviation of the rank below and above.

@@ -143,7 +143,7 @@ pub fn evidence(
                 ..Options::default()
             };
             let groups = Groups::new(population.dimension(), &a, &b, Alignment::None);
-            let Ok(mut run) = groups.and_then(|groups| Evidence::new(groups, options)) else {
+            let Ok(mut run) = groups.map(|groups| Evidence::new(groups, options)) else {
                 continue;
             };
             run.run();

@@ -14,6 +14,7 @@ mod testing;
 pub(crate) use testing::repetitions;
 
 use nalgebra::{DMatrix, DVector};
+use rand::Rng;
 use shapevenn::comparison::Comparison;
 use shapevenn::measure::{AffineSpace, Displacement, affine_grassmann_distance};
 use shapevenn::model::LinearModel;
@@ -21,6 +22,26 @@ use shapevenn::pair::ResidualOperator;
 use shapevenn::report::{ModelReport, Report, Seconds};
 use shapevenn::sampling::{Draws, Gaussian, Stream, fill_normal, stream, summarise};
 use shapevenn::settings::Settings;
+
+/// A packaged head model.
+pub fn packaged_head(name: &str) -> LinearModel {
+    assert!(shapevenn::demos::HEADS.contains(&name), "{name}");
+    let path = format!("{}/demos/heads/heads-{name}.npz", env!("CARGO_MANIFEST_DIR"));
+    let bytes = std::fs::read(path).unwrap();
+    shapevenn::files::open_demo(&format!("heads-{name}"), Some(&bytes)).unwrap().model
+}
+
+/// `count` random shapes of a model (d·n × count).
+pub fn drawn(model: &LinearModel, count: usize, random: &mut impl Rng) -> DMatrix<f64> {
+    let mut coefficients = vec![0.0; model.mode_count()];
+    let shapes: Vec<_> = (0..count)
+        .map(|_| {
+            fill_normal(random, &mut coefficients);
+            model.shape(&coefficients)
+        })
+        .collect();
+    DMatrix::from_columns(&shapes)
+}
 
 /// A comparison, run to its end.
 pub fn compared(a: &LinearModel, b: &LinearModel, settings: Settings) -> Comparison {

@@ -55,7 +55,6 @@ impl Comparison {
             let mode = exclusive.directions.column(0) * EXCLUSIVE_REACH;
             (ContrastOf::ExclusiveMode, mode.as_slice().to_vec())
         };
-        let missed = operator.mean_vertex_residuals();
         let largest = operator.vertex_residuals(&coefficients).into_iter().fold(0.0, f64::max);
         if largest <= ROUNDING * model.size() {
             return None;
@@ -66,7 +65,7 @@ impl Comparison {
             shape: single(shape.iter()).into(),
             of,
             times: 1.0 + by,
-            missed: single(&missed).into(),
+            missed: single(self.prepared.missed(side)).into(),
         })
     }
 }

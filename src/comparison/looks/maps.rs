@@ -18,7 +18,7 @@ use crate::error::ComparisonError;
 use crate::linalg::{Moments, TypedArray, single};
 use crate::measure::{VertexCovariances, scaled_modes, semi_axes};
 use crate::model::{Kind, LinearModel, Sides, vertex_normals};
-use crate::pair::{JointModel, ResidualOperator, formed, nearest_coefficients};
+use crate::pair::{JointModel, formed, nearest_coefficients};
 
 /// What a map shows at every vertex, in the unit of A unless it says otherwise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -106,9 +106,11 @@ impl Comparison {
             }
             MapName::Distance => unsigned(self.distance_of_mean(region)?),
             MapName::Reach => {
-                unsigned(self.of_sides(region, ResidualOperator::mean_vertex_residuals))
+                unsigned(self.of_sides(region, |side| self.prepared.missed(side).to_vec()))
             }
-            MapName::Offset => unsigned(self.of_sides(region, ResidualOperator::vertex_offsets)),
+            MapName::Offset => unsigned(
+                self.of_sides(region, |side| self.prepared.operator(side).vertex_offsets()),
+            ),
             MapName::Chance => {
                 let report = self.run.finished().map(|finished| &finished.report);
                 let evidence = report.and_then(|report| report.evidence.as_ref());
@@ -226,16 +228,11 @@ impl Comparison {
             let image = formed(model, &nearest_coefficients(model, &shape));
             self.lengths(&(&shape - DVector::from_vec(image)))
         };
-        Ok(match region {
-            Region::A | Region::AWithoutB => to(Side::B),
-            Region::B | Region::BWithoutA => to(Side::A),
-            Region::Intersection => larger(to(Side::A), to(Side::B)),
-        })
+        Ok(self.of_sides(region, |side| to(side.other())))
     }
 
     /// A map of the model of a region against the other; of the intersection the larger of both.
-    fn of_sides(&self, region: Region, map: impl Fn(&ResidualOperator) -> Vec<f64>) -> Vec<f64> {
-        let of = |side: Side| map(self.prepared.operator(side));
+    fn of_sides(&self, region: Region, of: impl Fn(Side) -> Vec<f64>) -> Vec<f64> {
         match region {
             Region::A | Region::AWithoutB => of(Side::A),
             Region::B | Region::BWithoutA => of(Side::B),

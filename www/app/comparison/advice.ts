@@ -7,7 +7,7 @@
  * deviations; a deviation of more than two standard errors is reported. The other limits are our own choice.
  */
 import type { ChainPlots, PairPlots, Sampler, SweepPoint } from "../../worker/protocol";
-import { count, length, number, percent, plusMinus } from "../text/format";
+import { capital, count, length, number, percent, plusMinus } from "../text/format";
 import type { Advice } from "../ui/Chart";
 import { average, halvesOf, oddest, splitRHat, spreadOf } from "./chains";
 import {
@@ -34,8 +34,6 @@ const calm = (text: string): Advice => ({
 function remedy(sampler: Sampler): string {
   return sampler === "auto" ? "draw longer" : "draw longer or use the automatic sampler";
 }
-
-const capital = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 
 /** Advice on the trace plot; `rHat` is the engine's value for all draws, null where it is infinite. */
 export function traceAdvice(

@@ -1,7 +1,7 @@
 /** The sentences of the engine's answer as phrases of the page: formats their numbers, names the models. Pure. */
 import type { Name, Quantity, Report, Sentence, Topic } from "../../worker/protocol";
 import type { Nouns } from "../state/demos";
-import { count, length, number, percent } from "../text/format";
+import { capital, count, length, number, percent } from "../text/format";
 import { type Phrase, reported } from "../text/phrase";
 
 /** Text of a number of a sentence. */
@@ -58,8 +58,4 @@ export const CHANCE: Topic[] = ["more-than-chance", "no-more-than-chance", "chan
 /** What the report says about chance. */
 export function chanceTopic(report: Report): Topic | null {
   return report.answer?.find(({ about }) => CHANCE.includes(about))?.about ?? null;
-}
-
-function capital(text: string): string {
-  return text.charAt(0).toUpperCase() + text.slice(1);
 }

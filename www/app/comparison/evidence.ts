@@ -1,6 +1,6 @@
 /** Sentences about whether the two groups of training shapes differ by more than chance, each for every outcome. Pure. */
 import type { EvidenceReport, Hypothesis, Statistic, StatisticName } from "../../worker/protocol";
-import { count, length, number, percent } from "../text/format";
+import { count, length, listed, number, percent } from "../text/format";
 import { type Phrase, reported } from "../text/phrase";
 import { pText } from "./answer";
 
@@ -208,9 +208,4 @@ export function statisticSentence(
     reported(`${path}.pAdjusted`, one.pAdjusted, pText(one.pAdjusted)),
     ".",
   ];
-}
-
-/** “one, two and three”. */
-export function listed(words: string[]): string {
-  return words.length < 2 ? words.join("") : `${words.slice(0, -1).join(", ")} and ${words.at(-1)}`;
 }

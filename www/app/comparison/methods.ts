@@ -3,10 +3,10 @@ import type { InferenceReport, Report, Sampler, Side, Sides, Topic } from "../..
 import { nounsOf } from "../state/demos";
 import { completed, preparationWords } from "../state/preparation";
 import { type Difference, letters } from "../state/regions";
-import { count, length, number, percent, plusMinus } from "../text/format";
+import { count, length, listed, number, percent, plusMinus } from "../text/format";
 import { type Phrase, reported } from "../text/phrase";
 import { CHANCE, chanceTopic, said } from "./answer";
-import { IN_A_SENTENCE, listed } from "./evidence";
+import { IN_A_SENTENCE } from "./evidence";
 import { isContained } from "./reach";
 import { DEFINITIONS } from "./words";
 

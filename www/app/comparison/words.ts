@@ -21,7 +21,17 @@ import { completed, preparationWords, UNSTATED } from "../state/preparation";
 import { DIFFERENCE_OF, letters } from "../state/regions";
 import { SIGMA_SINCE } from "../state/settings";
 import type { Reading } from "../state/state";
-import { bytes, count, degrees, length, number, percent, plusMinus } from "../text/format";
+import {
+  bytes,
+  capital,
+  count,
+  degrees,
+  length,
+  listed,
+  number,
+  percent,
+  plusMinus,
+} from "../text/format";
 import { type Phrase, reported } from "../text/phrase";
 import { said } from "./answer";
 
@@ -410,11 +420,6 @@ function runName(run: number[]): string {
   return run.length === 2 ? `modes ${from} and ${next}` : `modes ${from} to ${run.at(-1)}`;
 }
 
-function listed(names: string[]): string {
-  if (names.length < 2) return names.join("");
-  return `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`;
-}
-
 /** Relative difference of the two covariances from which on they describe different sets of shapes. */
 const DISAGREE = 0.5;
 
@@ -572,8 +577,4 @@ export function alignmentWords(found: Inspection, unit: string): string | null {
   if (rigid !== null) parts.push(`${length(rigid, unit)} aligned rigidly`);
   if (similarity !== null) parts.push(`${length(similarity, unit)} with scale`);
   return parts.length === 0 ? null : parts.join(", ");
-}
-
-function capital(text: string): string {
-  return text.charAt(0).toUpperCase() + text.slice(1);
 }

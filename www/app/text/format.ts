@@ -1,4 +1,13 @@
-/** Formats numbers, shares, lengths, angles, durations and sizes as text. */
+/** Formats numbers, shares, lengths, angles, durations, sizes and lists as text. */
+
+export function capital(text: string): string {
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+/** “one, two and three”. */
+export function listed(words: string[]): string {
+  return words.length < 2 ? words.join("") : `${words.slice(0, -1).join(", ")} and ${words.at(-1)}`;
+}
 
 /** A number with three significant digits, not in scientific notation between 0.001 and 10⁶. */
 export function number(value: number, digits = 3): string {
