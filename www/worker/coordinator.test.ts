@@ -66,6 +66,21 @@ test("a cancel between two slices ends the run with a report", () => {
   assert.equal(posted.length, before, "no slice after the cancel");
 });
 
+test("slices of relabelling take more at a time when they are fast", () => {
+  const budgets: number[] = [];
+  const { coordinator, step } = begin(0, {
+    advance: (budget) => {
+      budgets.push(budget);
+      return progress(budgets.length < 2 ? "intersection" : "evidence");
+    },
+  });
+  coordinator.receive(run);
+  for (let slice = 0; slice < 8; slice += 1) step();
+  const [, , first, second] = budgets;
+  assert.equal(first, 64, "what an evaluation costs is forgotten");
+  assert.equal(second, 256, "although no distance was evaluated");
+});
+
 test("a cancel of another run changes nothing", () => {
   const { coordinator, step, kinds } = begin(1);
   coordinator.receive(run);

@@ -279,10 +279,14 @@ export class Coordinator {
       const progress = this.#engine.advance(run.budget);
       const now = performance.now();
       if (run.stage === "intersection" || run.stage === "differences") run.drawing += now - begun;
-      run.budget = nextBudget(run.budget, progress.evaluations - run.evaluated, now - begun);
+      // Relabelling evaluates no distances: there the budget itself is what was done.
+      const done = run.stage === "evidence" ? run.budget : progress.evaluations - run.evaluated;
+      run.budget = nextBudget(run.budget, done, now - begun);
       run.evaluated = progress.evaluations;
       const changed = progress.stage !== run.stage;
       run.stage = progress.stage;
+      // What an evaluation costs says nothing of a relabelling.
+      if (changed && run.stage === "evidence") run.budget = firstBudget();
       if (progress.stage === "done") {
         this.#finish(run, false);
         return;
