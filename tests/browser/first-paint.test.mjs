@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { test } from "node:test";
+import { gzipSync } from "node:zlib";
 import { root } from "../../scripts/steps/run.mjs";
 import {
   accessibilityFaults,
@@ -39,6 +40,35 @@ test("the first paint is the stored comparison of male and female heads, not a r
       /^More than chance: male heads lie .* random groups of 200/,
     );
     await assertShows(page, report);
+  });
+});
+
+test("the first finished picture needs at most 2.5 MB, and neither engine, models nor draws", async (t) => {
+  await withPage({ fresh: true }, async ({ url, page }) => {
+    const asked = new Set();
+    page.on("request", (request) => asked.add(new URL(request.url()).pathname.slice(1)));
+    let release;
+    const drawn = new Promise((resolve) => {
+      release = resolve;
+    });
+    const later = /\/(engine|demos)\/|\/draws\.npz$/;
+    await page.route(later, (route) => drawn.then(() => route.continue()));
+    await page.goto(url);
+    await untilDrawn(page);
+    const needed = [...asked].filter((path) => !later.test(`/${path}`));
+    const sizes = await Promise.all(
+      needed.map(async (path) => {
+        const bytes = await readFile(join(root, "dist", path || "index.html")).catch(() => "");
+        return gzipSync(bytes).length;
+      }),
+    );
+    const total = sizes.reduce((sum, size) => sum + size, 0);
+    t.diagnostic(`${(total / 1e6).toFixed(2)} MB compressed: ${needed.join(", ")}`);
+    assert.ok(needed.includes("first/picture.json"), "a stored picture");
+    assert.ok(total > 3e5 && total <= 2.5e6, `${total} bytes`);
+    release();
+    await untilState(page, "done");
+    assert.ok(asked.has("first/draws.npz"), "the rest comes after it");
   });
 });
 

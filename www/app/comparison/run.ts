@@ -17,6 +17,7 @@ import {
   emptyRegions,
   exaggeration,
   failedKey,
+  geometry,
   held,
   inspected,
   nouns,
@@ -280,9 +281,9 @@ function refiner(running: Held): (progress: Progress, now: number) => void {
 
 /** How many random shapes of a region are requested: few surfaces side by side, many outlines or points overlaid. */
 export function shapeCount(): number {
-  const geometry = slots.a.value?.geometry;
-  if (geometry?.segments) return 60;
-  return geometry && isCloud(geometry) ? 600 : 9;
+  const { a } = geometry.value;
+  if (a?.segments) return 60;
+  return a && isCloud(a) ? 600 : 9;
 }
 
 async function showRegions(regions: Region[]): Promise<void> {

@@ -23,6 +23,7 @@ import { keptModes } from "../state/preparation";
 import { otherSide } from "../state/regions";
 import {
   demo,
+  geometry,
   linked,
   opening,
   partName,
@@ -223,7 +224,7 @@ function Fact({ term, value }: { term: string; value: string }) {
 function Picture({ side }: { side: Side }) {
   const target = useRef<HTMLCanvasElement>(null);
   const key = `${drawable.value} ${isDark()}`;
-  const geometry = slots[side].value?.geometry;
+  const mean = geometry.value[side];
   useEffect(() => {
     const canvas = target.current;
     const picture = cardPicture(side, PICTURE_PX);
@@ -235,7 +236,7 @@ function Picture({ side }: { side: Side }) {
     canvas.width = picture.width;
     canvas.height = picture.height;
     canvas.getContext("2d")?.drawImage(picture, 0, 0);
-  }, [geometry, key, side]);
+  }, [mean, key, side]);
   return (
     <canvas
       ref={target}

@@ -28,12 +28,15 @@ import {
   result,
   run,
   settings,
+  shapes,
+  storedGeometry,
 } from "../state/state";
 import { fetchStored } from "../state/stored";
 import { watchTheme } from "../state/theme";
 import { joinUntil } from "../state/undo";
 import { watchExplorer } from "../tabs/explore/asking";
 import { watchPlaying } from "../tabs/explore/playing";
+import { untilPictured } from "./pictured";
 
 export function boot(): void {
   const link = readLink(location.hash);
@@ -68,17 +71,23 @@ async function bootComparison(link: LinkState): Promise<void> {
   begun.value = true;
   tellMisread();
   mayBeOlder.value = mayMeanAnotherSigma(location.hash);
-  engineClient();
-  const models = openModels(link);
-  const stored = await fetchStored();
+  const stored = await fetchStored(mayBeStored(link));
   if (stored && wants(link, settingsKey(stored.settings))) {
-    // A failure is handled when the comparison is restored.
-    stored.draws().catch(() => undefined);
     batch(() => {
       settings.value = stored.settings;
       result.value = storedResult(stored);
+      if (stored.picture) {
+        storedGeometry.value = stored.picture.geometry;
+        shapes.value = stored.picture.shapes;
+      }
     });
+    // What the picture needs has come: the engine, the models and the draws wait until it is seen.
+    if (stored.picture && showsPicture(link)) await untilPictured();
+    // A failure is handled when the comparison is restored.
+    stored.draws().catch(() => undefined);
   }
+  engineClient();
+  const models = openModels(link);
   watchPair();
   watchChoices(stored);
   watchPictures();
@@ -92,11 +101,17 @@ async function bootComparison(link: LinkState): Promise<void> {
   await models;
 }
 
-/** Whether the address opens the stored comparison, as an empty one does. */
+/** Whether the address has the models of the stored comparison, as an empty one does. */
+const mayBeStored = (link: LinkState) => !link.urls && link.demo === FIRST_DEMO.id;
+
+/** Whether the address opens the stored comparison. */
 function wants(link: LinkState, storedKey: string): boolean {
-  if (link.urls || link.demo !== FIRST_DEMO.id) return false;
-  return settingsKey(link.settings) === storedKey;
+  return mayBeStored(link) && settingsKey(link.settings) === storedKey;
 }
+
+/** Whether the view of the address can be drawn from the stored picture alone. */
+const showsPicture = ({ tab, view }: LinkState) =>
+  tab === "regions" && (view === "contrast" || view === "mean");
 
 /** Reports keys and values of a link that this page does not know, as from a newer page. */
 function tellMisread(): void {

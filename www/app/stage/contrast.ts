@@ -2,7 +2,7 @@
 import { computed } from "@preact/signals";
 import type { Contrast, RegionShapes, Side } from "../../worker/protocol";
 import { DIFFERENCE_OF, letters } from "../state/regions";
-import { SIDES, shapes, slots } from "../state/state";
+import { geometry, SIDES, shapes } from "../state/state";
 import { number } from "../text/format";
 import { isCloud } from "../viewer/contents";
 
@@ -11,8 +11,8 @@ export const contrastSentence = computed(() => {
   const of = (side: Side) => shapes.value[DIFFERENCE_OF[side]];
   const drawn = SIDES.filter((side) => of(side));
   if (drawn.length === 0) return "";
-  const geometry = slots.a.value?.geometry;
-  if (geometry && isCloud(geometry)) {
+  const { a } = geometry.value;
+  if (a && isCloud(a)) {
     return "All panes show draws; A∖B and B∖A are coloured by what the other model misses.";
   }
   const sentences = drawn.map((side) => pushed(side, of(side)));

@@ -6,6 +6,7 @@ import { engineClient, onEngineRestart } from "../state/engine";
 import { latest } from "../state/latest";
 import { REGIONS } from "../state/regions";
 import {
+  geometry,
   held,
   lockedRange,
   mapMode,
@@ -129,8 +130,8 @@ function deviations(): ShownMap["values"] {
   }
   if (Object.keys(values).length > 0) return values;
   for (const side of ["a", "b"] as const) {
-    const geometry = slots[side].value?.geometry;
-    if (geometry) values[side] = geometry.vertexSd;
+    const own = geometry.value[side];
+    if (own) values[side] = own.vertexSd;
   }
   return values;
 }
@@ -214,7 +215,7 @@ const askEllipsoids = latest(async ({ key, vertex: number }: { key: string; vert
 export const pointCount = computed(() => {
   const dimension = slots.a.value?.report.dimension ?? 3;
   const shown = shapes.value.intersection ?? shapes.value.a;
-  const mean = shown?.mean ?? slots.a.value?.geometry?.mean;
+  const mean = shown?.mean ?? geometry.value.a?.mean;
   return mean ? mean.length / dimension : 0;
 });
 

@@ -9,11 +9,11 @@ import {
   camera,
   compared,
   embedded,
+  geometry,
   packagedHeads,
   painting,
   region,
   shapes,
-  slots,
   tab,
   vertex,
   view,
@@ -42,7 +42,7 @@ export const viewer = signal<Viewer | null>(null);
 export const drawable = signal(false);
 
 export const scene = computed<Scene>(() => ({
-  geometry: { a: slots.a.value?.geometry ?? null, b: slots.b.value?.geometry ?? null },
+  geometry: geometry.value,
   compared: compared.value,
   shapes: shapes.value,
   mode: view.value,
@@ -227,17 +227,17 @@ export function layoutOf(
 
 /** Picture of the mean of one model for its card; null until the viewer is loaded. */
 export function cardPicture(side: Side, size: number): HTMLCanvasElement | null {
-  const geometry = slots[side].value?.geometry;
+  const mean = geometry.peek()[side];
   const made = viewer.value;
-  if (!geometry || !made || geometry.dimension !== dimension.peek()) return null;
-  const content = cardContent(geometry, side, scene.peek());
+  if (!mean || !made || mean.dimension !== dimension.peek()) return null;
+  const content = cardContent(mean, side, scene.peek());
   if (!content) return null;
   const one: Scene = {
     ...scene.peek(),
     compared: null,
     shapes: {},
     mode: "mean",
-    geometry: { a: geometry, b: null },
+    geometry: { a: mean, b: null },
   };
   return made.capture(Math.min(devicePixelRatio, 2), {
     width: size,

@@ -168,6 +168,15 @@ export const alone = computed<Region | null>(() => (painting.value ? "a" : regio
 export const lockedRange = signal<[number, number] | null>(null);
 export const theme = signal<Theme>("system");
 
+/** How the two models of the stored comparison are drawn until the engine has opened them. */
+export const storedGeometry = signal<Sides<Geometry> | null>(null);
+/** How the two models are drawn. */
+export const geometry = computed<Record<Side, Geometry | null>>(() => {
+  const [a, b] = [slots.a.value, slots.b.value];
+  if (!a && !b && storedGeometry.value) return storedGeometry.value;
+  return { a: a?.geometry ?? null, b: b?.geometry ?? null };
+});
+
 /** The example pair that is open, if it is one. */
 export const demo = computed(() => {
   const [a, b] = [slots.a.value?.source, slots.b.value?.source];
@@ -177,12 +186,12 @@ export const demo = computed(() => {
 });
 
 /** Whether both models are head models of the page. */
-export const packagedHeads = computed(() =>
-  SIDES.every((side) => {
-    const source = slots[side].value?.source;
-    return source?.kind === "demo" && source.name.startsWith("heads-");
-  }),
-);
+export const packagedHeads = computed(() => {
+  const sources = SIDES.map((side) => slots[side].value?.source);
+  const names = sources.map((source) => (source?.kind === "demo" ? source.name : ""));
+  if (sources.every((source) => !source)) return storedGeometry.value !== null;
+  return names.every((name) => name.startsWith("heads-"));
+});
 
 export const nouns = computed<Nouns>(() => {
   if (demo.value) return demo.value.nouns;
