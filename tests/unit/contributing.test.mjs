@@ -115,7 +115,7 @@ function checkNpm([verb, ...words], options) {
   if (["ci", "install"].includes(verb)) return;
   mustBe(scripts[name], `package.json has no script "${name}": add it, or leave the command out`);
   for (const part of scripts[name].split("&&")) {
-    const [program, ...rest] = part.trim().split(" ");
+    const [program, ...rest] = bare(part).split(" ");
     const check = programs[program];
     if (check) check(rest, program === "node" ? options : []);
     else if (program !== "cp") checkBinary([program]);
