@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --bench evidence` prints the seconds of each for 20 + 20 shapes of 4,284 points with 999 relabellings, for
 //! more shapes, and what reach adds to a comparison of models of 5,764 points and 50 + 50 modes. `cargo bench
-//! --bench evidence -- --write FOLDER` writes two folders of 20 meshes, for the same in a browser.
+//! --bench evidence -- --write FOLDER` writes three folders of 20 meshes, for the same in a browser.
 #![allow(clippy::print_stdout, clippy::unwrap_used, reason = "a benchmark prints, or stops")]
 
 #[path = "../tests/common/mod.rs"]
@@ -32,6 +32,7 @@ fn main() {
     }
     println!("median of {REPEATS} (least to most)");
     reach();
+    contrast();
     for count in [20, 40, 200] {
         let (a, b) = (drawn("male", count, 0), drawn("female", count, 1));
         measure(&format!("{count} + {count} heads"), &a, &b);
@@ -66,11 +67,12 @@ fn reach() {
     let (a, b) = common::face_like_pair(5764, 50);
     let pair = Pair::new(&a, &b, Alignment::None, None).unwrap();
     let operators = Side::BOTH.map(|side| pair.residual_operator(side));
+    let joint = pair.joint();
     let (mut reach, mut whole) = (Vec::new(), Vec::new());
     for _ in 0..REPEATS {
         let begun = Instant::now();
-        for ((operator, model), side) in operators.iter().zip([&a, &b]).zip(0..) {
-            let draws = ReachDraws::new(operator, model, 1, side);
+        for (operator, side) in operators.iter().zip(Side::BOTH) {
+            let draws = ReachDraws::new(operator, &pair, &joint, side, 1);
             assert!(draws.summary().mean > 0.0, "apart");
         }
         reach.push(begun.elapsed().as_secs_f64());
@@ -85,6 +87,23 @@ fn reach() {
     let reach = show("reach, both ways", "s", reach);
     let whole = show("a whole comparison, reach included", "s", whole);
     println!("{:44} {:>12.1} %", "reach of the rest", 100.0 * reach / (whole - reach));
+}
+
+/// What the view Contrast adds to the shapes of the packaged heads, both ways.
+fn contrast() {
+    let (a, b) = (packaged_head("male"), packaged_head("female"));
+    let mut seconds = Vec::new();
+    for _ in 0..REPEATS {
+        let described = [&a, &b].map(|model| ModelReport::new(model, "benchmark", &[]));
+        let settings = Settings { permutations: 0, draws: 400, ..Settings::default() };
+        let mut run = Comparison::new(&a, &b, described, settings).unwrap();
+        run.run().unwrap();
+        let begun = Instant::now();
+        assert!(Side::BOTH.into_iter().all(|side| run.contrast(side).is_some()), "drawn");
+        seconds.push(1e3 * begun.elapsed().as_secs_f64());
+    }
+    println!("\nPackaged heads, 4,284 points");
+    show("the view Contrast", "ms", seconds);
 }
 
 fn drawn(name: &str, count: usize, sample: usize) -> DMatrix<f64> {
@@ -102,16 +121,16 @@ fn scattered(count: usize, sample: usize) -> DMatrix<f64> {
     })
 }
 
-/// Two folders of meshes, of heads without their faces.
+/// Three folders of meshes, of heads without their faces: two populations, and another sample of the first.
 fn write(folder: &Path) {
-    for (name, sample) in [("male", 0), ("female", 1)] {
-        let of = folder.join(name);
-        std::fs::create_dir_all(&of).unwrap();
-        for (index, shape) in drawn(name, 20, sample).column_iter().enumerate() {
+    for (name, of, sample) in [("male", "male", 0), ("female", "female", 1), ("more", "male", 2)] {
+        let into = folder.join(name);
+        std::fs::create_dir_all(&into).unwrap();
+        for (index, shape) in drawn(of, 20, sample).column_iter().enumerate() {
             #[allow(clippy::cast_possible_truncation, reason = "a mesh file has single precision")]
             let points: Vec<f32> = shape.iter().map(|x| *x as f32).collect();
-            let bytes = formats::write_ply(&points, 3, packaged_head(name).cells(), None);
-            std::fs::write(of.join(format!("{name}-{index:02}.ply")), bytes).unwrap();
+            let bytes = formats::write_ply(&points, 3, packaged_head(of).cells(), None);
+            std::fs::write(into.join(format!("{name}-{index:02}.ply")), bytes).unwrap();
         }
     }
 }

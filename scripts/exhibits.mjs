@@ -6,4 +6,4 @@ import { root } from "./steps/run.mjs";
 
 const [file] = await bundle("exhibits", { gallery: join(root, "www/app/gallery/exhibits.ts") });
 
-export const { EXHIBITS, linkTo } = await import(pathToFileURL(file).href);
+export const { ENGINE, EXHIBITS, linkTo } = await import(pathToFileURL(file).href);

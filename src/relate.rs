@@ -21,6 +21,9 @@ use crate::pair::{
 use crate::report::{KullbackLeibler, Notice, Overlap};
 use crate::settings::{Settings, Sigma};
 
+/// Distances below this share of the size of the models are rounding.
+const ROUNDING: f64 = 1e-6;
+
 /// Closed-form measures of two models.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Relation {
@@ -141,7 +144,7 @@ pub(crate) fn recommended_sigma(
     noise: Option<f64>,
 ) -> Sigma {
     let tolerance = recommended_tolerance(pair, operators, noise);
-    let meeting = meeting_of(pair, operators.a).map(|meeting| meeting.distance);
+    let meeting = meeting_of(pair).map(|meeting| meeting.distance);
     Sigma::recommended(&tolerance, mean_left_out(&left_out(pair), pair.scale()), meeting)
 }
 
@@ -167,7 +170,6 @@ pub(crate) fn left_out(pair: &Pair) -> Sides<Option<Vec<f64>>> {
 /// Their mean over the models of which they are known, each model with the same weight. `scale` is the length beside
 /// which a distance is rounding: errors that are, because the shapes fill the space that they lie in, say nothing.
 pub(crate) fn mean_left_out(errors: &Sides<Option<Vec<f64>>>, scale: f64) -> Option<f64> {
-    const ROUNDING: f64 = 1e-6;
     let means: Vec<f64> = errors
         .iter()
         .flatten()
@@ -177,13 +179,12 @@ pub(crate) fn mean_left_out(errors: &Sides<Option<Vec<f64>>>, scale: f64) -> Opt
     (!means.is_empty()).then(|| means.iter().sum::<f64>() / means.len() as f64)
 }
 
-/// The least distance of plausible shapes; `None` where B makes all shapes of A, or there is none.
-pub(crate) fn meeting_of(pair: &Pair, operator_of_a: &ResidualOperator) -> Option<Meeting> {
-    if operator_of_a.is_contained(pair.scale()) {
-        return None;
-    }
+/// The least distance of plausible shapes, also where either model spans the other: it then makes all shapes of the other,
+/// but perhaps none plausibly. `None` where they have plausible shapes in common, to rounding.
+pub(crate) fn meeting_of(pair: &Pair) -> Option<Meeting> {
     let radii = pair.models().map(|model| plausible_radius(model.mode_count()));
     nearest_meeting(pair, radii.into_array())
+        .filter(|meeting| meeting.distance > ROUNDING * pair.scale())
 }
 
 /// What the report says of two models' spaces and variances.

@@ -12,8 +12,8 @@ use ts_rs::{Config, TS};
 
 use crate::comparison::{
     Axes, AxesKind, ChainPlots, Contrast, ContrastOf, DifferenceShapes, Ellipsoid, Explored,
-    MapName, Nearest, PairPlots, Prediction, Preview, Progress, Region, RegionShapes, ShapeSource,
-    Space, Stage, SweepPoint, VertexMap,
+    MapName, Nearest, PairPlots, Pairing, Prediction, Preview, Progress, Region, RegionShapes,
+    ShapeSource, Space, Stage, SweepPoint, VertexMap,
 };
 use crate::files::{Download, OpenedModel, RunFile, RunModel, ShownShape, Sources};
 use crate::formats::{Group, Origin};
@@ -23,7 +23,7 @@ use crate::linalg::Moments;
 use crate::measure::{Evaluation, Method};
 use crate::model::{Alignment, Geometry, Kind, ShapesRole, Side, Sides, Unit};
 use crate::pair::{DifferenceDefinition, FitMethod, PointSelection, Preparation, SidePreparation};
-use crate::pair::{MeanSquare, Quantiles, ReachOfSide};
+use crate::pair::{MeanSquare, PlausibleDistance, Quantiles, ReachOfSide};
 use crate::relate::RelationReport;
 use crate::report::*;
 use crate::settings::{
@@ -122,7 +122,7 @@ fn declarations() -> String {
         Agreement, UnitFound, MeanDistance, Remedy, Inspection, RelationReport,
         Method, Evaluation,
         // The report.
-        SigmaSource, Quantiles, MeanSquare, ReachOfSide, ReachCurve, ReachReport,
+        SigmaSource, Quantiles, MeanSquare, PlausibleDistance, ReachOfSide, ReachCurve, ReachReport,
         Histogram, Chance, StatisticName, Statistic, Hypothesis, Band, Bands, LeftOut, MatchedShares, ToldApart,
         VertexEvidence, ModeStability, EvidenceReport, Topic, Quantity, Name, Part, Sentence,
         MeanSd, Diagnostics, ModeDiagnostics, MomentSource, InferenceReport, Accuracy, Disagreement,
@@ -130,7 +130,7 @@ fn declarations() -> String {
         LinearSplitReport, DifferenceReport, Differences, KullbackLeibler, Overlap, Compactness,
         Models, Seconds, Report,
         // A run, and what is asked about it.
-        Stage, Progress, Region, ShapeSource, DifferenceShapes, ContrastOf, Contrast, RegionShapes, Prediction, Preview,
+        Stage, Progress, Region, ShapeSource, DifferenceShapes, ContrastOf, Contrast, Pairing, RegionShapes, Prediction, Preview,
         SweepPoint, Space, AxesKind, Axes, Nearest, Explored, MapName, VertexMap, Ellipsoid,
         ChainPlots, PairPlots,
         // Files.

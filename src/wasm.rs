@@ -33,7 +33,7 @@ use crate::settings::Settings;
 const TYPES: &str = r#"
 import type {
   Axes, AxesKind, ChainPlots, DifferenceShapes, Download, DroppedFile, Ellipsoid, Evaluation, Explored, Geometry,
-  Group, Inspection, LessonAnswer, LessonAsk, MapName, Nearest, OpenedModel, PairPlots, PointSelection, Preview,
+  Group, Inspection, LessonAnswer, LessonAsk, MapName, Nearest, OpenedModel, Pairing, PairPlots, PointSelection, Preview,
   Progress, Region, RegionShapes, RelationReport, RunFile, Settings, Side, Sides, Space, SweepPoint, VertexMap,
 } from "./protocol";
 "#;

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use crate::common::{compared, report};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 use shapevenn::comparison::{Comparison, Stage};
 use shapevenn::demos;
 use shapevenn::model::{Alignment, LinearModel, model_of_population};
@@ -103,8 +103,13 @@ fn reach_says_what_is_true_of_models_inside_one_another_and_apart() {
     assert!(text.starts_with("A shape of A lies "), "{text}");
     assert!(text.contains("from the nearest that B can make (nine in ten between "), "{text}");
     assert!(!text.contains("plausible"), "both make the mean: {text}");
+    // B's tip moves less than A's; of B to A the nearest is nearly always plausible.
+    let text = said(&found, Topic::NearestPlausible).unwrap();
+    let start = "The nearest plausible shape of B, as 99 % of its own are, is further: 0.3";
+    assert!(text.starts_with(start) && text.ends_with(" from a shape of A."), "{text}");
     numbers_are_the_reports(&found);
     let same = report(&compared(&star("stars-1-a"), &star("stars-1-a"), few()));
+    assert_eq!(said(&same, Topic::NearestPlausible), None, "all are plausible");
     assert_eq!(
         said(&same, Topic::ReachOfA).unwrap(),
         "A shape of A is always one that B can make.",
@@ -120,6 +125,74 @@ fn reach_says_what_is_true_of_models_inside_one_another_and_apart() {
         report(&compared(&population(&group(6, 0.0, 5)), &population(&group(6, 10.0, 6)), few()));
     let text = said(&apart, Topic::ReachOfA).unwrap();
     assert!(text.contains(" of it no plausible one avoids."), "{text}");
+    // Points on nearly the same line, twenty standard deviations apart.
+    let far = report(&compared(&along(0.0, 0.0), &along(20.0, 0.001), few()));
+    let text = said(&far, Topic::NearestPlausible).unwrap();
+    let start =
+        "The nearest plausible shape of the other model, as 99 % of its own are, is further: 17.";
+    assert!(text.starts_with(start) && text.contains(" from a shape of A, 17."), "{text}");
+    // 20 less twice the radius of 2.57 standard deviations.
+    assert!(text.contains(" from a shape of B, and never less than 14.9 units."), "{text}");
+    let text = said(&far, Topic::ReachOfA).unwrap();
+    assert!(text.starts_with("A shape of A lies 0.00") && !text.contains("avoids"), "{text}");
+}
+
+/// A point that moves with standard deviation 1 along a line of this slope, about (`start`, `slope` · `start`).
+fn along(start: f64, slope: f64) -> LinearModel {
+    let basis = DMatrix::from_column_slice(2, 1, &[1.0, slope]);
+    let mean = DVector::from_vec(vec![start, slope * start]);
+    LinearModel::from_scaled_basis(2, mean, basis).unwrap().0
+}
+
+/// A contour of this radius, drawn out by two modes that scale it along x and y.
+fn contour(radius: f64, deviation: f64) -> LinearModel {
+    let around = |row: usize| {
+        let turn = 2.0 * core::f64::consts::PI * (row / 2) as f64 / 24.0;
+        if row.is_multiple_of(2) { libm::cos(turn) } else { libm::sin(turn) }
+    };
+    let basis = DMatrix::from_fn(48, 2, |row, mode| {
+        deviation * around(row) * if row % 2 == mode { 1.0 } else { 0.0 }
+    });
+    let mean = DVector::from_fn(48, |row, _| radius * around(row));
+    LinearModel::from_scaled_basis(2, mean, basis).unwrap().0
+}
+
+#[test]
+fn models_of_one_span_whose_plausible_shapes_are_apart_are_not_called_the_same() {
+    let (small, large) = (contour(30.0, 0.5), contour(50.0, 0.5));
+    let apart = report(&compared(&small, &large, few()));
+    // The nearest plausible contour is 20 mm away less what the radius of the ball allows, 3.03 · 0.5 mm for one of both
+    // modes, less along each for both.
+    let distance = apart.reach.as_ref().unwrap().a_to_b.plausible.unwrap();
+    let allowed = 3.03 * 0.5 / 2.0_f64.sqrt();
+    assert!((distance.mean - (20.0 - allowed)).abs() < 0.1, "{distance:?}, not 20 less {allowed}");
+    let text = said(&apart, Topic::ReachOfA).unwrap();
+    let start = "A shape of A is always one that B can make, but lies 19.0 ";
+    assert!(text.starts_with(start), "{text}");
+    assert!(text.contains("from the nearest plausible one; 17."), "{text}");
+    let warning = |found: &Report, code: &str| {
+        let warning = found.warnings.iter().find(|warning| warning.code == code)?;
+        Some(warning.message.clone())
+    };
+    let implausible = warning(&apart, "implausible-intersection").unwrap();
+    assert!(implausible.contains("come no nearer than 17.9 units"), "{implausible}");
+    let span = warning(&apart, "identical-spaces").unwrap();
+    assert!(span.starts_with("The two models span the same space: "), "{span}");
+    // Nothing of it where they are the same.
+    let same = report(&compared(&small, &small, few()));
+    let text = said(&same, Topic::ReachOfA).unwrap();
+    assert_eq!(text, "A shape of A is always one that B can make.", "itself");
+    let span = warning(&same, "identical-spaces").unwrap();
+    assert!(span.starts_with("The two models make the same shapes: "), "{span}");
+    assert_eq!(warning(&same, "implausible-intersection"), None, "nothing is far out");
+    assert!(same.reach.unwrap().meeting.is_none(), "they meet");
+    // One within the other: larger variance, the same mean; the small one is made plausibly, the large one is not.
+    let wide = contour(30.0, 5.0);
+    let within = report(&compared(&small, &wide, few()));
+    let text = said(&within, Topic::ReachOfA).unwrap();
+    assert_eq!(text, "A shape of A is always one that B can make.", "within");
+    let text = said(&within, Topic::ReachOfB).unwrap();
+    assert!(text.contains(" can make, but lies ") && !text.contains("avoids"), "{text}");
 }
 
 #[test]

@@ -355,6 +355,50 @@ fn a_contrast_lies_on_the_line_from_the_nearest_shape_of_the_other_model() {
 }
 
 /// The shapes of all draws of a difference, one a column.
+#[test]
+fn pairs_are_shapes_and_their_projections_in_the_order_of_their_distances() {
+    // Shapes of a population are the known ones, those of a model alone are random.
+    let wing = |name: &str| demos::generated(name).unwrap();
+    let known = Comparison::new(
+        &wing("wings-aedes"),
+        &wing("wings-culex"),
+        ["A", "B"].map(|name| ModelReport::new(&wing("wings-aedes"), name, &[])),
+        settings(),
+    )
+    .unwrap();
+    let random = run();
+    for (run, counts, is_known) in [(&known, [57, 25], true), (&random, [99, 99], false)] {
+        for side in Side::BOTH {
+            let (own, other) = (run.pair().models()[side], run.pair().models()[side.other()]);
+            let dimension = own.dimension();
+            let mut before = 0.0;
+            for step in 0..=10_u32 {
+                let found = run.pairing(side, f64::from(step) / 10.0);
+                assert_eq!((found.count, found.known), (counts[side.index()], is_known), "all");
+                let shape = wide(&found.shape);
+                let nearest = projection(other, &shape);
+                let size = 1e-6 * own.size();
+                assert!((wide(&found.nearest) - &nearest).amax() < size, "its projection");
+                let distance = (&shape - &nearest)
+                    .as_slice()
+                    .chunks_exact(dimension)
+                    .map(|of| of.iter().map(|x| x * x).sum::<f64>().sqrt())
+                    .sum::<f64>()
+                    / own.point_count() as f64;
+                assert!((found.distance - distance).abs() < size, "{}", found.distance);
+                assert!(found.distance >= before - size, "the order of distances");
+                before = found.distance;
+                if let Some(shapes) = own.training_shapes() {
+                    let off = (shapes.shapes().column(found.number - 1) - &shape).amax();
+                    assert!(off < size, "shape {} as it is known: {off}", found.number);
+                }
+            }
+            assert_eq!(run.pairing(side, 1.0).rank, counts[side.index()], "the furthest");
+            assert_eq!(run.pairing(side, -1.0).rank, 1, "the nearest");
+        }
+    }
+}
+
 fn drawn(run: &Comparison, side: Side) -> DMatrix<f64> {
     let draws = &run.results().differences[side];
     let model = run.pair().models()[side];

@@ -193,8 +193,8 @@ impl Comparison {
     /// How far the shapes of either model lie from the other.
     fn reach(&self, drawing: &Drawing) -> ReachReport {
         let draws = Sides::each(|side| {
-            let (operator, model) = (self.prepared.operator(side), self.prepared.model(side));
-            ReachDraws::new(operator, model, self.settings.seed, side.index())
+            let (operator, joint) = (self.prepared.operator(side), self.prepared.joint());
+            ReachDraws::new(operator, self.pair(), joint, side, self.settings.seed)
         });
         let Sides { a: a_to_b, b: b_to_a } = draws.as_ref().map(ReachDraws::summary);
         let meeting = drawing.meeting.as_ref().map(|meeting| meeting.distance);

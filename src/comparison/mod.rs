@@ -27,6 +27,7 @@ pub use looks::contrast::{Contrast, ContrastOf};
 pub use looks::diagnostics_plots::{ChainPlots, PairPlots};
 pub use looks::exploring::{Axes, AxesKind, Explored, Nearest, Space};
 pub use looks::maps::{Ellipsoid, MapName, VertexMap};
+pub use looks::pairing::Pairing;
 pub use looks::preview::{Prediction, Preview, SweepPoint};
 pub use looks::regions::{DifferenceShapes, DifferenceView, Region, RegionShapes, ShapeSource};
 pub use results::{Results, StoredArray};
@@ -321,9 +322,7 @@ impl Comparison {
                 prepared.joint();
                 Preparing::Meeting
             }
-            Preparing::Meeting => {
-                Preparing::LeftOut(meeting_of(prepared.pair(), prepared.operator(Side::A)))
-            }
+            Preparing::Meeting => Preparing::LeftOut(meeting_of(prepared.pair())),
             Preparing::LeftOut(meeting) => {
                 let left_out = left_out(prepared.pair());
                 Preparing::Tolerance { meeting: meeting.take(), left_out }

@@ -5,6 +5,7 @@
 
 use std::sync::OnceLock;
 
+use super::looks::pairing::Order;
 use crate::linalg::Moments;
 use crate::measure::{ExclusiveModes, exclusive_modes};
 use crate::model::{LinearModel, Side, Sides};
@@ -20,12 +21,19 @@ pub(crate) struct Prepared {
     joint: OnceLock<Joint>,
     /// Mean distance of every vertex to the other model.
     missed: Sides<OnceLock<Vec<f64>>>,
+    orders: Sides<OnceLock<Order>>,
 }
 
 impl Prepared {
     pub(super) fn new(pair: Pair, plausibility: f64) -> Self {
-        let (operators, joint, missed) = (Sides::default(), OnceLock::new(), Sides::default());
-        Self { pair, plausibility, operators, joint, missed }
+        Self {
+            pair,
+            plausibility,
+            operators: Sides::default(),
+            joint: OnceLock::new(),
+            missed: Sides::default(),
+            orders: Sides::default(),
+        }
     }
 
     pub(super) fn pair(&self) -> &Pair {
@@ -53,6 +61,11 @@ impl Prepared {
     /// [`ResidualOperator::mean_vertex_residuals`] of a side (n), which every picture of a difference needs.
     pub(super) fn missed(&self, side: Side) -> &[f64] {
         self.missed[side].get_or_init(|| self.operator(side).mean_vertex_residuals())
+    }
+
+    /// The order of the shapes of a side by their distance to the other model, which `order` finds.
+    pub(super) fn order(&self, side: Side, order: impl FnOnce() -> Order) -> &Order {
+        self.orders[side].get_or_init(order)
     }
 
     pub(super) fn joint(&self) -> &Joint {

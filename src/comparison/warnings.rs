@@ -162,6 +162,15 @@ impl Comparison {
                 ),
                 "What is shown is their closest approach, not shapes that both can make.",
             ));
+        } else if closest <= APART * sigma && meeting > APART * sigma.max(closest) {
+            warnings.push(Notice::new(
+                "implausible-intersection",
+                format!(
+                    "The shapes of the intersection are plausible in neither model: plausible shapes of the two come no nearer than {} {symbol}.",
+                    three_digits(meeting)
+                ),
+                "Check the units and the alignment of the two. Where they are right, the two models have no plausible shape in common.",
+            ));
         } else if closest > APART * sigma {
             warnings.push(Notice::new(
                 "beyond-tolerance",
@@ -271,6 +280,15 @@ impl Comparison {
                 && difference.diagnostics.draws > 0
                 && difference.probability > NEARLY_ALL
         };
+        let implausible = |side: Side| report.plausible_beyond(side).is_some();
+        if is_empty(Side::A) && is_empty(Side::B) && Side::BOTH.into_iter().any(implausible) {
+            warnings.push(Notice::new(
+                "identical-spaces",
+                "The two models span the same space: as sets of all their shapes they are the same, both differences are empty and no distance tells them apart. What differs is which shapes are plausible.".to_owned(),
+                "Compare their variances and means (Measures), and read the intersection as what is plausible in both.",
+            ));
+            return;
+        }
         if is_empty(Side::A) && is_empty(Side::B) {
             let half = match self.settings.plausibility {
                 Plausibility::Product => {
@@ -295,12 +313,20 @@ impl Comparison {
         }
         for (side, this, other, difference) in both {
             if is_empty(side) {
+                let (but, hint) = if implausible(side) {
+                    (
+                        ", though not all as plausible ones",
+                        "The paper's distance counts every shape in the span of a model. How plausible they are stands in the first sentences.",
+                    )
+                } else {
+                    ("", "Nothing to do: there is no difference to show.")
+                };
                 warnings.push(Notice::new(
                     "empty-difference",
                     format!(
-                        "{this} lies inside {other}, which can make every shape of it: {this} without {other} is empty."
+                        "{this} lies inside {other}, which can make every shape of it{but}: {this} without {other} is empty."
                     ),
-                    "Nothing to do: there is no difference to show.",
+                    hint,
                 ));
             } else if nearly_all(side) {
                 warnings.push(Notice::new(

@@ -82,6 +82,11 @@ impl TrainingShapes {
         shapes
     }
 
+    /// One of the shapes (d·n), numbered from 0.
+    pub fn shape(&self, number: usize) -> DVector<f64> {
+        &*self.directions * self.coefficients.column(number) + &self.mean
+    }
+
     /// Whether the directions lie in this memory, which is then not copied twice.
     pub(super) fn shares(&self, basis: &Arc<DMatrix<f64>>) -> bool {
         Arc::ptr_eq(&self.directions, basis)

@@ -10,11 +10,10 @@
 //!
 //! **Limits.** On meshes of more than 512 points every k-th point is used: the distance is a mean over them.
 
-use crate::model::Sides;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, DVectorView};
 
-use crate::linalg::cross;
-use crate::model::LinearModel;
+use crate::linalg::{cross, product};
+use crate::model::{LinearModel, Side, Sides};
 use crate::pair::Pair;
 
 /// Most points that are used.
@@ -75,7 +74,7 @@ pub fn nearest_meeting(pair: &Pair, radii: [f64; 2]) -> Option<Meeting> {
 }
 
 /// The residual m₁ − m₂ + H (a, b) at some points, H = (U₁, −U₂).
-struct Problem {
+pub(super) struct Problem {
     dimension: usize,
     points: usize,
     modes: [usize; 2],
@@ -84,7 +83,7 @@ struct Problem {
 }
 
 impl Problem {
-    fn new(pair: &Pair) -> Self {
+    pub(super) fn new(pair: &Pair) -> Self {
         let dimension = pair.a().dimension();
         let stride = pair.a().point_count().div_ceil(MOST_POINTS);
         let rows: Vec<usize> = (0..pair.a().point_count())
@@ -109,8 +108,26 @@ impl Problem {
         Self { dimension, points: rows.len() / dimension, modes, offset, operator }
     }
 
+    /// Mean over the points of the residuals of many pairs of shapes: of the model of `side`, then of the other.
+    pub(super) fn mean_norms(&self, side: Side, pairs: &[[DVector<f64>; 2]]) -> Vec<f64> {
+        let mut coefficients = DMatrix::zeros(self.modes[0] + self.modes[1], pairs.len());
+        for (mut column, [own, other]) in coefficients.column_iter_mut().zip(pairs) {
+            let [a, b] = if side == Side::A { [own, other] } else { [other, own] };
+            column.rows_mut(0, self.modes[0]).copy_from(a);
+            column.rows_mut(self.modes[0], self.modes[1]).copy_from(b);
+        }
+        let residuals = product(&self.operator, &coefficients);
+        let mean = |residual: DVectorView<'_, f64>| {
+            self.point_norms(&(residual + &self.offset)).iter().sum::<f64>() / self.points as f64
+        };
+        residuals.column_iter().map(mean).collect()
+    }
+
     fn norms(&self, solution: &DVector<f64>) -> Vec<f64> {
-        let residual = &self.offset + &self.operator * solution;
+        self.point_norms(&(&self.offset + &self.operator * solution))
+    }
+
+    fn point_norms(&self, residual: &DVector<f64>) -> Vec<f64> {
         residual
             .as_slice()
             .chunks_exact(self.dimension)

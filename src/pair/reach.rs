@@ -16,14 +16,17 @@ use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::difference::{about_the_mean, share_beyond};
+use super::plausible::{Further, PlausibleDistance};
 use crate::linalg::{eigen, quantile};
-use crate::model::LinearModel;
-use crate::pair::ResidualOperator;
+use crate::model::Side;
+use crate::pair::{Joint, Pair, ResidualOperator};
 use crate::sampling::{Stream, fill_normal, stream};
 
 /// Draws are made in blocks, each with a stream of its own.
 const BLOCKS: usize = 16;
 const BLOCK: usize = 64;
+/// Blocks whose shapes' nearest plausible ones are found, which takes longer.
+const BLOCKS_OF_PLAUSIBLE: usize = 2;
 /// Distances below this share of the distance from the own mean are rounding errors.
 const ROUNDING: f64 = 1e-9;
 /// Eigenvalues of RᵀR below this share of the largest close nothing.
@@ -46,6 +49,9 @@ pub struct ReachOfSide {
     pub relative: f64,
     /// What the mean square of the distances is made of.
     pub mean_square: MeanSquare,
+    /// Distance to the nearest plausible shape of the other model, which is no nearer than the nearest of all.
+    #[serde(default)]
+    pub plausible: Option<PlausibleDistance>,
 }
 
 /// Quantiles of a quantity over draws.
@@ -84,13 +90,21 @@ pub struct ReachDraws {
 }
 
 impl ReachDraws {
-    /// 1,024 draws of `model`, whose residual operator this is; `side` numbers the streams of random numbers.
-    pub fn new(operator: &ResidualOperator, model: &LinearModel, seed: u64, side: usize) -> Self {
+    /// 1,024 draws of the model of a side, whose residual operator this is.
+    pub fn new(
+        operator: &ResidualOperator,
+        pair: &Pair,
+        joint: &Joint,
+        side: Side,
+        seed: u64,
+    ) -> Self {
+        let model = pair.models()[side];
         let modes = model.mode_count();
         let blocks: Vec<Vec<f64>> = (0..BLOCKS)
             .map(|block| {
                 let mut coefficients = vec![0.0; BLOCK * modes];
-                fill_normal(&mut stream(seed, Stream::Reach, side, block), &mut coefficients);
+                let mut random = stream(seed, Stream::Reach, side.index(), block);
+                fill_normal(&mut random, &mut coefficients);
                 coefficients
             })
             .collect();
@@ -109,13 +123,21 @@ impl ReachDraws {
         let squares: f64 = distances.iter().map(|d| (d - mean) * (d - mean)).sum();
         distances.sort_by(f64::total_cmp);
         let mean_square = MeanSquare::of(operator).above(rounding * rounding);
+        let standard_error = (squares / (count - 1.0) / count).sqrt();
+        let further = Further::new(pair, joint, side, &blocks[..BLOCKS_OF_PLAUSIBLE]);
         let summary = ReachOfSide {
             mean,
-            standard_error: (squares / (count - 1.0) / count).sqrt(),
+            standard_error,
             quantiles: Quantiles::of(|share| quantile(&distances, share)),
             quantile_errors: Quantiles::of(|share| quantile_error(&distances, share)),
             relative: mean_square.total.sqrt() / own,
             mean_square,
+            plausible: Some(PlausibleDistance {
+                mean: mean + further.mean,
+                standard_error: (standard_error * standard_error
+                    + further.standard_error * further.standard_error)
+                    .sqrt(),
+            }),
         };
         Self { distances, summary }
     }
@@ -189,7 +211,7 @@ mod tests {
     use nalgebra::DMatrix;
 
     use super::*;
-    use crate::model::{Alignment, Side};
+    use crate::model::{Alignment, LinearModel};
     use crate::pair::Pair;
     use crate::pair::samples::model;
 
@@ -223,9 +245,9 @@ mod tests {
     #[test]
     fn the_maps_have_the_means_of_the_numbers() {
         let pair = Pair::new(&model(1, 4), &model(2, 6), Alignment::None, None).unwrap();
-        for (number, side) in Side::BOTH.into_iter().enumerate() {
+        for side in Side::BOTH {
             let operator = pair.residual_operator(side);
-            let found = ReachDraws::new(&operator, pair.models()[side], 1, number).summary();
+            let found = ReachDraws::new(&operator, &pair, &pair.joint(), side, 1).summary();
             let misses = operator.mean_vertex_residuals();
             let mean = misses.iter().sum::<f64>() / misses.len() as f64;
             let off = (mean - found.mean).abs();
@@ -245,7 +267,8 @@ mod tests {
             LinearModel::from_scaled_basis(2, DVector::zeros(2), basis).unwrap().0
         };
         let pair = Pair::new(&line(0), &line(1), Alignment::None, None).unwrap();
-        let reach = ReachDraws::new(&pair.residual_operator(Side::A), pair.a(), 1, 0);
+        let operator = pair.residual_operator(Side::A);
+        let reach = ReachDraws::new(&operator, &pair, &pair.joint(), Side::A, 1);
         let found = reach.summary();
         // Quantiles of |N(0, 1)|: 0.0627, 0.6745, 1.9600; mean √(2/π).
         let expected = [0.0627, 0.6745, 1.9600].map(|z| 2.0 * z);

@@ -16,6 +16,11 @@ use crate::text::{one_digit, three_digits};
 
 /// Level of the answer: below it a difference is called more than chance.
 pub const LEVEL: f64 = 0.05;
+/// Share of the distance to the nearest shapes by which plausible ones must be further to be spoken of.
+const FURTHER: f64 = 0.1;
+/// Share of the mean distance below which the least distance of plausible shapes is not worth a clause; its solver is
+/// accurate to about a thousandth.
+const SMALL: f64 = 0.01;
 /// Reach over the distance from the own mean below which a model makes all shapes of the other; rounding of single
 /// precision.
 const ROUNDING: f64 = 1e-5;
@@ -39,6 +44,8 @@ pub enum Topic {
     ReachOfA,
     /// How far the shapes of B lie from A.
     ReachOfB,
+    /// How far the nearest plausible shapes lie, where that is notably further.
+    NearestPlausible,
     /// The difference is more than chance would give.
     MoreThanChance,
     /// The difference is no more than chance would give.
@@ -163,8 +170,10 @@ pub fn answer(report: &Report, missing: Option<&NoEvidence>) -> Vec<Sentence> {
     let mut sentences = Vec::new();
     if let Some(reach) = &report.reach {
         for (side, found) in [(Side::A, &reach.a_to_b), (Side::B, &reach.b_to_a)] {
-            sentences.push(reach_of(side, found, reach.meeting));
+            let meeting = reach.meeting.unwrap_or(0.0);
+            sentences.push(reach_of(report, side, found, meeting));
         }
+        sentences.extend(plausible(report));
     }
     match (&report.evidence, missing) {
         (Some(evidence), _) => sentences.extend(evidence.answer()),
@@ -172,6 +181,19 @@ pub fn answer(report: &Report, missing: Option<&NoEvidence>) -> Vec<Sentence> {
         (None, None) => {}
     }
     sentences
+}
+
+impl Report {
+    /// Mean distance of the shapes of a side to the nearest plausible ones of the other, where that is notably further than
+    /// to the nearest of all.
+    pub fn plausible_beyond(&self, side: Side) -> Option<f64> {
+        let found = self.reach.as_ref()?.of(side);
+        let model = if side == Side::A { &self.models.a } else { &self.models.b };
+        // Root mean square distance of the shapes from their own mean.
+        let own = (model.total_variance / model.points as f64).sqrt();
+        let least = found.mean * (1.0 + FURTHER) + SMALL * own;
+        found.plausible.map(|plausible| plausible.mean).filter(|mean| *mean > least)
+    }
 }
 
 impl EvidenceReport {
@@ -197,47 +219,82 @@ fn number(metric: String, value: f64, quantity: Quantity) -> Part {
     Part::Number { metric, value, quantity }
 }
 
-fn reach_of(side: Side, found: &ReachOfSide, meeting: Option<f64>) -> Sentence {
+fn reach_of(report: &Report, side: Side, found: &ReachOfSide, meeting: f64) -> Sentence {
     let (about, path) = match side {
         Side::A => (Topic::ReachOfA, "reach.aToB"),
         Side::B => (Topic::ReachOfB, "reach.bToA"),
     };
     let other = side.other();
-    if found.relative <= ROUNDING {
-        let parts = vec![
+    let length = |name: &str, value: f64| number(format!("{path}.{name}"), value, Quantity::Length);
+    let least = || number("reach.meeting".to_owned(), meeting, Quantity::Length);
+    let inside = found.relative <= ROUNDING;
+    let mut parts = if inside {
+        vec![
             Name::shape(side),
             words(" is always one that "),
             Name::model(other),
-            words(" can make."),
-        ];
-        return Sentence { about, parts };
+            words(" can make"),
+        ]
+    } else {
+        vec![
+            Name::shape(side),
+            words(" lies "),
+            length("mean", found.mean),
+            words(" from the nearest that "),
+            Name::model(other),
+            words(" can make (nine in ten between "),
+            number(
+                format!("{path}.quantiles.p05"),
+                found.quantiles.p05,
+                Quantity::LengthWithoutUnit,
+            ),
+            words(" and "),
+            length("quantiles.p95", found.quantiles.p95),
+            words(")"),
+        ]
+    };
+    // A model that spans the other is near only with shapes that may be hardly plausible.
+    let further = report.plausible_beyond(side).filter(|_| inside);
+    if let Some(plausible) = further {
+        let distance = length("plausible.mean", plausible);
+        parts.extend([words(", but lies "), distance, words(" from the nearest plausible one")]);
     }
-    let length = |name: &str, value: f64| number(format!("{path}.{name}"), value, Quantity::Length);
-    let mut parts = vec![
-        Name::shape(side),
-        words(" lies "),
-        length("mean", found.mean),
-        words(" from the nearest that "),
-        Name::model(other),
-        words(" can make (nine in ten between "),
-        length("quantiles.p05", found.quantiles.p05),
-        words(" and "),
-        length("quantiles.p95", found.quantiles.p95),
-        words(")"),
-    ];
-    if let Some(meeting) = meeting.filter(|meeting| *meeting > ROUNDING * found.mean) {
-        let least = number("reach.meeting".to_owned(), meeting, Quantity::Length);
-        parts.push(words("; "));
-        // A model that varies little is near with shapes that are hardly plausible.
-        if meeting <= found.mean {
-            parts.extend([least, words(" of it no plausible one avoids")]);
-        } else {
-            parts.extend([words("plausible shapes of the two are at least "), least]);
-            parts.push(words(" apart"));
-        }
+    // Where a model is nearer to some shapes than plausible ones ever are, the next sentence says it.
+    if meeting > SMALL * found.mean && meeting <= further.unwrap_or(found.mean) {
+        parts.extend([words("; "), least(), words(" of it no plausible one avoids")]);
     }
     parts.push(words("."));
     Sentence { about, parts }
+}
+
+/// How far the nearest plausible shapes lie, where that is notably further than the nearest of all.
+fn plausible(report: &Report) -> Option<Sentence> {
+    let reach = report.reach.as_ref()?;
+    let further: Vec<(Side, f64)> = Side::BOTH
+        .into_iter()
+        .filter(|&side| reach.of(side).relative > ROUNDING)
+        .filter_map(|side| Some((side, report.plausible_beyond(side)?)))
+        .collect();
+    let [(first, _), ..] = further[..] else { return None };
+    let mut parts = vec![words("the nearest plausible shape of ")];
+    parts.push(if further.len() == 1 {
+        Name::model(first.other())
+    } else {
+        words("the other model")
+    });
+    parts.push(words(", as 99 % of its own are, is further: "));
+    for (place, (side, value)) in further.into_iter().enumerate() {
+        let path = if side == Side::A { "reach.aToB" } else { "reach.bToA" };
+        parts.push(words(if place == 0 { "" } else { ", " }));
+        parts.push(number(format!("{path}.plausible.mean"), value, Quantity::Length));
+        parts.extend([words(" from "), Name::shape(side)]);
+    }
+    if let Some(meeting) = reach.meeting.filter(|meeting| *meeting > reach.least_mean()) {
+        parts.push(words(", and never less than "));
+        parts.push(number("reach.meeting".to_owned(), meeting, Quantity::Length));
+    }
+    parts.push(words("."));
+    Some(Sentence { about: Topic::NearestPlausible, parts })
 }
 
 /// What a statistic compares.

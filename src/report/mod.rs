@@ -261,10 +261,26 @@ pub struct ReachReport {
     pub a_to_b: ReachOfSide,
     /// Of shapes of B to A.
     pub b_to_a: ReachOfSide,
-    /// Least distance of plausible shapes of the two; absent where B makes all shapes of A.
+    /// Least distance of a plausible shape of A from a plausible shape of B (both within the 99 % ellipsoid); absent where
+    /// the two have such shapes in common.
     pub meeting: Option<f64>,
     /// Share of the shapes that count as outside the other model, for every σ.
     pub curve: ReachCurve,
+}
+
+impl ReachReport {
+    /// The smaller of the two mean distances.
+    pub(crate) fn least_mean(&self) -> f64 {
+        self.a_to_b.mean.min(self.b_to_a.mean)
+    }
+
+    /// Of shapes of a side to the other.
+    pub fn of(&self, side: Side) -> &ReachOfSide {
+        match side {
+            Side::A => &self.a_to_b,
+            Side::B => &self.b_to_a,
+        }
+    }
 }
 
 /// Shares of the soft differences by σ, from the draws of the reach: E[1 − exp(−½(d/σ)²)].

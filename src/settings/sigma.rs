@@ -42,6 +42,9 @@ pub struct Sigma {
     pub source: SigmaSource,
 }
 
+/// Distances below this share of the least distance of plausible shapes are rounding.
+const ROUNDING: f64 = 1e-9;
+
 impl SigmaSource {
     /// Whether versions before [`SIGMA_SINCE`] chose another σ.
     pub fn is_new(self) -> bool {
@@ -51,7 +54,8 @@ impl SigmaSource {
 
 impl Sigma {
     /// The recommended one. `left_out` is the mean leave-one-out error, `meeting` the least distance of plausible
-    /// shapes, each where it is known.
+    /// shapes, each where it is known. Models that span each other are at distance 0 from all shapes whatever σ is: there
+    /// the meeting raises nothing.
     pub fn recommended(tolerance: &Tolerance, left_out: Option<f64>, meeting: Option<f64>) -> Self {
         let positive = |value: &f64| *value > 0.0;
         if let Some(value) = left_out.filter(positive) {
@@ -60,7 +64,9 @@ impl Sigma {
         if let Some(value) = tolerance.noise.filter(positive) {
             return Self { value, source: SigmaSource::Noise };
         }
-        match meeting.filter(|meeting| *meeting > tolerance.sigma) {
+        let raises =
+            |meeting: &f64| *meeting > tolerance.sigma && tolerance.farthest > ROUNDING * meeting;
+        match meeting.filter(raises) {
             Some(value) => Self { value, source: SigmaSource::Meeting },
             None => Self { value: tolerance.sigma, source: SigmaSource::Budget },
         }

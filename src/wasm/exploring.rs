@@ -53,6 +53,20 @@ impl Engine {
         found.map(|found| plain(&found)).map_err(thrown)
     }
 
+    /// The shape of a side ("a", "b") at a place in the order of distances, 0 to 1, and the nearest of the other model.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }` when no comparison is open.
+    #[wasm_bindgen(unchecked_return_type = "Pairing")]
+    pub fn pairing(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "Side")] side: &str,
+        place: f64,
+    ) -> Result<JsValue, JsValue> {
+        let side = parsed(JsValue::from_str(side), "side")?;
+        Ok(plain(&self.current()?.pairing(side, place)))
+    }
+
     /// Where a shape (d·n, in the frame of A) lies: its nearest shapes `{ a, b }`.
     ///
     /// # Errors

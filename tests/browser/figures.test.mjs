@@ -70,7 +70,7 @@ async function colouredShares(page, { bytes }) {
 }
 
 const PUSHED =
-  /A, B and A∩B are means\. A∖B: the mean of A, pushed [\d.]+× as far from B as it lies\./;
+  /A, B and A∩B are means\. A∖B: the mean of A, its distance from B drawn [\d.]+ times as large\./;
 
 test("a figure of the contrast colours the differences alone, with a bar, and says what was pushed", async () => {
   await withPage({}, async ({ url, page }) => {

@@ -24,7 +24,7 @@ for (const demo of ["heads-sex", "stars-1", "planes"]) {
         await caption.innerText(),
         demo === "planes"
           ? /^All panes show draws/
-          : /A∖B: .* pushed [\d.]+× as far from B as it lies/,
+          : /A∖B: .* its distance from B drawn [\d.]+ times as large/,
       );
       for (const [mode, label] of [
         ["Samples", /^Random shapes of the five regions$/],
@@ -138,5 +138,31 @@ test("a drag turns the heads, a click on a pane shows it alone", async () => {
     await untilRedrawn(page, first, REGIONS);
     await page.mouse.click(left, top);
     await page.locator('.stage[data-region="a"]').waitFor();
+  });
+});
+
+test("pairs show a known shape beside the nearest of the other model, from the nearest to the furthest", async () => {
+  await withPage({}, async ({ url, page }) => {
+    await openLink(page, url, "v=1&engine=0.2&demo=wings&view=pairs&rank=0");
+    const caption = page.locator(".pairs-bar .contrast-caption");
+    const said = async () => {
+      await caption.filter({ hasText: "A∖B: shape" }).waitFor();
+      return caption.innerText();
+    };
+    const away = (text) => Number(/nearest that B can make, ([\d.]+)/.exec(text)?.[1]);
+    const nearest = away(await said());
+    // Aedes fills the space of all wings.
+    assert.match(await said(), /B∖A: shape \d+ of the 25 known of B, which A makes exactly\.$/);
+    const before = await canvas(page).screenshot();
+    const slider = page.getByRole("slider", { name: /Which shapes, from the nearest/ });
+    await slider.focus();
+    await page.keyboard.press("End");
+    await page.waitForURL(/rank=100/);
+    await caption.filter({ hasNotText: `${nearest}` }).waitFor();
+    const furthest = away(await said());
+    assert.ok(furthest > 2 * nearest, `${furthest} is not further than ${nearest}`);
+    assert.ok(!before.equals(await canvas(page).screenshot()), "other shapes are drawn");
+    await page.goBack();
+    await page.waitForURL(/rank=0/);
   });
 });

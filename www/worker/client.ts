@@ -25,6 +25,7 @@ import type {
   MapName,
   Nearest,
   OpenedModel,
+  Pairing,
   PairPlots,
   PointSelection,
   Preview,
@@ -34,6 +35,7 @@ import type {
   RelationReport,
   RunFile,
   Settings,
+  Side,
   Sides,
   Space,
   SweepPoint,
@@ -222,6 +224,10 @@ export class EngineClient {
 
   async nearestShapes(signal: AbortSignal, shape: Float32Array): Promise<Sides<Nearest>> {
     return (await this.#ask(signal, { t: "nearest", shape }, "nearest")).nearest;
+  }
+
+  async pairing(signal: AbortSignal, side: Side, place: number): Promise<Pairing> {
+    return (await this.#ask(signal, { t: "pairing", side, place }, "pairing")).pairing;
   }
 
   /** The shape nearest to the one with these coefficients whose vertex is at the target. */

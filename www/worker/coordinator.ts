@@ -44,6 +44,7 @@ const BUSY_WITH: Record<Question["t"], string> = {
   axes: "ordering directions",
   explore: "drawing the shape",
   nearest: "finding the nearest shapes",
+  pairing: "finding the nearest shapes",
   drag: "drawing the shape",
   map: "mapping the vertices",
   ellipsoids: "mapping the vertex",
@@ -173,6 +174,8 @@ export class Coordinator {
       }
       case "nearest":
         return { t: "nearest", id, nearest: engine.nearestShapes(message.shape) };
+      case "pairing":
+        return { t: "pairing", id, pairing: engine.pairing(message.side, message.place) };
       case "drag": {
         const { space, coefficients, vertex, target, follow } = message;
         const explored = engine.drag(space, coefficients, vertex, target, follow);

@@ -1,7 +1,7 @@
 // Written by `SHAPEVENN_WRITE=1 npm run build` from src/wasm.rs.
 import type {
     Axes, AxesKind, ChainPlots, DifferenceShapes, Download, DroppedFile, Ellipsoid, Evaluation, Explored, Geometry,
-    Group, Inspection, LessonAnswer, LessonAsk, MapName, Nearest, OpenedModel, PairPlots, PointSelection, Preview,
+    Group, Inspection, LessonAnswer, LessonAsk, MapName, Nearest, OpenedModel, Pairing, PairPlots, PointSelection, Preview,
     Progress, Region, RegionShapes, RelationReport, RunFile, Settings, Side, Sides, Space, SweepPoint, VertexMap,
 } from "./protocol";
 
@@ -170,6 +170,13 @@ export class Engine {
      * `{ code, message, hint }`.
      */
     open(files: DroppedFile[], part: string | null | undefined, scale: boolean, on_read: (bytes: number, of: number) => void): OpenedModel;
+    /**
+     * The shape of a side ("a", "b") at a place in the order of distances, 0 to 1, and the nearest of the other model.
+     *
+     * # Errors
+     * `{ code, message, hint }` when no comparison is open.
+     */
+    pairing(side: Side, place: number): Pairing;
     /**
      * At most `most` draws of the first `modes` coefficients of a side, and the Gaussians beside them:
      * `{ modes, count, draws, mean, covariance, fit }`.

@@ -453,6 +453,14 @@ export type MeanSquare = {
   exclusive: number,
 };
 
+/** Distance of the shapes of a model to the nearest plausible ones of the other, in the unit of the models. */
+export type PlausibleDistance = {
+  /** Mean over draws. */
+  mean: number,
+  /** Its Monte-Carlo standard error. */
+  standardError: number,
+};
+
 /** How far the shapes of one model lie from the other. Lengths are in the unit of the models. */
 export type ReachOfSide = {
   /** Mean distance of the shapes to the other model, over draws. */
@@ -467,6 +475,8 @@ export type ReachOfSide = {
   relative: number,
   /** What the mean square of the distances is made of. */
   meanSquare: MeanSquare,
+  /** Distance to the nearest plausible shape of the other model, which is no nearer than the nearest of all. */
+  plausible: PlausibleDistance | null,
 };
 
 /** Shares of the soft differences by σ, from the draws of the reach: E[1 − exp(−½(d/σ)²)]. */
@@ -485,7 +495,10 @@ export type ReachReport = {
   aToB: ReachOfSide,
   /** Of shapes of B to A. */
   bToA: ReachOfSide,
-  /** Least distance of plausible shapes of the two; absent where B makes all shapes of A. */
+  /**
+   * Least distance of a plausible shape of A from a plausible shape of B (both within the 99 % ellipsoid); absent where
+   * the two have such shapes in common.
+   */
   meeting: number | null,
   /** Share of the shapes that count as outside the other model, for every σ. */
   curve: ReachCurve,
@@ -659,7 +672,7 @@ export type EvidenceReport = {
 };
 
 /** What a sentence is about. */
-export type Topic = "reach-of-a" | "reach-of-b" | "more-than-chance" | "no-more-than-chance" | "chance-unknown" | "told-apart-a" | "told-apart-b";
+export type Topic = "reach-of-a" | "reach-of-b" | "nearest-plausible" | "more-than-chance" | "no-more-than-chance" | "chance-unknown" | "told-apart-a" | "told-apart-b";
 
 /** What a number is, which decides how it is written. */
 export type Quantity = "length" | "length-without-unit" | "spread" | "share" | "count" | "p-value";
@@ -1057,6 +1070,26 @@ export type Contrast = {
   times: number,
   /** Mean distance of every vertex (n) of shapes of the model from the nearest that the other can make. */
   missed: Float32Array,
+};
+
+/** A shape of a model, and the nearest of the other. */
+export type Pairing = {
+  /** The shape (d·n), in the frame of A. */
+  shape: Float32Array,
+  /** The nearest shape of the other model (d·n). */
+  nearest: Float32Array,
+  /** Distance of every vertex (n) of the two. */
+  missed: Float32Array,
+  /** Its mean. */
+  distance: number,
+  /** Number of the shape among the known ones, from 1. */
+  number: number,
+  /** Its place in the order of distances, from 1. */
+  rank: number,
+  /** How many shapes there are. */
+  count: number,
+  /** Whether they are known shapes of the population, not random ones of the model. */
+  known: boolean,
 };
 
 /** Mean, variation and some shapes of a region, in the frame and unit of A. */

@@ -21,6 +21,7 @@ import type {
   Nearest,
   Notice,
   OpenedModel,
+  Pairing,
   PairPlots,
   PointSelection,
   Preparation,
@@ -132,6 +133,8 @@ export type ToEngine =
     }
   /** Where a shape lies, whatever made it. */
   | { t: "nearest"; id: number; shape: Float32Array }
+  /** The shape at a place in the order of distances, 0 to 1, and the nearest of the other model. */
+  | { t: "pairing"; id: number; side: Side; place: number }
   /** The shape of least change whose vertex is at `target`; coefficients in the modes of the space. */
   | {
       t: "drag";
@@ -185,6 +188,7 @@ export type FromEngine =
   | { t: "axes"; id: number; axes: Axes }
   | { t: "explored"; id: number; explored: Explored }
   | { t: "nearest"; id: number; nearest: Sides<Nearest> }
+  | { t: "pairing"; id: number; pairing: Pairing }
   | { t: "map"; id: number; map: VertexMap }
   | { t: "ellipsoids"; id: number; ellipsoids: Partial<Record<Region, Ellipsoid>> }
   | { t: "diagnosed"; id: number; figures: ChainPlots }

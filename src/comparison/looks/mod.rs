@@ -4,5 +4,6 @@ pub(crate) mod contrast;
 pub(crate) mod diagnostics_plots;
 pub(crate) mod exploring;
 pub(crate) mod maps;
+pub(crate) mod pairing;
 pub(crate) mod preview;
 pub(crate) mod regions;

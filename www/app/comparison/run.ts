@@ -33,6 +33,7 @@ import {
   shapesSeed,
   slots,
   spoken,
+  storedGeometry,
   tried,
 } from "../state/state";
 import type { Stored } from "../state/stored";
@@ -147,7 +148,7 @@ export async function start(): Promise<void> {
   const restoreShapes = keepShapes();
   const refine = refiner(running);
   const begun = performance.now();
-  let early = false;
+  let early: Report | null = null;
   try {
     const done = await engineClient().run(
       controller.signal,
@@ -159,24 +160,24 @@ export async function start(): Promise<void> {
         run.value = { progress, seconds, cancelling: controller.signal.aborted };
         // The report stands while what chance would give is still computed.
         if (known !== undefined) {
-          early = true;
-          show(running, { report: known, cancelled: false }, sources);
+          early = show(running, parsed(known, false), sources);
           void showRegions(REGIONS);
-        } else if (!early) {
+        } else if (early === null) {
           refine(progress, performance.now() - begun);
         }
       },
     );
     if (runController !== controller) return;
-    const { draws } = (JSON.parse(done.report) as Report).intersection.diagnostics;
+    const found = parsed(done.report, done.cancelled);
+    const { draws } = found.report.intersection.diagnostics;
     if (done.cancelled && draws === 0 && result.value !== null) {
       failedKey.value = key;
       restoreShapes();
       spoken.value = "Cancelled before there were any draws. The previous result is still shown.";
       return;
     }
-    finish(running, done, sources);
-    if (!early) await showRegions(REGIONS);
+    finish(running, { ...found, report: withKnownParts(found.report, early) }, sources);
+    if (early === null) await showRegions(REGIONS);
   } catch (thrown) {
     if (runController !== controller) return;
     failedKey.value = key;
@@ -225,18 +226,22 @@ function giveUp(): void {
 }
 
 interface Reported {
+  report: Report;
   /** The report as text. */
-  report: string;
+  text: string;
   cancelled: boolean;
+}
+
+function parsed(text: string, cancelled: boolean): Reported {
+  return { report: JSON.parse(text) as Report, text, cancelled };
 }
 
 /** Shows the numbers of a run. */
 function show(
   ran: Held,
-  { report: text, cancelled }: Reported,
+  { report, text, cancelled }: Reported,
   sources: Sides<string | null>,
 ): Report {
-  const report = JSON.parse(text) as Report;
   const { key } = ran;
   batch(() => {
     preview.value = null;
@@ -244,6 +249,16 @@ function show(
     result.value = { report, text, key, sources, nouns: nouns.value, stored: false, cancelled };
   });
   return report;
+}
+
+/** The parts that are found after the report of a run stands: its evidence, and what is said of it. */
+const FOUND_LATER = ["answer", "evidence", "seconds"] as const;
+
+/** A report with all parts of the one that the same run gave before but those, so that what shows them stays as it is. */
+function withKnownParts(report: Report, before: Report | null): Report {
+  if (!before) return report;
+  const later = FOUND_LATER.map((part) => [part, report[part]]);
+  return { ...before, ...Object.fromEntries(later) };
 }
 
 function finish(ran: Held, done: Reported, sources: Sides<string | null>): void {
@@ -321,6 +336,7 @@ async function showRegions(regions: Region[]): Promise<void> {
       }
     }),
   );
+  if (regions.length === REGIONS.length && !signal.aborted) storedGeometry.value = null;
 }
 
 /** Key of the comparison whose points are in `compared`. */

@@ -89,16 +89,23 @@ test("differences that a run was ended before are not said to be none", () => {
 });
 
 test("differences are told apart by how much differs", () => {
-  const said = (a: number, b: number) => {
+  const said = (a: number, b: number, of = report) => {
     const { aWithoutB, bWithoutA } = report.differences;
     const differences = {
       aWithoutB: { ...aWithoutB, probability: a },
       bWithoutA: { ...bWithoutA, probability: b },
     };
-    return plain(words.differences({ ...report, differences }, nouns));
+    return plain(words.differences({ ...of, differences }, nouns));
   };
   assert.match(said(0.999, 0.998), /nearly everything differs/);
   assert.match(said(0.001, 0.002), /almost nothing differs/);
+  assert.ok(report.reach, "there is a reach");
+  const { aToB, bToA } = report.reach;
+  const inside = { ...report.reach, aToB: { ...aToB, mean: 0 }, bToA: { ...bToA, mean: 0 } };
+  assert.match(
+    said(0, 0, { ...report, reach: inside }),
+    /cannot be made by the other model, at any σ: each spans the shapes of the other\.$/,
+  );
   assert.match(
     said(0.3, 0.6),
     /30\u202f% of male heads and 60\u202f% of female heads cannot be made by the other model at this σ/,
@@ -119,6 +126,17 @@ test("models that only come near one another are not said to share shapes", () =
   const apart = { ...report, settings: { ...report.settings, sigma: 0.01 } };
   assert.match(plain(words.shared(report)), /^A shape that both can make/);
   assert.match(plain(words.shared(apart)), /^The shapes that come nearest to both/);
+  const warnings = [{ code: "implausible-intersection", message: "", hint: "" }];
+  assert.match(
+    plain(words.shared({ ...report, warnings })),
+    /^No plausible shape is in both\. Those of A∩B, far out in each, lie /,
+  );
+  const { intersection } = report;
+  const exact = { ...intersection, meanDistance: { mean: 1e-12, sd: 1e-12 } };
+  assert.match(
+    plain(words.shared({ ...report, intersection: exact })),
+    /^A shape that both can make lies 0 ± 0\u202funits from the nearest/,
+  );
 });
 
 test("a warning that the sentences say already is not shown twice", () => {

@@ -59,6 +59,9 @@ export function variances(report: Report, nouns: Nouns): Phrase {
   ];
 }
 
+/** Distances below this share of the size are rounding. */
+const ROUNDING = 1e-9;
+
 /** Mean distance of A∩B to the other model, in σ, up to which the page says that both can make its shapes. */
 const WITHIN = 2;
 
@@ -66,10 +69,19 @@ export function shared(report: Report): Phrase {
   const { meanDistance, vertexSd } = report.intersection;
   const unit = report.models.a.unit;
   const [a, b] = [report.models.a.vertexSd.mean, report.models.b.vertexSd.mean];
-  const away = plusMinus(meanDistance.mean, meanDistance.sd);
-  const meet = meanDistance.mean <= WITHIN * (report.settings.sigma ?? Number.POSITIVE_INFINITY);
+  const rounding = meanDistance.mean <= ROUNDING * report.models.a.size;
+  const away = rounding
+    ? { mean: "0", spread: "0" }
+    : plusMinus(meanDistance.mean, meanDistance.sd);
+  const plausible = report.warnings.every(({ code }) => code !== "implausible-intersection");
+  const near = meanDistance.mean <= WITHIN * (report.settings.sigma ?? Number.POSITIVE_INFINITY);
+  const meet = near && plausible;
   return [
-    meet ? "A shape that both can make lies " : "The shapes that come nearest to both lie ",
+    meet
+      ? "A shape that both can make lies "
+      : plausible
+        ? "The shapes that come nearest to both lie "
+        : "No plausible shape is in both. Those of A∩B, far out in each, lie ",
     reported("intersection.meanDistance.mean", meanDistance.mean, away.mean),
     " ± ",
     reported("intersection.meanDistance.sd", meanDistance.sd, `${away.spread}\u202f${unit}`),
@@ -108,6 +120,13 @@ export function differences(report: Report, nouns: Nouns): Phrase {
       ...each,
       " lie further than σ from the other model: at this σ nearly everything differs. ",
       "Choose a larger σ to see what is special to one of them.",
+    ];
+  }
+  const { aToB, bToA } = report.reach ?? {};
+  if (aToB?.mean === 0 && bToA?.mean === 0) {
+    return [
+      ...each,
+      " cannot be made by the other model, at any σ: each spans the shapes of the other.",
     ];
   }
   if (Math.max(a, b) <= 1 - NEARLY_ALL) {
@@ -541,13 +560,13 @@ export function unitSentence(report: ModelReport): string | null {
 }
 
 /** Deviation from an orthonormal basis that single precision explains. */
-const ROUNDING = 1e-4;
+const SINGLE_PRECISION = 1e-4;
 
 export function basisSentence(report: ModelReport): string | null {
   const off = report.orthogonality ?? 0;
   const dropped = report.droppedModes ?? 0;
   const sentences: string[] = [];
-  if (off > ROUNDING)
+  if (off > SINGLE_PRECISION)
     sentences.push(`Basis was not orthonormal (off by ${number(off, 2)}); corrected.`);
   if (dropped > 0) {
     sentences.push(`${count(dropped)} mode${dropped === 1 ? "" : "s"} without variance left out.`);

@@ -1,6 +1,8 @@
 /** The example comparisons of the gallery: link, picture and explanation of each. */
 import { ENGINE } from "../state/settings";
 
+export { ENGINE };
+
 export interface Exhibit {
   /** Name of its pictures, `gallery/NAME-light.webp` and `-dark.webp`. */
   name: string;
@@ -22,8 +24,8 @@ export const EXHIBIT_GROUPS: ExhibitGroup[] = [
       {
         name: "heads-sex",
         title: "Male and female heads",
-        link: "demo=heads-sex&sigma=1&view=mean",
-        see: "Each model can make most of the variance of the other, but most heads of one model lie further than σ from the other.",
+        link: "demo=heads-sex&sigma=1",
+        see: "What each model misses of the other: both means pushed away from the other model, coloured by how far a head lies from the nearest that the other can make.",
       },
       {
         name: "heads-distance",
@@ -36,6 +38,18 @@ export const EXHIBIT_GROUPS: ExhibitGroup[] = [
         title: "What only one of them can make",
         link: "demo=heads-sex&sigma=1&view=mean&picture=exclusiveModes&exaggerate=3",
         see: "The mean of each model with three times the part that the other model misses added to it.",
+      },
+      {
+        name: "heads-pairs",
+        title: "The female model’s best try",
+        link: "demo=heads-sex&sigma=1&view=pairs",
+        see: "A male head of the population and the nearest that the female model can make, and the other way round.",
+      },
+      {
+        name: "heads-evidence",
+        title: "More than chance?",
+        link: "demo=heads-sex&sigma=1&room=evidence",
+        see: "The populations divided anew at random, again and again: how far two groups of one population would lie apart, and how far these two do.",
       },
       {
         name: "heads-follow",
@@ -54,6 +68,17 @@ export const EXHIBIT_GROUPS: ExhibitGroup[] = [
         title: "All four head models, pair by pair",
         link: "demo=heads-sex&sigma=1&room=models&shelf=heads-male,heads-female,heads-identity,heads-expression",
         see: "Each row shows how much of a model’s variance the others can make; a cell opens that comparison.",
+      },
+    ],
+  },
+  {
+    title: "Wings",
+    exhibits: [
+      {
+        name: "wings",
+        title: "Two genera of mosquitoes",
+        link: "demo=wings&view=pairs&rank=100",
+        see: "Landmarks of real wings (Rohlf and Slice, 1990): the wing of Aedes that is furthest from Culex beside the nearest that Culex can make. Its distance is more than chance would give.",
       },
     ],
   },

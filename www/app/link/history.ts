@@ -27,6 +27,7 @@ import {
   namesInLinks,
   page,
   painting,
+  pairRank,
   picture,
   region,
   SIDES,
@@ -122,6 +123,7 @@ const SIGNALS: { [Part in Simple]: Signal<LinkState[Part]> } = {
   region,
   picture,
   shapes: shapesSeed,
+  rank: pairRank,
   measure,
   camera,
 };

@@ -68,6 +68,7 @@ test("what is written is read back, for every field", () => {
     picture: "exclusiveModes" as const,
     exaggeration: 2.5,
     shapes: "7",
+    rank: 95,
     modelList: ["heads-male", "stars-1-a", "planes-b"],
     measure: "grassmann-affine" as const,
     camera: { yaw: -1.25, pitch: 0.5, zoom: 2, x: 0.25, y: -0.5 },

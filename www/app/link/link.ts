@@ -143,6 +143,7 @@ function lookPairs(state: LinkState): [string, string | number][] {
       ["picture", state.picture, first.picture],
       ["exaggerate", state.exaggeration, first.exaggeration],
       ["shapes", state.shapes, first.shapes],
+      ["rank", state.rank, first.rank],
       ["shelf", state.modelList.join(","), first.modelList.join(",")],
       ["measure", state.measure, first.measure],
     ] as const
@@ -217,6 +218,7 @@ export function readLink(fragment: string): LinkState {
     picture: oneOf(given.get("picture"), PICTURES) ?? fallback.picture,
     exaggeration: readExaggeration(given.get("exaggerate")),
     shapes: valid(parseSeed(given.get("shapes") ?? "1"), fallback.shapes),
+    rank: valid(parseCount(given.get("rank") ?? "", 0, 100), fallback.rank),
     modelList: readModelList(given.get("shelf")),
     measure: oneOf(given.get("measure"), MEASURE_NAMES) ?? fallback.measure,
     camera: readCamera(given.get("camera")),

@@ -2,6 +2,7 @@ import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { MAP_WORDS } from "../stage/map-words";
 import { chosenMap, contrastMap, mapIsWanted } from "../stage/maps";
+import { pairings } from "../stage/pairs";
 import { scene } from "../stage/stage-controller";
 import { latest } from "../state/latest";
 import { result, shapes, vertexMap } from "../state/state";
@@ -35,7 +36,7 @@ const UNITS: [FigureOptions["unit"], string][] = [
 ];
 const COUNTS = [4, 9, 16, 25];
 /** The kinds with a colour bar. */
-const COLOURED: FigureKind[] = ["contrast", "variance", "map"];
+const COLOURED: FigureKind[] = ["contrast", "pairs", "variance", "map"];
 
 function set(part: Partial<FigureOptions>): void {
   figureOptions.value = { ...figureOptions.value, ...part };
@@ -57,6 +58,7 @@ export function FigureDialog({ onClose }: { onClose: () => void }) {
   useEffect(() => closeOffscreen, []);
   const kinds: [FigureKind, string][] = [
     ["contrast", "Contrast"],
+    ...(pairings.value ? ([["pairs", "Pairs"]] as const) : []),
     ["shapes", "Random shapes"],
     ["variance", "Variance"],
     ...(vertexMap.value === "sd" ? [] : ([["map", MAP_WORDS[vertexMap.value].label]] as const)),

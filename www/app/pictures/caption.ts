@@ -5,7 +5,7 @@ import { completed, preparationWords } from "../state/preparation";
 import { count, length } from "../text/format";
 
 /** What the five blocks show: the two figures of the paper, and other views of the page. */
-export type FigureKind = "contrast" | "shapes" | "variance" | "map" | "means";
+export type FigureKind = "contrast" | "pairs" | "shapes" | "variance" | "map" | "means";
 
 export interface Shown {
   shows: FigureKind;
@@ -14,7 +14,7 @@ export interface Shown {
   /** Shapes in each block; drawn on top of each other if `overlaid`. */
   shapes: number;
   overlaid: boolean;
-  /** What was done to the shapes of a contrast; empty where there is no difference. */
+  /** What a contrast or the pairs show; empty where there is no difference. */
   contrast: string;
   /** What the differences show other than their draws; empty if only their draws. */
   differences: string;
@@ -37,6 +37,8 @@ function what({ shows, map, shapes, overlaid, contrast, differences }: Shown): s
       return contrast === ""
         ? "Mean shapes of A, A∩B and B."
         : `${contrast} Colours: ${decapitalised(map)}.`;
+    case "pairs":
+      return `Mean shapes of A, A∩B and B. ${contrast} Colours: ${decapitalised(map)}.`;
     case "means":
       return `Mean shapes of ${BLOCKS}.${also}`;
     case "shapes": {
@@ -54,7 +56,7 @@ function decapitalised(text: string): string {
 }
 
 function ellipsoid({ vertex, shows }: Shown): string {
-  if (vertex === null || shows === "shapes" || shows === "contrast") return "";
+  if (vertex === null || ["shapes", "contrast", "pairs"].includes(shows)) return "";
   const name = vertex.dimension === 2 ? "Ellipses" : "Ellipsoids";
   return `${name}: covariance of vertex ${vertex.number} at ${vertex.deviations} SD.`;
 }

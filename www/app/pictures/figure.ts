@@ -10,11 +10,13 @@ import {
   deviationMap,
   ellipsoids,
   mapRange,
+  pairsMap,
   rangeOf,
   type ShownMap,
   shownMap,
 } from "../stage/maps";
 import { differencePicture, REGION_NAMES } from "../stage/names";
+import { pairsSentence } from "../stage/pairs";
 import { mapOf, scene } from "../stage/stage-controller";
 import { engineClient, report as reportError } from "../state/engine";
 import { REGIONS } from "../state/regions";
@@ -97,10 +99,11 @@ const MODES: Record<FigureKind, ViewMode> = {
   map: "sd",
   means: "mean",
   contrast: "contrast",
+  pairs: "pairs",
 };
 
 /** Figures of other shapes than means, to which the ellipsoids do not belong. */
-const WITHOUT_ELLIPSOIDS: FigureKind[] = ["shapes", "contrast"];
+const WITHOUT_ELLIPSOIDS: FigureKind[] = ["shapes", "contrast", "pairs"];
 
 type Shapes = Partial<Record<Region, RegionShapes>>;
 
@@ -142,9 +145,9 @@ export function captionFor(options: FigureOptions): string {
       map: mapCaption(map.name, map, unit.value),
       shapes: overlaid ? shapeCount() : options.shapes,
       overlaid,
-      // What is pushed in a contrast is not the draws, exaggerated or not.
-      differences: options.shows === "contrast" ? "" : differencePicture(MODES[options.shows]),
-      contrast: contrastSentence.value,
+      // What a contrast or a pair shows is not the draws, exaggerated or not.
+      differences: differencePicture(MODES[options.shows]),
+      contrast: (options.shows === "pairs" ? pairsSentence : contrastSentence).value,
       vertex:
         number !== null && ellipsoid
           ? { number, deviations: ELLIPSOID_SD, dimension: ellipsoid.centre.length === 2 ? 2 : 3 }
@@ -242,6 +245,7 @@ function letter(pen: CanvasRenderingContext2D, figure: Figure): void {
 
 function mapFor(shows: FigureKind): ShownMap {
   if (shows === "contrast") return contrastMap.value;
+  if (shows === "pairs") return pairsMap.value;
   return shows === "variance" ? deviationMap.value : chosenMap.value;
 }
 

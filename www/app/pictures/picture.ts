@@ -5,6 +5,7 @@ import { headline, settingsSentence } from "../comparison/words";
 import { contrastSentence } from "../stage/contrast";
 import { shownMap } from "../stage/maps";
 import { differencePicture, REGION_NAMES } from "../stage/names";
+import { pairsSentence } from "../stage/pairs";
 import { layoutOf, viewer } from "../stage/stage-controller";
 import { region, result, view } from "../state/state";
 import { isDark } from "../state/theme";
@@ -102,17 +103,17 @@ function drawMap(pen: CanvasRenderingContext2D, canvas: HTMLCanvasElement, dark:
   pen.restore();
 }
 
-/** Headline, what was pushed in the view Contrast, and settings, in lines that fit. */
+/** Headline, what the view Contrast or Pairs shows, and settings, in lines that fit. */
 function footLines(pen: CanvasRenderingContext2D, width: number): Line[] {
   const held = result.peek();
   if (!held) return [];
-  const pushed = view.peek() === "contrast";
+  const pushed = { contrast: contrastSentence, pairs: pairsSentence }[String(view.peek())];
   const drawn = pushed ? "" : differencePicture();
   const note = drawn === "" ? "" : ` · differences: ${drawn}`;
   const small = `11px ${FONT}`;
   return [
     { text: plain(headline(held.report, held.nouns)), font: `500 13px ${FONT}` },
-    { text: pushed ? contrastSentence.peek() : "", font: small },
+    { text: pushed?.peek() ?? "", font: small },
     { text: `${settingsSentence(held.report)}${note} · Shapevenn`, font: small },
   ].flatMap(({ text, font }) => {
     pen.font = font;

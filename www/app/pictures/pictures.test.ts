@@ -47,7 +47,7 @@ test("a caption says models, σ, seed and what is shown", () => {
 test("the caption of a contrast says what was pushed and what the colour is, and has no ellipsoid", () => {
   const report = reportWith({ sigma: 0.3 });
   const contrast =
-    "A, B and A∩B are means. A∖B: the mean of A, pushed 3.0× as far from B as it lies.";
+    "A, B and A∩B are means. A∖B: the mean of A, its distance from B drawn 3.0 times as large.";
   const vertex = { number: 5, deviations: 2, dimension: 3 as const };
   const map = "Mean distance to the nearest shape of the other model, mm";
   const of = (part: Partial<Shown>) =>

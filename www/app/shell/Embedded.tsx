@@ -65,6 +65,7 @@ function shown(): string {
   if (tab.value !== "regions") return whose;
   const what = {
     contrast: "What each misses of the other",
+    pairs: "Shapes beside the nearest of the other model",
     mean: "Mean shapes",
     samples: "Random shapes",
     sd: MAP_WORDS[vertexMap.value].label,

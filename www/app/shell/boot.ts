@@ -1,5 +1,6 @@
 /** Starts the page: shows the stored numbers first, then loads the engine, the models and their shapes. */
 import { batch, effect } from "@preact/signals";
+import type { Side } from "../../worker/protocol";
 import { storedResult, watchChoices, watchPictures } from "../comparison/run";
 import { titleOf } from "../learn/scenes";
 import { lessonState, scene } from "../learn/state";
@@ -14,6 +15,7 @@ import { watchEngine } from "../models/list/reopen";
 import { demoModels, openPair } from "../models/opening";
 import { watchPair } from "../models/pair";
 import { watchMaps } from "../stage/maps";
+import { watchPairs } from "../stage/pairs";
 import { FIRST_DEMO } from "../state/demos";
 import { engineClient } from "../state/engine";
 import { settingsKey } from "../state/settings";
@@ -23,12 +25,15 @@ import {
   linked,
   notify,
   nouns,
+  opening,
   page,
   pageState,
   result,
   run,
+  SIDES,
   settings,
   shapes,
+  slots,
   storedGeometry,
 } from "../state/state";
 import { fetchStored } from "../state/stored";
@@ -72,7 +77,7 @@ async function bootComparison(link: LinkState): Promise<void> {
   tellMisread();
   mayBeOlder.value = mayMeanAnotherSigma(location.hash);
   const stored = await fetchStored(mayBeStored(link));
-  if (stored && wants(link, settingsKey(stored.settings))) {
+  if (stored && !anyTaken() && wants(link, settingsKey(stored.settings))) {
     batch(() => {
       settings.value = stored.settings;
       result.value = storedResult(stored);
@@ -94,6 +99,7 @@ async function bootComparison(link: LinkState): Promise<void> {
   watchExplorer();
   watchPlaying();
   watchMaps();
+  watchPairs();
   watchMatrix();
   watchRunFile();
   watchContent();
@@ -129,8 +135,12 @@ async function openModels(link: LinkState): Promise<void> {
   const waiting = awaitLink(link);
   if (waiting) return waiting;
   const { a, b } = modelsOf(link) ?? demoModels(FIRST_DEMO);
-  await openPair(a, b);
+  // What somebody has opened meanwhile stays.
+  await openPair(isTaken("a") ? null : a, isTaken("b") ? null : b);
 }
+
+const isTaken = (side: Side) => slots[side].peek() !== null || opening[side].peek() !== null;
+const anyTaken = () => SIDES.some(isTaken);
 
 /** Writes the state to attributes and title of the document. */
 function watchDocument(): void {

@@ -1,8 +1,9 @@
-import { lockedRange, unit } from "../state/state";
+import { lockedRange, unit, view } from "../state/state";
 import { gradientOf } from "../text/colormap";
 import { number, percent, signed, withoutRoundingError } from "../text/format";
 import { Check } from "../ui/Check";
 import { Slider } from "../ui/Slider";
+import { contrastSentence } from "./contrast";
 import { MAP_WORDS, mapCaption, scaleEnds } from "./map-words";
 import { LEVEL, mapProblem, mapRange, ownRange, shownMap } from "./maps";
 
@@ -37,6 +38,7 @@ export function ColorBar() {
   const range = mapRange.value;
   const map = shownMap.value;
   if (mapProblem.value) return <p class="small">{mapProblem.value}</p>;
+  if (!range && view.value === "contrast" && contrastSentence.value !== "") return null;
   if (!range) return <p class="small">{MAP_WORDS[map.name].label}: waiting for the engine.</p>;
   const [low, high] = range;
   const own = ownRange.value;

@@ -2,16 +2,19 @@ import { useComputed } from "@preact/signals";
 import type { Region } from "../../worker/protocol";
 import { VENN_BOX, vennOf } from "../comparison/venn";
 import { outOfDate, painting, region, result } from "../state/state";
-import { percent } from "../text/format";
+import { length, percent } from "../text/format";
 import { regionLabel } from "./names";
 
-/** Venn diagram of the total variances to scale; a click on a region shows it alone. */
+/**
+ * Venn diagram of the total variances to scale; a click on a region shows it alone. Where the means lie is not in it, so
+ * that models far apart may overlap: the caption says how far.
+ */
 export function VennMap() {
   const report = result.value?.report;
   const venn = useComputed(() => result.value && vennOf(result.value.report)).value;
   if (!venn || !report || painting.value) return <figure class="venn" aria-hidden="true" />;
   const { a, b, paths } = venn;
-  const { varianceOfAInB, varianceOfBInA } = report.overlap;
+  const { varianceOfAInB, varianceOfBInA, meanToMean: apart } = report.overlap;
   const middle = (Math.max(a.x - a.r, b.x - b.r) + Math.min(a.x + a.r, b.x + b.r)) / 2;
   const labelA = (a.x - a.r + Math.max(a.x - a.r, Math.min(b.x - b.r, a.x + a.r))) / 2;
   const labelB = (b.x + b.r + Math.min(b.x + b.r, Math.max(a.x + a.r, b.x - b.r))) / 2;
@@ -35,8 +38,9 @@ export function VennMap() {
         </text>
       </svg>
       <figcaption>
-        Areas: total variance of A, of B, and of what both can make. Choose a region to show it
-        alone.
+        Areas: how much A and B vary about their own means
+        {apart > 0 ? `, which are ${length(apart, report.models.a.unit)} apart` : ""}. Choose a
+        region to show it alone.
       </figcaption>
     </figure>
   );

@@ -2,7 +2,7 @@
 import { computed } from "@preact/signals";
 import type { Contrast, RegionShapes, Side } from "../../worker/protocol";
 import { DIFFERENCE_OF, letters } from "../state/regions";
-import { geometry, SIDES, shapes } from "../state/state";
+import { emptyRegions, geometry, SIDES, shapes } from "../state/state";
 import { number } from "../text/format";
 import { isCloud } from "../viewer/contents";
 
@@ -10,7 +10,10 @@ import { isCloud } from "../viewer/contents";
 export const contrastSentence = computed(() => {
   const of = (side: Side) => shapes.value[DIFFERENCE_OF[side]];
   const drawn = SIDES.filter((side) => of(side));
-  if (drawn.length === 0) return "";
+  if (drawn.length === 0) {
+    const empty = SIDES.every((side) => emptyRegions.value[DIFFERENCE_OF[side]]);
+    return empty ? "A, B and A∩B are means. Neither model misses a shape of the other." : "";
+  }
   const { a } = geometry.value;
   if (a && isCloud(a)) {
     return "All panes show draws; A∖B and B∖A are coloured by what the other model misses.";
@@ -27,5 +30,5 @@ function pushed(side: Side, found: RegionShapes | undefined): string {
     contrast.of === "mean"
       ? `the mean of ${own}`
       : `${own} at 3 SD of the mode that ${other} misses most`;
-  return `${own}∖${other}: ${what}, pushed ${number(contrast.times, 2)}× as far from ${other} as it lies.`;
+  return `${own}∖${other}: ${what}, its distance from ${other} drawn ${number(contrast.times, 2)} times as large.`;
 }

@@ -4,7 +4,7 @@ import { EngineFailure, wasAborted } from "../../worker/engine-errors";
 import type { Ellipsoid, MapName, Region, VertexMap } from "../../worker/protocol";
 import { engineClient, onEngineRestart } from "../state/engine";
 import { latest } from "../state/latest";
-import { REGIONS } from "../state/regions";
+import { DIFFERENCE_OF, REGIONS } from "../state/regions";
 import {
   geometry,
   held,
@@ -12,14 +12,17 @@ import {
   mapMode,
   result,
   run,
+  SIDES,
   shapes,
   slots,
   vertex,
   vertexMap,
   view,
 } from "../state/state";
+import { isColoured, type ViewMode } from "../state/view";
 import { commonRange, type Palette, rangeBelow, symmetricRange } from "../text/colormap";
 import { MAP_WORDS } from "./map-words";
+import { pairings } from "./pairs";
 
 interface Fetched {
   /** Key of the comparison. */
@@ -88,6 +91,16 @@ export const contrastMap = computed<ShownMap>(() => {
   return { name: "reach", mode: 0, signed: false, palette: "magma", values, covers: COVERED };
 });
 
+/** How far the shapes of the view Pairs lie from the nearest of the other model. */
+export const pairsMap = computed<ShownMap>(() => {
+  const values: ShownMap["values"] = {};
+  for (const side of SIDES) {
+    const missed = pairings.value?.[side].missed;
+    if (missed) values[DIFFERENCE_OF[side]] = missed;
+  }
+  return { name: "reach", mode: 0, signed: false, palette: "magma", values, covers: COVERED };
+});
+
 /** The map chosen for the view Map, without values until the engine has sent them. */
 export const chosenMap = computed<ShownMap>(() => {
   const [name, mode] = [vertexMap.value, mapMode.value];
@@ -110,14 +123,15 @@ function paletteOf(name: MapName, signed: boolean): Palette {
 }
 
 /** The map of the shown view. */
-export const shownMap = computed(() =>
-  view.value === "contrast" ? contrastMap.value : chosenMap.value,
-);
+export const shownMap = computed(() => {
+  if (view.value === "contrast") return contrastMap.value;
+  return view.value === "pairs" ? pairsMap.value : chosenMap.value;
+});
 
 /** Why the chosen map cannot be shown. */
 export const mapProblem = computed(() => {
   const found = fetched.value;
-  const asks = view.value !== "contrast" && vertexMap.value !== "sd";
+  const asks = view.value === "sd" && vertexMap.value !== "sd";
   return asks && found && answers(found) ? found.problem : null;
 });
 
@@ -146,6 +160,16 @@ export function rangeOf({ name, signed, values, covers }: ShownMap): [number, nu
   if (name === "chance") return known ? [0, LEVEL] : null;
   if (covers !== undefined) return rangeBelow(Object.values(values), covers);
   return signed ? symmetricRange(Object.values(values)) : commonRange(Object.values(values));
+}
+
+/** Chooses a view, and unlocks the scale if its colours are of another quantity. */
+export function chooseView(mode: ViewMode): void {
+  batch(() => {
+    const before = isColoured(view.value) ? shownMap.value.name : null;
+    view.value = mode;
+    const now = isColoured(mode) ? shownMap.value.name : null;
+    if (before && now && MAP_WORDS[before].kind !== MAP_WORDS[now].kind) lockedRange.value = null;
+  });
 }
 
 /** Unlocks the scale when another quantity is chosen. */

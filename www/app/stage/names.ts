@@ -27,13 +27,15 @@ export function shownIn(region: Region): string {
   }
   if (!isDifference(region)) return meaning;
   if (view.value === "contrast") return region === "aWithoutB" ? "what B misses" : "what A misses";
+  if (view.value === "pairs") {
+    return "shape and best try";
+  }
   const drawn = differencePicture();
   if (drawn === "") return meaning;
   return showsExclusive(view.value) ? drawn : `exaggerated, ${drawn}`;
 }
 
-const EXCLUSIVE: Record<ViewMode, string> = {
-  contrast: "",
+const EXCLUSIVE: Record<Exclude<ViewMode, "contrast" | "pairs">, string> = {
   mean: "mean of the model",
   samples: "exclusive modes",
   sd: "expected residual",
@@ -48,6 +50,8 @@ function showsExclusive(shows: ViewMode): boolean {
 
 /** What a difference shows other than its draws: exaggeration or exclusive modes; empty if only its draws. */
 export function differencePicture(shows: ViewMode = view.value): string {
+  // These show shapes of their own.
+  if (shows === "contrast" || shows === "pairs") return "";
   return [
     ...(showsExclusive(shows) ? [EXCLUSIVE[shows]] : []),
     ...(exaggeration.value > 0 ? [`γ\u202f${exaggeration.value.toFixed(1)}`] : []),

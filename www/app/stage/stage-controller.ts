@@ -31,6 +31,7 @@ import {
 import { listen } from "../viewer/gestures";
 import { type Hit, halfHeightIn, type Rect, type Viewer } from "../viewer/viewer";
 import { ellipsoids, mapRange, type ShownMap, shownMap } from "./maps";
+import { pairedShapes } from "./pairs";
 
 /** The vertex under the pointer and its position on the canvas. */
 export const hover = signal<(Hit & { x: number; y: number }) | null>(null);
@@ -49,6 +50,7 @@ export const scene = computed<Scene>(() => ({
   dark: isDark(),
   fadeRim: packagedHeads.value,
   map: mapOf(shownMap.value),
+  pairs: pairedShapes.value,
   ellipsoids: tab.value === "regions" ? ellipsoids.value : {},
 }));
 

@@ -145,6 +145,8 @@ export const diagnosedSide = signal<Side | null>(FIRST_VIEW.side);
 export const diagnosedMode = signal<number | null>(FIRST_VIEW.coefficient);
 export const region = signal<Region | null>(null);
 export const shapesSeed = signal(FIRST_VIEW.shapes);
+/** Which shapes are shown in the view Pairs, by their distance to the other model, in per cent. */
+export const pairRank = signal(FIRST_VIEW.rank);
 /** What the differences show, and how much they are exaggerated. */
 export const picture = signal(FIRST_VIEW.picture);
 export const exaggeration = signal(FIRST_VIEW.exaggeration);
@@ -168,7 +170,7 @@ export const alone = computed<Region | null>(() => (painting.value ? "a" : regio
 export const lockedRange = signal<[number, number] | null>(null);
 export const theme = signal<Theme>("system");
 
-/** How the two models of the stored comparison are drawn until the engine has opened them. */
+/** How the two models of the stored comparison are drawn until the engine has drawn its own shapes. */
 export const storedGeometry = signal<Sides<Geometry> | null>(null);
 /** How the two models are drawn. */
 export const geometry = computed<Record<Side, Geometry | null>>(() => {
@@ -310,7 +312,8 @@ export const pageState = computed(() => {
   if (notices.value.some(({ place }) => !ABOUT_LINKS.has(place))) return "error";
   if (inspection.value?.problem) return "error";
   if (!slots.a.value || !slots.b.value) return "idle";
-  return result.value && !outOfDate.value && shapes.value.intersection ? "done" : "ready";
+  const drawn = shapes.value.intersection && !storedGeometry.value;
+  return result.value && !outOfDate.value && drawn ? "done" : "ready";
 });
 
 /** Changes some of the settings; a run then starts by itself. */

@@ -4,10 +4,11 @@ import { type Camera, HOME } from "./camera";
 import { FIRST_DEMO } from "./demos";
 import { DEFAULTS } from "./settings";
 
-export type ViewMode = "contrast" | "mean" | "samples" | "sd";
-export const VIEW_MODES: ViewMode[] = ["contrast", "mean", "samples", "sd"];
+export type ViewMode = "contrast" | "pairs" | "mean" | "samples" | "sd";
+export const VIEW_MODES: ViewMode[] = ["contrast", "pairs", "mean", "samples", "sd"];
 /** Whether a map colours the vertices. */
-export const isColoured = (mode: ViewMode) => mode === "contrast" || mode === "sd";
+export const isColoured = (mode: ViewMode) =>
+  mode === "contrast" || mode === "pairs" || mode === "sd";
 /** The pages: comparison, lessons, gallery. */
 export type PageName = "compare" | "learn" | "gallery";
 export const PAGES: PageName[] = ["compare", "learn", "gallery"];
@@ -58,6 +59,8 @@ export interface ViewState {
   exaggeration: number;
   /** Seed of the shapes shown in “Samples”. */
   shapes: string;
+  /** Which shapes are shown in “Pairs”: 0 for the nearest to the other model, 100 for the furthest. */
+  rank: number;
   camera: Camera;
 }
 
@@ -78,5 +81,6 @@ export const FIRST_VIEW: ViewState = {
   picture: "draws",
   exaggeration: 0,
   shapes: "1",
+  rank: 50,
   camera: HOME,
 };

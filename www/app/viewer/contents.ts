@@ -17,6 +17,8 @@ export interface Scene {
   fadeRim: boolean;
   /** The map that colours the vertices; standard deviations if left out. */
   map?: { values: Partial<Record<Region, Float32Array>>; palette: Palette } | undefined;
+  /** In the view Pairs: a shape, and the nearest of the other model. */
+  pairs?: Partial<Record<Region, readonly [Float32Array, Float32Array]>>;
   /** Covariances of the chosen vertex. */
   ellipsoids?: Partial<Record<Region, Ellipsoid>>;
 }
@@ -65,6 +67,8 @@ export function contentsOf(scene: Scene, regions: readonly Region[]): PaneConten
 export function contentOf(scene: Scene, region: Region): PaneContent | null {
   const found = scene.shapes[region];
   const own = ownGeometry(scene, region);
+  const pair = scene.mode === "pairs" ? scene.pairs?.[region] : undefined;
+  if (pair) return pairContent(scene, region, pair);
   const current = found && geometryFor(scene, region, found.mean.length);
   // Before a comparison the models themselves are shown.
   const geometry = current ?? (isModel(region) ? own : null);
@@ -89,6 +93,29 @@ export function contentOf(scene: Scene, region: Region): PaneContent | null {
     ellipsoid: current ? drawnEllipsoid(scene, region) : null,
     marks: null,
     tint: (surface ? CLAY : INK)[shade][ownerOf(region)],
+  };
+}
+
+/** A shape and the nearest of the other model, side by side, both coloured by how far they are apart. */
+function pairContent(
+  scene: Scene,
+  region: Region,
+  pair: readonly [Float32Array, Float32Array],
+): PaneContent | null {
+  const [shape] = pair;
+  const drawn = drawnWith(scene, region, shape.length);
+  if (!drawn) return null;
+  const points = shape.length / (dimensionOf(scene) ?? 3);
+  const values = scene.map?.values[region];
+  return {
+    ...drawn,
+    shapes: [...pair],
+    overlaid: false,
+    values: values?.length === points ? values : null,
+    palette: scene.map?.palette ?? "viridis",
+    ellipsoid: null,
+    marks: null,
+    tint: tintOf(scene, region, drawn.triangles === null),
   };
 }
 
@@ -152,7 +179,8 @@ export function cardContent(geometry: Geometry, side: Region, scene: Scene): Pan
 export function sceneFrame(scene: Scene): Frame {
   const dimension = dimensionOf(scene) ?? 3;
   const means = contentsOf({ ...scene, mode: "mean" }, ["a", "b"]);
-  const pushed = scene.mode === "contrast" ? contentsOf(scene, REGIONS) : [];
+  const pushes = scene.mode === "contrast" || scene.mode === "pairs";
+  const pushed = pushes ? contentsOf(scene, REGIONS) : [];
   const many = scene.mode === "samples" || means.some((content) => content.overlaid);
   const shown = many ? contentsOf({ ...scene, mode: "samples" }, REGIONS) : means;
   const fade = means[0]?.fade ?? null;

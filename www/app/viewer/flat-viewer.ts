@@ -189,9 +189,14 @@ function drawOutline(
   const segments = pane.segments;
   if (!segments) {
     for (let point = 0; point < shape.length / 2; point += 1) {
-      pen.fillStyle = values ? colourAt(share(point)) : colour;
       const [x, y] = toPixels(shape, point);
-      pen.fillRect(x - width, y - width, 2 * width, 2 * width);
+      const square = (half: number, fill: string) => {
+        pen.fillStyle = fill;
+        pen.fillRect(x - half, y - half, 2 * half, 2 * half);
+      };
+      // A rim, on which light colours show as well.
+      if (values) square(width + 1, RIM.colour);
+      square(width, values ? colourAt(share(point)) : colour);
     }
     return;
   }

@@ -3,6 +3,7 @@ import { bandSentence } from "../../comparison/groups";
 import { degrees, number, percent } from "../../text/format";
 import { CurveChart } from "../../ui/Curves";
 import { DataTable } from "../../ui/DataTable";
+import { InTurn } from "../../ui/InTurn";
 
 interface BandPlot {
   /** Path in the bands of the report. */
@@ -77,11 +78,9 @@ function plots({ bands }: EvidenceReport, unit: string): BandPlot[] {
 /** Curves of both groups with their band of chance: shared variance, exclusive modes, spectra, angles. */
 export function BandCharts({ evidence, unit }: { evidence: EvidenceReport; unit: string }) {
   return (
-    <>
-      {plots(evidence, unit).map((plot) => (
-        <BandChart key={plot.path} plot={plot} />
-      ))}
-    </>
+    <InTurn
+      parts={plots(evidence, unit).map((plot) => <BandChart key={plot.path} plot={plot} />)}
+    />
   );
 }
 

@@ -12,6 +12,7 @@ import { tickText } from "../../text/plots";
 import { Chart } from "../../ui/Chart";
 import { DataTable } from "../../ui/DataTable";
 import { Histogram } from "../../ui/Histogram";
+import { InTurn } from "../../ui/InTurn";
 import { Phrase } from "../../ui/Phrase";
 import { ShowNumbers } from "../../ui/ShowNumbers";
 import { HistogramTable } from "./HistogramTable";
@@ -28,39 +29,41 @@ export function Statistics({ evidence, name, unit }: Props) {
   return (
     <>
       <div class="histograms">
-        {statistics.map((one, index) => {
-          const sentence = statisticSentence(evidence, name, index, unit);
-          const title = STATISTICS[one.name];
-          return (
-            <Chart
-              key={one.name}
-              name={`${name}-${one.name}`}
-              title={title}
-              about={<Phrase parts={sentence} />}
-              label={`${title} under relabelling. ${plain(sentence)}`}
-              height={() => 132}
-              draw={(width) => (
-                <Histogram
-                  width={width}
-                  height={132}
-                  chance={one.chance}
-                  observed={one.observed}
-                  acrossName={axisName(one, unit)}
-                  show={isShare(one.name) ? percent : tickText}
-                />
-              )}
-              table={() => (
-                <HistogramTable
-                  file={`chance-${name}-${one.name}`}
-                  caption={`${title}, relabelled`}
-                  path={`evidence.${name}.statistics.${index}.chance`}
-                  chance={one.chance}
-                  show={(value) => statisticText(one.name, value, unit)}
-                />
-              )}
-            />
-          );
-        })}
+        <InTurn
+          parts={statistics.map((one, index) => {
+            const sentence = statisticSentence(evidence, name, index, unit);
+            const title = STATISTICS[one.name];
+            return (
+              <Chart
+                key={one.name}
+                name={`${name}-${one.name}`}
+                title={title}
+                about={<Phrase parts={sentence} />}
+                label={`${title} under relabelling. ${plain(sentence)}`}
+                height={() => 132}
+                draw={(width) => (
+                  <Histogram
+                    width={width}
+                    height={132}
+                    chance={one.chance}
+                    observed={one.observed}
+                    acrossName={axisName(one, unit)}
+                    show={isShare(one.name) ? percent : tickText}
+                  />
+                )}
+                table={() => (
+                  <HistogramTable
+                    file={`chance-${name}-${one.name}`}
+                    caption={`${title}, relabelled`}
+                    path={`evidence.${name}.statistics.${index}.chance`}
+                    chance={one.chance}
+                    show={(value) => statisticText(one.name, value, unit)}
+                  />
+                )}
+              />
+            );
+          })}
+        />
       </div>
       <ShowNumbers label="All statistics as a table">
         {() => (

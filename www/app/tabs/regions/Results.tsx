@@ -1,3 +1,4 @@
+import { useMemo } from "preact/hooks";
 import type { Report } from "../../../worker/protocol";
 import { CHANCE, chanceTopic, said } from "../../comparison/answer";
 import { DIAGNOSTICS, GROUPS } from "../../comparison/numbers";
@@ -21,6 +22,9 @@ import { Numbers } from "./Numbers";
 import { Sweep } from "./Sweep";
 import { TwoSides } from "./TwoSides";
 
+/** How often shapes that were left out of a group are nearer to it. */
+const TOLD_APART = ["told-apart-a", "told-apart-b"] as const;
+
 /** The answer, whatever σ: how far either model lies from the other, and whether that is more than chance. */
 export function Headline() {
   const held = result.value;
@@ -41,6 +45,17 @@ export function Headline() {
       )}
       <p class="chance" data-answer={chanceTopic(report) ?? "pending"}>
         {chance ? <Phrase parts={chance} /> : pending(report)}
+        {TOLD_APART.map((topic) => {
+          const sentence = said(report, nouns, topic);
+          return (
+            sentence && (
+              <span key={topic} data-about={topic}>
+                {" "}
+                <Phrase parts={sentence} />
+              </span>
+            )
+          );
+        })}
       </p>
     </div>
   );
@@ -58,27 +73,26 @@ function waiting(): string {
     : "Comparing two shape models.";
 }
 
-const TOLD_APART = ["told-apart-a", "told-apart-b"] as const;
-
 /** Sentences, warnings and tables of the comparison. */
 export function Results() {
   const held = result.value;
+  // Evidence, which comes later than the rest of a report, changes none of them.
+  const tables = useMemo(
+    () => held && <Tables report={held.report} />,
+    [held?.report.intersection, held?.report.reach],
+  );
   if (!held) return null;
   const { report, nouns } = held;
   const { converged, phrase } = belief(report);
+  const plausible = said(report, nouns, "nearest-plausible");
   return (
     <section class="results" aria-label="Results" data-stale={outOfDate.value}>
       <ul class="says">
-        {TOLD_APART.map((topic) => {
-          const sentence = said(report, nouns, topic);
-          return (
-            sentence && (
-              <li key={topic} data-about={topic}>
-                <Phrase parts={sentence} />
-              </li>
-            )
-          );
-        })}
+        {plausible && (
+          <li data-about="nearest-plausible">
+            <Phrase parts={plausible} />
+          </li>
+        )}
         <li data-about="intersection">
           <Phrase parts={shared(report)} />
         </li>
@@ -98,6 +112,15 @@ export function Results() {
           {message} <span class="dim">{hint}</span>
         </p>
       ))}
+      {tables}
+    </section>
+  );
+}
+
+/** The tables of a report, and how far the draws can be believed. */
+function Tables({ report }: { report: Report }) {
+  return (
+    <>
       {GROUPS.map((group) => (
         <Numbers key={group.title} group={group} report={report} />
       ))}
@@ -117,7 +140,7 @@ export function Results() {
         <ModePlots report={report} />
         <Angles angles={report.overlap.principalAnglesDegrees} />
       </details>
-    </section>
+    </>
   );
 }
 

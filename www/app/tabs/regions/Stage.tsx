@@ -34,6 +34,7 @@ import { BackIcon, ExpandIcon } from "../../ui/icons";
 import { contentOf, ownGeometry } from "../../viewer/contents";
 import { ContrastCaption } from "./ContrastCaption";
 import { DifferenceBar } from "./DifferenceBar";
+import { PairsBar } from "./PairsBar";
 import { Toolbar } from "./Toolbar";
 
 /** The five regions side by side: A at the left, B at the right, A∩B between them above the Venn diagram. */
@@ -63,6 +64,7 @@ export function Stage() {
         <>
           <DifferenceBar />
           {view.value === "contrast" && <ContrastCaption />}
+          {view.value === "pairs" && <PairsBar />}
           {isColoured(view.value) && <ColorBar />}
           <VertexBar />
         </>
@@ -103,11 +105,12 @@ function canvasLabel(): string {
   const map = vertexMap.value === "sd" ? "Standard deviations" : MAP_WORDS[vertexMap.value].label;
   const what = {
     contrast: "What each model misses of the other",
+    pairs: "Shapes beside the nearest of the other model",
     mean: "Mean shapes",
     samples: "Random shapes",
     sd: map,
   }[view.value];
-  if (view.value === "contrast") {
+  if (view.value === "contrast" || view.value === "pairs") {
     return alone.value === null ? what : `${what}, ${REGION_NAMES[alone.value].sign}`;
   }
   return alone.value === null
@@ -150,7 +153,7 @@ function Pane({ name, panes }: { name: Region; panes: Map<Region, HTMLElement> }
 function PaneNote({ name }: { name: Region }) {
   const empty = emptyRegions.value[name];
   const drawn = contentOf(scene.value, name) !== null;
-  if (empty)
+  if (empty && !drawn)
     return <p class="pane-note">{isEmpty(name) ? "Empty: there is no such shape." : empty}</p>;
   if (drawn) {
     const guess = shapes.value[name]?.source === "fit" && run.value;

@@ -2,6 +2,7 @@ import { resample } from "../../comparison/run";
 import { pictureDialog } from "../../pictures/PictureDialogs";
 import { savePicture } from "../../pictures/picture";
 import { MapChooser } from "../../stage/MapChooser";
+import { chooseView } from "../../stage/maps";
 import { ResetView } from "../../stage/ShapesCanvas";
 import { outOfDate, region, view } from "../../state/state";
 import { VIEW_MODES, type ViewMode } from "../../state/view";
@@ -10,6 +11,7 @@ import { Segments } from "../../ui/Segments";
 
 const LABELS: Record<ViewMode, string> = {
   contrast: "Contrast",
+  pairs: "Pairs",
   mean: "Mean",
   samples: "Samples",
   sd: "Map",
@@ -23,9 +25,7 @@ export function Toolbar() {
         name="view"
         value={view.value}
         options={VIEW_MODES.map((mode) => [mode, LABELS[mode]])}
-        onChoose={(mode) => {
-          view.value = mode;
-        }}
+        onChoose={chooseView}
       />
       {view.value === "samples" && (
         <button type="button" class="quiet" onClick={resample}>
