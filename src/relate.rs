@@ -184,7 +184,7 @@ pub(crate) fn mean_left_out(errors: &Sides<Option<Vec<f64>>>, scale: f64) -> Opt
 pub(crate) fn meeting_of(pair: &Pair) -> Option<Meeting> {
     let radii = pair.models().map(|model| plausible_radius(model.mode_count()));
     nearest_meeting(pair, radii.into_array())
-        .filter(|meeting| meeting.distance > ROUNDING * pair.scale())
+        .filter(|meeting| meeting.distance > (ROUNDING * pair.scale()).max(pair.rounding()))
 }
 
 /// What the report says of two models' spaces and variances.

@@ -922,6 +922,73 @@ fn a_link_may_be_about_other_files_and_parts() {
 }
 
 #[test]
+fn a_file_that_cannot_be_read_does_not_hide_the_others() {
+    let (good, bad) = (fixture("double.h5"), fixture("empty.h5"));
+    for named in [[good.as_str(), &bad], [bad.as_str(), &good]] {
+        let output = shapevenn(&["info", named[0], named[1], "demo:planes-a"]);
+        assert_eq!(output.status.code(), Some(2), "{named:?}");
+        let said = text(&output.stdout);
+        assert!(said.contains("double.h5") && said.contains("planes-a"), "{said}");
+        assert!(text(&output.stderr).contains("empty.h5"), "{output:?}");
+    }
+    let output = shapevenn(&["info", &bad, &good, "--json"]);
+    let described: Value = serde_json::from_str(&text(&output.stdout)).unwrap();
+    assert_eq!(described.as_array().unwrap().len(), 1, "the good one");
+}
+
+#[test]
+fn a_folder_of_an_unknown_format_says_which_file_is_not_read() {
+    let folder = std::env::temp_dir().join(format!("shapevenn-unknown-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    for name in ["m1.foo", "m2.foo", "m3.foo"] {
+        std::fs::write(folder.join(name), "# some other format\nnode 1.0 a\n").unwrap();
+    }
+    let output = shapevenn(&["info", folder.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(2), "refused");
+    let said = text(&output.stderr);
+    assert!(said.contains("m1.foo") && said.contains("ot a format Shapevenn knows"), "{said}");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn what_a_link_names_is_never_replaced_by_something_else() {
+    let refused = |arguments: &[&str]| {
+        let output = shapevenn(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        text(&output.stderr)
+    };
+    let files = "#v=1&name-a=male.h5&name-b=female.h5&hash-a=3f2a00112233aabb&hash-b=77aa00112233aabb&sigma=0.5";
+    let said = refused(&["compare", "--link", files]);
+    assert!(said.contains("male.h5 as A and female.h5 as B"), "{said}");
+    // One side by its hash, one not at all.
+    let said = refused(&["compare", "--link", "v=1&hash-a=3f2a00112233aabb"]);
+    assert!(
+        said.contains("3f2a00112233aabb as A and something as B that it does not name"),
+        "{said}"
+    );
+    let said = refused(&["compare", "--link", "v=1&a=demo:planes-a&name-b=mine.h5"]);
+    assert!(said.contains("The link has mine.h5 as B;"), "{said}");
+    // Other files than those of the link.
+    let said = refused(&["compare", "demo:planes-a", "demo:planes-b", "--link", files]);
+    assert!(
+        said.contains("is not the model A that the link was made with: its fingerprint is "),
+        "{said}"
+    );
+    let said = refused(&["compare", "demo:planes-a", "demo:planes-b", "--link", "v=1&hash-b=xyz"]);
+    assert!(said.contains("“hash-b=xyz” of the link cannot be read"), "{said}");
+    // The right ones, by the digits of their fingerprints.
+    let report = printed(&["compare", "demo:planes-a", "demo:planes-b", "--draws", "64", "--json"]);
+    let report: Value = serde_json::from_str(&report).unwrap();
+    let digits =
+        |side: &str| report["models"][side]["fingerprint"].as_str().unwrap()[..16].to_owned();
+    let link =
+        format!("v=1&name-a=a&name-b=b&hash-a={}&hash-b={}&draws=64", digits("a"), digits("b"));
+    printed(&["compare", "demo:planes-a", "demo:planes-b", "--link", &link]);
+    let exchanged = format!("v=1&hash-a={}&draws=64", digits("b"));
+    refused(&["compare", "demo:planes-a", "demo:planes-b", "--link", &exchanged]);
+}
+
+#[test]
 fn a_link_that_cannot_be_read_is_refused_in_words() {
     let cases = [
         ("v=1&demo=moon", "the pair “moon”"),

@@ -532,7 +532,7 @@ fn shapes_in_the_space_of_b_may_be_outside_its_domain() {
     };
     let (a, b) = (line(1.0), line(0.1));
     let side = ResidualOperator::new(&a, &b);
-    assert!(side.is_contained(1.0), "no residual at all");
+    assert!(side.is_contained(1e-9), "no residual at all");
     let (definition, level) = (DifferenceDefinition::Outside, Level::Value(3.0));
     let criterion = Criterion::new(definition, level, &side, &a, 1, 0);
     let (found, error) = rejected(&side, &criterion, None, 4000, 1).probability();

@@ -5,9 +5,11 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::common::{compared, face_like_pair, report};
 use serde::Deserialize;
 use shapevenn::formats::{self, Array, Data, Input, Options, Part};
 use shapevenn::model::{Cells, Kind, LinearModel};
+use shapevenn::settings::Settings;
 
 fn fixtures() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures")
@@ -387,4 +389,60 @@ fn numbers_beyond_single_precision_are_refused_by_name() {
         );
     }
     assert!(formats::write_json(&model).is_ok(), "double precision has room");
+}
+
+/// A model, and the same far from its origin, where single precision leaves larger errors.
+fn near_and_far() -> [LinearModel; 2] {
+    let near = face_like_pair(60, 5).0;
+    let mean = near.mean().map(|value| value + 40.0 * near.size());
+    let far = LinearModel::from_scaled_basis(3, mean, near.scaled_basis()).unwrap().0;
+    [near, far]
+}
+
+#[test]
+fn a_model_and_its_own_export_are_the_same_to_the_precision_of_the_file() {
+    for model in near_and_far() {
+        for (name, bytes) in [
+            ("model.json", formats::write_json(&model).unwrap()),
+            ("model.npz", formats::write_npz(&model).unwrap()),
+            ("model.h5", formats::write_statismo(&model).unwrap()),
+            ("model.h5.json", formats::write_hdf5_json(&model).unwrap()),
+        ] {
+            let back = read(name, &bytes, None).model;
+            let found =
+                report(&compared(&model, &back, Settings { draws: 400, ..Settings::default() }));
+            let said: Vec<String> =
+                found.answer.iter().map(|sentence| sentence.plain("mm")).collect();
+            assert_eq!(said[0], "A shape of A is always one that B can make.", "{name}");
+            assert_eq!(said[1], "A shape of B is always one that A can make.", "{name}");
+            let empty = [&found.differences.a_without_b, &found.differences.b_without_a];
+            assert!(empty.iter().all(|one| one.probability == 0.0), "{name}: nothing differs");
+            let spans = found.warnings.iter().find(|one| one.code == "identical-spaces").unwrap();
+            assert!(spans.message.starts_with("The two models make the same shapes"), "{name}");
+            assert!(found.overlap.bhattacharyya < 1e-3, "{name}: {}", found.overlap.bhattacharyya);
+            assert!(
+                found.settings.sigma.unwrap() > 1e-4 * model.size(),
+                "{name}: a σ that means something"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_difference_beyond_the_precision_of_a_file_is_one() {
+    for model in near_and_far() {
+        let bytes = formats::write_statismo(&model).unwrap();
+        let back = read("model.h5", &bytes, None).model;
+        // One point is off by a thousandth of the size, ten thousand times what single precision leaves.
+        let mut mean = back.mean().clone();
+        mean[7] += 1e-3 * model.size();
+        let off = LinearModel::from_scaled_basis(3, mean, back.scaled_basis()).unwrap().0;
+        let found = report(&compared(&model, &off, Settings { draws: 400, ..Settings::default() }));
+        let reach = found.reach.unwrap();
+        // What coefficients close of it moves the other points a little: no less than the one point, hardly more than twice.
+        let least = 1e-3 * model.size() / 60.0;
+        let mean = reach.a_to_b.mean;
+        assert!(mean > 0.9 * least && mean < 4.0 * least, "{mean}, not about {least}");
+        assert!(found.warnings.iter().all(|one| one.code != "identical-spaces"), "not the same");
+    }
 }

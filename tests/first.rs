@@ -2,6 +2,8 @@
 //!
 //! `SHAPEVENN_WRITE=1 cargo test --test all first` writes the picture anew, as `npm run first` does.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
+
 use serde_json::{Value, json};
 use shapevenn::comparison::{Comparison, DifferenceView, Region};
 use shapevenn::files::{self, Download};

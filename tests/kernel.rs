@@ -327,7 +327,7 @@ proptest! {
         let point = vec![z; there.mode_count()];
         let scale = 1.0 + there.shape(&point).norm() + a.mean().norm();
         prop_assert!(side.mean_vertex_distance(&point) < 1e-13 * scale, "inside");
-        prop_assert!(side.is_contained(1e-3 * scale), "and known to be");
+        prop_assert!(side.is_contained(1e-12 * scale), "and known to be");
     }
 
     #[test]

@@ -500,10 +500,10 @@ impl Drawing {
     fn draw_differences(&mut self, prepared: &Prepared, definition: DifferenceDefinition) {
         /// Blocks of 256 proposals that run at once.
         const BLOCKS: usize = 8;
-        let scale = prepared.pair().scale();
+        let rounding = prepared.pair().rounding();
         let rejections = &mut self.drawn.rejections;
         let unfinished = Side::BOTH.into_iter().find(|&side| {
-            !rejections[side].is_done() && !definition.is_empty(prepared.operator(side), scale)
+            !rejections[side].is_done() && !definition.is_empty(prepared.operator(side), rounding)
         });
         match unfinished {
             Some(side) => {

@@ -138,7 +138,7 @@ impl Comparison {
         let closest = self.closest_approach(drawing);
         let meeting = drawing.meeting.as_ref().map_or(0.0, |meeting| meeting.distance);
         let range = tolerance.farthest - tolerance.nearest;
-        let apart = tolerance.farthest > 1e-9 * self.pair().scale();
+        let apart = tolerance.farthest > 0.0;
         if apart && range <= 1e-3 * tolerance.farthest {
             warnings.push(Notice::new(
                 "parallel",
@@ -271,9 +271,9 @@ impl Comparison {
             (Side::A, "A", "B", &differences.a_without_b),
             (Side::B, "B", "A", &differences.b_without_a),
         ];
-        let scale = self.pair().scale();
+        let rounding = self.pair().rounding();
         let is_empty =
-            |side: Side| self.settings.difference.is_empty(self.prepared.operator(side), scale);
+            |side: Side| self.settings.difference.is_empty(self.prepared.operator(side), rounding);
         let nearly_all = |side: Side| {
             let difference = both[side.index()].3;
             !is_empty(side)

@@ -40,6 +40,20 @@ pub enum Fault {
         /// The first bytes.
         start: Vec<u8>,
     },
+    /// Numbers are written with a comma instead of a point.
+    DecimalComma {
+        /// The line of the first of them, from 1.
+        line: usize,
+        /// The first of them.
+        word: String,
+    },
+    /// A word stands where a number is expected: a missing value, a name.
+    NoNumber {
+        /// Its line, from 1.
+        line: usize,
+        /// The word.
+        word: String,
+    },
     /// The file ends before something that it announces.
     Truncated {
         /// What is cut off.
@@ -286,6 +300,8 @@ impl FormatError {
             Fault::NotMesh { .. } => "notmesh",
             Fault::Size { .. } => "size",
             Fault::Damaged { .. } => "damaged",
+            Fault::DecimalComma { .. } => "decimal-comma",
+            Fault::NoNumber { .. } => "no-number",
             Fault::Unreadable { .. } => "unreadable",
             Fault::NoPart { .. } => "unknown-part",
             Fault::Bilinear { .. } => "bilinear",
@@ -358,6 +374,12 @@ impl FormatError {
                 "Check that the file is not damaged, or save fewer modes and load that."
             }
             Fault::Damaged { .. } => "Download the file or export the model again.",
+            Fault::DecimalComma { .. } => {
+                "Write the numbers with points, or export the file again with English number formats."
+            }
+            Fault::NoNumber { .. } => {
+                "If the value is missing, leave this specimen out, or this point out of all specimens."
+            }
             Fault::Unreadable { .. } => "If the file was moved or changed, choose it again.",
             Fault::NoPart { .. } => "Choose one of the parts that the file has.",
             Fault::Alone { .. } => {
@@ -545,6 +567,12 @@ impl fmt::Display for Fault {
                 "It holds {} without the face that they displace.",
                 counted(*count, "blendshape", "blendshapes")
             ),
+            Self::DecimalComma { line, word } => {
+                write!(f, "Line {line} has a decimal comma, “{word}”; a point was expected.")
+            }
+            Self::NoNumber { line, word } => {
+                write!(f, "Line {line} has “{word}” where a number was expected.")
+            }
             Self::CutOff { detail } => write!(f, "The file is cut off: {detail}."),
             Self::Strips => {
                 write!(f, "The faces are stored as triangle strips, which cannot be read.")

@@ -192,7 +192,7 @@ impl Opened {
         if target != LessonTarget::Difference {
             return Ok(Envelope::Prior(self.modes(side)));
         }
-        if self.sides[side.index()].is_contained(self.pair.scale()) {
+        if self.sides[side.index()].is_contained(self.pair.rounding()) {
             return Err(LessonError::EmptyDifference { side: letter(side) });
         }
         Ok(self.criteria[side.index()].envelope().clone())

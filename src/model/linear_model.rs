@@ -238,6 +238,8 @@ pub struct LinearModel {
     pub(super) training: Option<Arc<TrainingShapes>>,
     /// ρ², 0 where it is not known.
     noise_variance: f64,
+    /// Rounding errors of its coordinates, as a share of its size.
+    precision: f64,
 }
 
 impl LinearModel {
@@ -308,6 +310,7 @@ impl LinearModel {
             numbers: None,
             training: None,
             noise_variance: 0.0,
+            precision: 0.0,
         };
         Ok((model, BasisCheck { orthogonality_error, dropped_modes: given - kept }, columns))
     }
@@ -331,6 +334,7 @@ impl LinearModel {
             numbers: None,
             training: None,
             noise_variance: 0.0,
+            precision: 0.0,
         }
     }
 
@@ -415,6 +419,22 @@ impl LinearModel {
     #[must_use]
     pub fn with_noise_variance(self, noise_variance: f64) -> Self {
         Self { noise_variance, ..self }
+    }
+
+    /// Rounding errors of its coordinates, as a share of its size: what single precision leaves of a model that was
+    /// written in it. 0 where it is not known to be more than double precision leaves.
+    pub fn precision(&self) -> f64 {
+        self.precision
+    }
+
+    /// The same model, written in single precision.
+    #[must_use]
+    pub(crate) fn in_single_precision(self) -> Self {
+        /// Half the spacing of numbers at 1, for both vectors of a difference and their products.
+        const ROUNDING: f64 = 8.0 * 0.5 * f32::EPSILON as f64;
+        let size = self.size();
+        let precision = if size > 0.0 { ROUNDING * self.mean.amax() / size } else { 0.0 };
+        Self { precision, ..self }
     }
 
     /// The model enlarged by `factor` about the origin, as in another unit.

@@ -79,18 +79,23 @@ pub fn model_of_population(
     Ok(model.with_coefficients(coefficients, alignment, ShapesRole::Training))
 }
 
-/// Moves every shape (a column of `shapes`, d·n × N) onto the running mean until it settles, in at
-/// most ten rounds; returns that mean. Scale is only changed with [`Alignment::Similarity`]: then the mean keeps the
-/// centroid size of the first shape.
+/// Moves every shape (a column of `shapes`, d·n × N) onto the running mean until it settles, and returns that mean
+/// (Gower, "Generalized Procrustes analysis", Psychometrika 40, 1975). Scale is only changed with
+/// [`Alignment::Similarity`]: then the mean has the mean centroid size of the shapes. Their order and where they lie
+/// decide only where the mean lies and how it is turned, which is as the first shape.
 pub fn generalised_procrustes(
     dimension: usize,
     shapes: &mut DMatrix<f64>,
     alignment: Alignment,
 ) -> DVector<f64> {
-    const MOST_ROUNDS: usize = 10;
+    /// Rounds shrink what is left of a change by the share of the variance in that of position, which is small.
+    const MOST_ROUNDS: usize = 200;
     let mut mean: DVector<f64> = shapes.column(0).into_owned();
-    let largest = mean.norm();
-    let size = centroid_size(&mean, dimension);
+    let sizes = shapes.column_iter().map(|shape| centroid_size(&shape.into_owned(), dimension));
+    let size = sizes.sum::<f64>() / shapes.ncols() as f64;
+    if alignment == Alignment::Similarity {
+        resize(&mut mean, dimension, size);
+    }
     for _ in 0..MOST_ROUNDS {
         for mut shape in shapes.column_iter_mut() {
             let similarity = procrustes(mean.as_slice(), shape.as_slice(), dimension, alignment);
@@ -98,22 +103,26 @@ pub fn generalised_procrustes(
         }
         let mut next = shapes.column_mean();
         if alignment == Alignment::Similarity {
-            // About its centroid, for elsewhere the mean would move on in every round.
-            let centre = centroid(next.as_slice(), dimension);
-            let factor = size / centroid_size(&next, dimension);
-            for point in next.as_mut_slice().chunks_exact_mut(dimension) {
-                for (value, centre) in point.iter_mut().zip(&centre) {
-                    *value = centre + factor * (*value - centre);
-                }
-            }
+            resize(&mut next, dimension, size);
         }
         let change = (&next - &mean).norm();
         mean = next;
-        if change <= 1e-12 * largest {
+        if change <= 1e-12 * size {
             break;
         }
     }
     mean
+}
+
+/// Gives a shape another centroid size, about its centroid: elsewhere a mean would move on in every round.
+fn resize(points: &mut DVector<f64>, dimension: usize, size: f64) {
+    let centre = centroid(points.as_slice(), dimension);
+    let factor = size / centroid_size(points, dimension);
+    for point in points.as_mut_slice().chunks_exact_mut(dimension) {
+        for (value, centre) in point.iter_mut().zip(&centre) {
+            *value = centre + factor * (*value - centre);
+        }
+    }
 }
 
 /// Root of the sum of the squared distances of interleaved points from their centroid.
@@ -186,8 +195,42 @@ mod tests {
         let (near, size) = moved(0.0);
         let (far, far_size) = moved(1000.0);
         assert!((near - far).amax() < 1e-9, "moved by as much as the first shape");
-        let first = centroid_size(&varied.column(0).into_owned(), 2);
-        assert!((size / first - 1.0).abs() < 1e-12, "{size}, not {first}");
-        assert!((far_size / first - 1.0).abs() < 1e-10, "{far_size}, not {first}");
+        let sizes = varied.column_iter().map(|shape| centroid_size(&shape.into_owned(), 2));
+        let mean = sizes.sum::<f64>() / 5.0;
+        assert!((size / mean - 1.0).abs() < 1e-12, "{size}, not {mean}");
+        assert!((far_size / mean - 1.0).abs() < 1e-10, "{far_size}, not {mean}");
+    }
+
+    #[test]
+    fn the_order_of_the_shapes_changes_nothing_but_the_frame() {
+        // Sizes from 1 to 3: the first shape used to give its own to all.
+        let base = [0.0, 0.0, 4.0, 1.0, 5.0, 3.0, 2.0, 6.0, -1.0, 2.0];
+        let drawn = |k: usize| {
+            let (sine, cosine) = libm::sincos(0.2 * k as f64);
+            let factor = 1.0 + 0.4 * k as f64;
+            DVector::from_fn(10, |row, _| {
+                let at = |axis: usize| {
+                    let place = 2 * (row / 2) + axis;
+                    factor * (base[place] + 0.2 * libm::sin((3 * place + 7 * k) as f64))
+                };
+                if row % 2 == 0 {
+                    cosine * at(0) - sine * at(1)
+                } else {
+                    sine * at(0) + cosine * at(1)
+                }
+            })
+        };
+        let model = |order: [usize; 6]| {
+            let mut shapes = DMatrix::from_columns(&order.map(drawn));
+            let mean = generalised_procrustes(2, &mut shapes, Alignment::Similarity);
+            let settled = shapes.column_mean();
+            let off = (&settled - &mean).norm() / mean.norm();
+            assert!(off < 0.01, "the mean of the shapes but for its size: {off}");
+            principal_components(2, &shapes).unwrap()
+        };
+        let (one, other) = (model([0, 1, 2, 3, 4, 5]), model([5, 3, 1, 0, 4, 2]));
+        assert!((one.size() / other.size() - 1.0).abs() < 1e-9, "{}, {}", one.size(), other.size());
+        let spectra = one.standard_deviations() - other.standard_deviations();
+        assert!(spectra.amax() < 1e-8 * one.size(), "the same variances: {spectra}");
     }
 }

@@ -58,10 +58,10 @@ pub enum DifferenceDefinition {
 }
 
 impl DifferenceDefinition {
-    /// Whether the difference is empty because the other model holds every shape of this side; `scale` as
-    /// in [`ResidualOperator::is_contained`]. The plausible shapes of one need not be plausible in the other.
-    pub fn is_empty(self, side: &ResidualOperator, scale: f64) -> bool {
-        self != Self::Outside && side.is_contained(scale)
+    /// Whether the difference is empty because the other model holds every shape of this side; `rounding`
+    /// as in [`ResidualOperator::is_contained`]. The plausible shapes of one need not be plausible in the other.
+    pub fn is_empty(self, side: &ResidualOperator, rounding: f64) -> bool {
+        self != Self::Outside && side.is_contained(rounding)
     }
 }
 

@@ -64,7 +64,7 @@ pub fn nearest_meeting(pair: &Pair, radii: [f64; 2]) -> Option<Meeting> {
                 norm_b: solution.rows(problem.modes[0], problem.modes[1]).norm(),
             });
         }
-        if at_rest || distance <= 1e-9 * pair.scale() {
+        if at_rest || distance <= pair.rounding() {
             break;
         }
         let floor = 1e-6 * distance;

@@ -155,7 +155,8 @@ mod tests {
             let turn = f64::from(step);
             let (u, v) = (2.399_963 * turn, 1.0 - 2.0 * (turn + 0.5) / 40_000.0);
             let flat = (1.0 - v * v).sqrt() * radius;
-            let other = DVector::from_vec(vec![flat * u.cos(), flat * u.sin(), v * radius]);
+            let other =
+                DVector::from_vec(vec![flat * libm::cos(u), flat * libm::sin(u), v * radius]);
             assert!(cost(&other) > least * (1.0 - 1e-9), "{other} is nearer");
         }
     }

@@ -112,7 +112,9 @@ impl ReachDraws {
         let mut distances: Vec<f64> = blocks.iter().flat_map(|block| targets.of(block)).collect();
         // Root mean square distance of the shapes from their mean.
         let own = (model.total_variance() / model.point_count() as f64).sqrt();
-        let rounding = ROUNDING * own;
+        // Where the other model holds all shapes, what is left of any is rounding.
+        let contained = operator.is_contained(pair.rounding());
+        let rounding = if contained { f64::INFINITY } else { ROUNDING * own };
         for distance in &mut distances {
             if *distance < rounding {
                 *distance = 0.0;

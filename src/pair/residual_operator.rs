@@ -254,8 +254,11 @@ impl ResidualOperator {
         (squares, gradients)
     }
 
-    /// Whether M₂ holds every shape of this side to rounding: the difference is empty.
-    pub fn is_contained(&self, scale: f64) -> bool {
-        self.largest_residual <= 1e-9 * scale
+    /// Whether M₂ holds every shape of this side, but for residuals of this length ([`Pair::rounding`]): the
+    /// difference is empty.
+    ///
+    /// [`Pair::rounding`]: crate::pair::Pair::rounding
+    pub fn is_contained(&self, rounding: f64) -> bool {
+        self.largest_residual <= rounding
     }
 }

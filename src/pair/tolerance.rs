@@ -49,9 +49,9 @@ pub fn recommended_tolerance(
     let curves: Vec<Curve> = sides.iter().filter_map(|side| Curve::new(side)).collect();
     let count = curves.len().max(1) as f64;
     let farthest = curves.iter().map(|curve| curve.farthest).sum::<f64>() / count;
-    if farthest <= 1e-9 * size {
+    if sides.iter().all(|side| side.is_contained(pair.rounding())) {
         // Nothing separates the models: any tolerance gives the same intersection.
-        return Tolerance { sigma: 1e-3 * size, nearest: farthest, farthest, noise };
+        return Tolerance { sigma: 1e-3 * size, nearest: 0.0, farthest: 0.0, noise };
     }
     let distance = |sigma: f64| curves.iter().map(|curve| curve.at(sigma)).sum::<f64>() / count;
     let (mut low, mut high) = (1e-4 * farthest, 1e2 * farthest);

@@ -98,6 +98,13 @@ impl Pair {
         self.a.size().max(spread)
     }
 
+    /// Lengths up to this are rounding errors: 10⁻⁹ of [`Pair::scale`], or what the precision of the files leaves.
+    pub fn rounding(&self) -> f64 {
+        /// Of double precision, after products of many terms.
+        const DOUBLE: f64 = 1e-9;
+        DOUBLE.max(self.a.precision()).max(self.b.precision()) * self.scale()
+    }
+
     /// The joint basis of both models.
     pub fn joint(&self) -> Joint {
         Joint::new(&self.a, &self.b)

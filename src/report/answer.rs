@@ -260,7 +260,7 @@ fn reach_of(report: &Report, side: Side, found: &ReachOfSide, meeting: f64) -> S
         parts.extend([words(", but lies "), distance, words(" from the nearest plausible one")]);
     }
     // Where a model is nearer to some shapes than plausible ones ever are, the next sentence says it.
-    if meeting > SMALL * found.mean && meeting <= further.unwrap_or(found.mean) {
+    if meeting > SMALL * found.mean && meeting <= (1.0 + FURTHER) * further.unwrap_or(found.mean) {
         parts.extend([words("; "), least(), words(" of it no plausible one avoids")]);
     }
     parts.push(words("."));

@@ -42,9 +42,6 @@ pub struct Sigma {
     pub source: SigmaSource,
 }
 
-/// Distances below this share of the least distance of plausible shapes are rounding.
-const ROUNDING: f64 = 1e-9;
-
 impl SigmaSource {
     /// Whether versions before [`SIGMA_SINCE`] chose another σ.
     pub fn is_new(self) -> bool {
@@ -64,8 +61,7 @@ impl Sigma {
         if let Some(value) = tolerance.noise.filter(positive) {
             return Self { value, source: SigmaSource::Noise };
         }
-        let raises =
-            |meeting: &f64| *meeting > tolerance.sigma && tolerance.farthest > ROUNDING * meeting;
+        let raises = |meeting: &f64| *meeting > tolerance.sigma && tolerance.farthest > 0.0;
         match meeting.filter(raises) {
             Some(value) => Self { value, source: SigmaSource::Meeting },
             None => Self { value: tolerance.sigma, source: SigmaSource::Budget },

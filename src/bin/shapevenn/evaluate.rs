@@ -4,6 +4,7 @@ use clap::Args;
 use shapevenn::files;
 use shapevenn::measure::{Evaluation, Method};
 
+use crate::numbers::plain;
 use crate::{Failure, sources, to_json};
 
 #[derive(Debug, Args)]
@@ -53,11 +54,11 @@ fn print_in_words(found: &Evaluation, unit: &str) {
     println!("modes     generalization        specificity");
     for (place, modes) in found.modes.iter().enumerate() {
         println!(
-            "{modes:5}  {:9.4} ± {:.4}  {:9.4} ± {:.4}",
-            found.generalization[place],
-            found.generalization_error[place],
-            found.specificity[place],
-            found.specificity_error[place]
+            "{modes:5}  {:>9} ± {}  {:>9} ± {}",
+            plain(found.generalization[place]),
+            plain(found.generalization_error[place]),
+            plain(found.specificity[place]),
+            plain(found.specificity_error[place])
         );
     }
 }

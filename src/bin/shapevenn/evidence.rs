@@ -10,6 +10,7 @@ use shapevenn::pair::Pair;
 use shapevenn::report::{EvidenceReport, Hypothesis, StatisticName};
 use shapevenn::settings::Settings;
 
+use crate::numbers::plain;
 use crate::{Failure, prepare, print_shapes, sources, to_json};
 
 #[derive(Debug, Args)]
@@ -93,15 +94,19 @@ pub(crate) fn print_in_words(found: &EvidenceReport, unit: &str) {
     let means = found.one_population.statistics.iter().find(|one| one.name == StatisticName::Means);
     if let Some(means) = means {
         println!(
-            "The means are {:.4} {unit} apart in root mean square; those of two random groups {:.4} ± {:.4} {unit}.",
-            means.observed, means.chance.mean, means.chance.standard_deviation
+            "The means are {} {unit} apart in root mean square; those of two random groups {} ± {} {unit}.",
+            plain(means.observed),
+            plain(means.chance.mean),
+            plain(means.chance.standard_deviation)
         );
     }
     for (side, name) in [(Side::A, "A"), (Side::B, "B")] {
         let left_out = found.left_out[side];
         println!(
-            "A shape of {name} lies {:.4} ± {:.4} {unit} from the model of the others of {name}. Stable modes of {name}: {}.",
-            left_out.mean, left_out.standard_deviation, found.stability[side].suggested_modes
+            "A shape of {name} lies {} ± {} {unit} from the model of the others of {name}. Stable modes of {name}: {}.",
+            plain(left_out.mean),
+            plain(left_out.standard_deviation),
+            found.stability[side].suggested_modes
         );
     }
     println!(
@@ -124,11 +129,11 @@ fn print_hypothesis(name: &str, hypothesis: &Hypothesis) {
     println!("    statistic            observed   by chance                  p    adjusted");
     for one in &hypothesis.statistics {
         println!(
-            "    {:18} {:10.4}  {:8.4} ± {:8.4}  {:.4} ± {:.4}  {:.4}",
+            "    {:18} {:>10}  {:>8} ± {:>8}  {:.4} ± {:.4}  {:.4}",
             one.name.in_json(),
-            one.observed,
-            one.chance.mean,
-            one.chance.standard_deviation,
+            plain(one.observed),
+            plain(one.chance.mean),
+            plain(one.chance.standard_deviation),
             one.p,
             one.p_error,
             one.p_adjusted

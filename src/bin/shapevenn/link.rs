@@ -6,6 +6,8 @@
 use serde_json::{Map, Value, json};
 use shapevenn::settings::{FIELDS, FieldValue, SIGMA_SINCE, Settings};
 
+use shapevenn::report::ModelReport;
+
 use crate::Failure;
 
 /// What is done to one model first; each key ends in `-a` or `-b`.
@@ -17,6 +19,9 @@ const OF_BOTH: [&str; 4] = ["rebase", "convert", "points", "subsample"];
 
 /// The pair that a link means which names none, and the σ of its stored comparison.
 const FIRST: (&str, f64) = ("heads-sex", 1.0);
+
+/// Digits of a fingerprint that a link is compared with.
+const HASH_DIGITS: usize = 16;
 
 /// How a value is written in a link.
 #[derive(Debug, Clone, Copy)]
@@ -142,35 +147,101 @@ impl Link {
         self.get("demo").unwrap_or(FIRST.0)
     }
 
-    /// What to open as A and B: what is `given`, else what the link names.
+    /// What the link says of a side: an address, a demo, or the visitor's own file.
+    fn said(&self, side: char) -> Option<Said<'_>> {
+        if let Some(address) = self.get(side.encode_utf8(&mut [0; 4])) {
+            return Some(Said::Address(address));
+        }
+        let [name, hash] = ["name", "hash"].map(|key| self.get(&format!("{key}-{side}")));
+        name.or(hash).map(Said::File)
+    }
+
+    /// What to open as A and B: what is `given`, else what the link names. What it names and cannot hold is never replaced by
+    /// something else.
     pub(crate) fn models(&self, given: [Option<&str>; 2]) -> Result<[String; 2], Failure> {
-        let sides = ["a", "b"];
-        let named = match (self.get("a"), self.get("b")) {
-            (Some(a), Some(b)) => [a.to_owned(), b.to_owned()],
-            _ => demo_models(self.demo())?,
-        };
-        let mut found = named.clone();
-        for ((found, given), side) in found.iter_mut().zip(given).zip(sides) {
-            if let Some(source) = given {
-                source.clone_into(found);
-            } else if !found.starts_with("demo:") {
-                return Err(Failure::Input {
-                    message: format!(
-                        "The link has {found} as {}, which is not downloaded here.",
+        let sides = ['a', 'b'];
+        let said = sides.map(|side| self.said(side));
+        let silent = said.iter().all(Option::is_none);
+        let pair = if silent { Some(demo_models(self.demo())?) } else { None };
+        let mut missing = Vec::new();
+        let mut found = [String::new(), String::new()];
+        for (place, side) in sides.into_iter().enumerate() {
+            let source = match (given[place], said[place], &pair) {
+                (Some(source), _, _) => source,
+                (None, Some(Said::Address(address)), _) if address.starts_with("demo:") => address,
+                (None, Some(Said::Address(name) | Said::File(name)), _) => {
+                    missing.push(format!("{name} as {}", side.to_uppercase()));
+                    continue;
+                }
+                (None, None, Some(pair)) => &pair[place],
+                (None, None, None) => {
+                    missing.push(format!(
+                        "something as {} that it does not name",
                         side.to_uppercase()
-                    ),
-                    hint:
-                        "Download the models and name the files: shapevenn compare A B --link LINK."
-                            .to_owned(),
-                });
-            }
+                    ));
+                    continue;
+                }
+            };
+            source.clone_into(&mut found[place]);
             if let Some(part) = self.get(&format!("part-{side}")) {
-                found.push('#');
-                found.push_str(part);
+                found[place].push('#');
+                found[place].push_str(part);
             }
         }
-        Ok(found)
+        if missing.is_empty() {
+            return Ok(found);
+        }
+        Err(Failure::Input {
+            message: format!(
+                "The link has {}; a link holds no files, and they are not downloaded here.",
+                missing.join(" and ")
+            ),
+            hint: "Name the files: shapevenn compare A B --link LINK.".to_owned(),
+        })
     }
+
+    /// Refuses models that are not those which the link was made with, by their fingerprints.
+    pub(crate) fn check(&self, models: [&ModelReport; 2]) -> Result<(), Failure> {
+        for (side, model) in ['a', 'b'].into_iter().zip(models) {
+            let key = format!("hash-{side}");
+            let Some(expected) = self.get(&key).map(str::to_lowercase) else { continue };
+            let digits = (8..=32).contains(&expected.len())
+                && expected.bytes().all(|digit| digit.is_ascii_hexdigit());
+            if !digits {
+                return Err(Failure::Input {
+                    message: format!(
+                        "“{key}={expected}” of the link cannot be read; 8 to 32 hexadecimal digits were expected."
+                    ),
+                    hint: "Copy the link again, or leave this key out of it.".to_owned(),
+                });
+            }
+            let found = model.fingerprint.as_deref().unwrap_or_default();
+            let compared = expected.len().min(HASH_DIGITS);
+            if !found.starts_with(&expected[..compared]) {
+                return Err(Failure::Input {
+                    message: format!(
+                        "{} is not the model {} that the link was made with: its fingerprint is {}, {expected} was expected.",
+                        model.name,
+                        side.to_uppercase(),
+                        &found[..found.len().min(HASH_DIGITS)]
+                    ),
+                    hint: format!(
+                        "Give the file that the link was made with, or leave {key} out of the link to compare another one."
+                    ),
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What a link says of a model.
+#[derive(Debug, Clone, Copy)]
+enum Said<'a> {
+    /// An address, or `demo:NAME`.
+    Address(&'a str),
+    /// The name or the fingerprint of a file.
+    File(&'a str),
 }
 
 /// Major and minor number of a version such as “0.2” or “0.2.1”.

@@ -10,6 +10,7 @@ mod evidence_document;
 mod lesson;
 mod link;
 mod matrix;
+mod numbers;
 mod overlap_document;
 mod prepare;
 mod reproduce;
@@ -24,6 +25,7 @@ use std::time::Instant;
 use clap::{Args, Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use link::Link;
+use numbers::plain;
 use setting_options::SettingOptions;
 use shapevenn::comparison::{Comparison, Stage};
 use shapevenn::error::ComparisonError;
@@ -158,6 +160,16 @@ enum Failure {
     System(String),
 }
 
+impl Failure {
+    /// Says it on standard error.
+    fn print(&self) {
+        match self {
+            Self::Input { message, hint } => eprintln!("shapevenn: {message}\n  {hint}"),
+            Self::System(message) => eprintln!("shapevenn: {message}"),
+        }
+    }
+}
+
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         Self::Input { message: error.to_string(), hint: error.hint() }
@@ -185,26 +197,33 @@ fn main() -> ExitCode {
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
-        Err(Failure::Input { message, hint }) => {
-            eprintln!("shapevenn: {message}\n  {hint}");
-            ExitCode::from(2)
-        }
-        Err(Failure::System(message)) => {
-            eprintln!("shapevenn: {message}");
-            ExitCode::FAILURE
+        Err(failure) => {
+            failure.print();
+            match failure {
+                Failure::Input { .. } => ExitCode::from(2),
+                Failure::System(_) => ExitCode::FAILURE,
+            }
         }
     }
 }
 
 fn info(named: &[String], json: bool) -> Result<(), Failure> {
     let mut descriptions: Vec<ModelReport> = Vec::new();
+    // A file that cannot be read does not hide the others.
+    let mut failed: Option<Failure> = None;
     for source in named {
-        let models = sources::open_all(source)?;
-        descriptions.extend(models.into_iter().map(|model| model.report));
+        match sources::open_all(source) {
+            Ok(models) => descriptions.extend(models.into_iter().map(|model| model.report)),
+            Err(failure) => {
+                if let Some(before) = failed.replace(failure) {
+                    before.print();
+                }
+            }
+        }
     }
     if json {
         println!("{}", to_json(&descriptions)?);
-        return Ok(());
+        return failed.map_or(Ok(()), Err);
     }
     for model in &descriptions {
         println!("{}", model.name);
@@ -215,14 +234,15 @@ fn info(named: &[String], json: bool) -> Result<(), Failure> {
         );
         let unit = model.unit.symbol();
         println!(
-            "  size {:.4} {unit}, total variance {:.6} {unit}²",
-            model.size, model.total_variance
+            "  size {} {unit}, total variance {} {unit}²",
+            plain(model.size),
+            plain(model.total_variance)
         );
         for note in &model.notes {
             println!("  note: {note}");
         }
     }
-    Ok(())
+    failed.map_or(Ok(()), Err)
 }
 
 fn inspect(
@@ -245,7 +265,7 @@ fn inspect(
         (None, count) => println!("{} points in common", count.unwrap_or(0)),
     }
     if let (Some(now), unit) = (found.mean_distance.now, found.units.a.stated.symbol()) {
-        println!("the means are {now:.4} {unit} apart");
+        println!("the means are {} {unit} apart", plain(now));
     }
     for (list, mark) in [(&found.applied, "✓"), (&found.remedies, "?")] {
         for remedy in list {
@@ -281,6 +301,8 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
     let [a, b] = arguments.shapes.open([&named[0], &named[1]], arguments.prepare.scale)?;
     if let Some((run, _)) = &again {
         run.check(&a.report, &b.report)?;
+    } else if let Some(link) = &arguments.link {
+        Link::parse(link).check([&a.report, &b.report])?;
     }
     let mut seconds = Seconds { load: begun.elapsed().as_secs_f64(), ..Seconds::default() };
     let described = [a.report, b.report];
@@ -358,17 +380,17 @@ fn sweep(
         println!("{}", to_json(&points)?);
         return Ok(());
     }
-    println!("recommended σ = {sigma:.4}");
+    println!("recommended σ = {}", plain(sigma));
     println!("       σ   distance    nearest  dimensions  vertex sd  d_G to A    to B  to union");
     for point in points {
         let found = point.prediction;
         println!(
-            "{:8.4} {:10.4} {:10.4} {:11.2} {:10.4} {:9.4} {:7.4} {:9.4}",
-            found.sigma,
-            found.distance,
-            found.nearest,
+            "{:>8} {:>10} {:>10} {:11.2} {:>10} {:9.4} {:7.4} {:9.4}",
+            plain(found.sigma),
+            plain(found.distance),
+            plain(found.nearest),
             found.effective_dimensions,
-            point.vertex_sd,
+            plain(point.vertex_sd),
             point.grassmann.to_a,
             point.grassmann.to_b,
             point.grassmann.to_union
@@ -440,7 +462,7 @@ fn print_in_words(report: &Report) {
         println!("{}", sentence.plain(unit));
     }
     if let Some(sigma) = report.settings.sigma {
-        println!("σ = {sigma:.4} {unit}, {}", source_in_words(report.sigma_source));
+        println!("σ = {} {unit}, {}", plain(sigma), source_in_words(report.sigma_source));
     }
     print_reach(report);
     if let Some(found) = &report.evidence {
@@ -454,22 +476,24 @@ fn print_in_words(report: &Report) {
     print_distances(report);
     let both = &report.intersection;
     println!(
-        "A∩B  {} modes; its shapes lie {:.4} ± {:.4} {unit} from both models.",
-        both.modes, both.mean_distance.mean, both.mean_distance.sd
+        "A∩B  {} modes; its shapes lie {} ± {} {unit} from both models.",
+        both.modes,
+        plain(both.mean_distance.mean),
+        plain(both.mean_distance.sd)
     );
     for (name, part) in
         [("A\\B", &report.differences.a_without_b), ("B\\A", &report.differences.b_without_a)]
     {
         println!(
-            "{name}  {:.2} ± {:.2} % of the shapes, {:.4} {unit} away on average.",
+            "{name}  {:.2} ± {:.2} % of the shapes, {} {unit} away on average.",
             share(part.probability),
             share(part.standard_error),
-            part.mean_distance.mean
+            plain(part.mean_distance.mean)
         );
         if let Some(split) = &part.linear_split {
             println!(
-                "     by linear splitting instead: its mean {:.4} {unit} away, {:.2} times the variance, {:.1} % of it negative.",
-                split.mean_to_mean,
+                "     by linear splitting instead: its mean {} {unit} away, {:.2} times the variance, {:.1} % of it negative.",
+                plain(split.mean_to_mean),
                 split.variance_ratio,
                 share(split.negative_share)
             );
@@ -508,9 +532,12 @@ fn print_reach(report: &Report) {
     for (this, other, found) in [("A", "B", &reach.a_to_b), ("B", "A", &reach.b_to_a)] {
         let Quantiles { p05, p50, p95 } = found.quantiles;
         println!(
-            "{this} to {other}  {:.4} ± {:.4} {unit} (median {p50:.4}, 5 to 95 % {p05:.4} to {p95:.4}), {:.0} % of the distance from the mean of {this};",
-            found.mean,
-            found.standard_error,
+            "{this} to {other}  {} ± {} {unit} (median {}, 5 to 95 % {} to {}), {:.0} % of the distance from the mean of {this};",
+            plain(found.mean),
+            plain(found.standard_error),
+            plain(p50),
+            plain(p05),
+            plain(p95),
             100.0 * found.relative
         );
         let MeanSquare { total, offset, offset_closed, exclusive } = found.mean_square;
@@ -529,7 +556,8 @@ fn warn_of_older_sigma(link: &Link, report: &Report) {
     let is_new = report.sigma_source.is_some_and(SigmaSource::is_new);
     if let Some(sigma) = report.settings.sigma.filter(|_| is_new && link.may_mean_another_sigma()) {
         eprintln!(
-            "This link may be from a version before {SIGMA_SINCE}, which chose σ as a quarter of the range of distances. It now gives σ = {sigma:.4} {}, {}. To keep a σ, give it in the link (sigma=).",
+            "This link may be from a version before {SIGMA_SINCE}, which chose σ as a quarter of the range of distances. It now gives σ = {} {}, {}. To keep a σ, give it in the link (sigma=).",
+            plain(sigma),
             report.models.a.unit.symbol(),
             source_in_words(report.sigma_source)
         );
@@ -553,11 +581,11 @@ fn print_distances(report: &Report) {
     let unit = report.models.a.unit.symbol();
     if let Some(divergence) = &report.overlap.kullback_leibler {
         println!(
-            "Bhattacharyya {:.2}, KL(A‖B) {:.2}, KL(B‖A) {:.2} nats, with noise of {:.4} {unit}.",
+            "Bhattacharyya {:.2}, KL(A‖B) {:.2}, KL(B‖A) {:.2} nats, with noise of {} {unit}.",
             report.overlap.bhattacharyya,
             divergence.a_from_b,
             divergence.b_from_a,
-            report.overlap.bhattacharyya_noise
+            plain(report.overlap.bhattacharyya_noise)
         );
     }
     if let Some(found) = &report.compactness {

@@ -46,6 +46,12 @@ pub(crate) fn open(source: &str, scale: bool) -> Result<Described, Failure> {
     let options = Options { part: part.map(str::to_owned), scale };
     let groups = formats::groups(&inputs).map_err(files::Error::from)?;
     let [group] = groups.as_slice() else {
+        // Files of a format that is not read, or that cannot be, are no models: the first says why.
+        if let Some(first) = groups.first() {
+            let members: Vec<Input> =
+                first.files.iter().map(|&index| inputs[index].clone()).collect();
+            files::open(&members, &options)?;
+        }
         let names: Vec<&str> = groups.iter().map(|group| group.name.as_str()).collect();
         let found = if names.is_empty() { "no models".to_owned() } else { names.join(", ") };
         return Err(Failure::Input {

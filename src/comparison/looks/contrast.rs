@@ -56,7 +56,7 @@ impl Comparison {
             (ContrastOf::ExclusiveMode, mode.as_slice().to_vec())
         };
         let largest = operator.vertex_residuals(&coefficients).into_iter().fold(0.0, f64::max);
-        if largest <= ROUNDING * model.size() {
+        if operator.is_contained(self.pair().rounding()) || largest <= ROUNDING * model.size() {
             return None;
         }
         let by = PUSH * 2.0 * model.size() / largest;

@@ -15,8 +15,6 @@ use nalgebra::{DMatrix, DVector};
 
 /// Random shapes of a model whose own shapes are not known.
 const RANDOM: usize = 99;
-/// Distances below this share of the size are rounding.
-const ROUNDING: f64 = 1e-9;
 
 /// A shape of a model, and the nearest of the other.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -64,13 +62,13 @@ impl Comparison {
         let other = self.prepared.model(side.other());
         let nearest = formed(other, &nearest_coefficients(other, &shape));
         let dimension = other.dimension();
-        let rounding = ROUNDING * model.size();
+        let contained = self.prepared.operator(side).is_contained(self.pair().rounding());
         let missed: Vec<f64> = shape
             .as_slice()
             .chunks_exact(dimension)
             .zip(nearest.chunks_exact(dimension))
             .map(|(x, y)| x.iter().zip(y).map(|(x, y)| (x - y) * (x - y)).sum::<f64>().sqrt())
-            .map(|distance| if distance > rounding { distance } else { 0.0 })
+            .map(|distance| if contained { 0.0 } else { distance })
             .collect();
         Pairing {
             distance: missed.iter().sum::<f64>() / missed.len() as f64,

@@ -97,7 +97,7 @@ pub(super) fn is_shape(content: Content) -> bool {
 
 /// Reads a single mesh; STL is welded by its own corners.
 pub(super) fn read(content: Content, bytes: &[u8]) -> Result<Mesh, Fault> {
-    match content {
+    let mesh = match content {
         Content::Ply => ply::read(bytes),
         Content::Obj => obj::read(bytes),
         Content::Stl => {
@@ -107,8 +107,9 @@ pub(super) fn read(content: Content, bytes: &[u8]) -> Result<Mesh, Fault> {
         Content::Vtk => vtk::read(bytes),
         Content::Vtp => vtp::read(bytes),
         Content::Numbers => points::read(bytes),
-        other => Err(Fault::Alone { format: other.name() }),
-    }
+        other => return Err(Fault::Alone { format: other.name() }),
+    };
+    mesh.map_err(|fault| unless_decimal_commas(fault, bytes))
 }
 
 /// Cells as they are collected from a file.
@@ -187,6 +188,53 @@ fn number(word: &[u8]) -> Option<f64> {
     core::str::from_utf8(word).ok()?.parse().ok()
 }
 
+/// The fault of a word that should be a number, on a line counted from 0.
+fn no_number(line: usize, word: &[u8]) -> Fault {
+    const LONGEST: usize = 24;
+    let shown = &word[..word.len().min(LONGEST)];
+    Fault::NoNumber { line: line + 1, word: String::from_utf8_lossy(shown).into_owned() }
+}
+
+/// What is wrong with text whose numbers could not be read: decimal commas, where there are some, whatever else the
+/// reader ran into because of them.
+pub(super) fn unless_decimal_commas(fault: Fault, bytes: &[u8]) -> Fault {
+    let of_numbers = matches!(
+        fault,
+        Fault::CutOff { .. }
+            | Fault::Damaged { .. }
+            | Fault::NoNumber { .. }
+            | Fault::CellIndices { .. }
+    );
+    if !of_numbers || bytes.contains(&0) {
+        return fault;
+    }
+    let commas = lines(bytes).enumerate().find_map(|(line, text)| {
+        let word = words(text).find(|word| has_decimal_comma(word))?;
+        Some((line + 1, String::from_utf8_lossy(word).into_owned()))
+    });
+    commas.map_or(fault, |(line, word)| Fault::DecimalComma { line, word })
+}
+
+/// Whether a word is one number once its only comma is a point.
+fn has_decimal_comma(word: &[u8]) -> bool {
+    const LONGEST: usize = 40;
+    let Some(place) = word.iter().position(|byte| *byte == b',') else { return false };
+    let digits_beside = place > 0
+        && word[place - 1].is_ascii_digit()
+        && word.get(place + 1).is_some_and(u8::is_ascii_digit);
+    let mut point = word[..word.len().min(LONGEST)].to_vec();
+    if !digits_beside || word.len() > LONGEST {
+        return false;
+    }
+    point[place] = b'.';
+    number(&point).is_some()
+}
+
+/// The number that a word of text writes, if it is one that a coordinate may be.
+fn finite(word: &[u8]) -> Option<f64> {
+    number(word).filter(|value| value.is_finite())
+}
+
 /// The words of text, between blanks and line ends.
 fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
@@ -231,6 +279,29 @@ mod tests {
         );
         cells.typed(10, &[0, 1, 2, 3]);
         assert!(cells.volumes, "a tetrahedron");
+    }
+
+    #[test]
+    fn decimal_commas_are_named_whatever_the_reader_ran_into() {
+        let ply = b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n\
+                    property float z\nend_header\n0,5 -2,25 1e1\n";
+        let vtk = b"# vtk DataFile Version 3.0\nmean\nASCII\nDATASET POLYDATA\nPOINTS 1 float\n0,5 2,5 3,0\n";
+        for (content, text, line) in [
+            (Content::Ply, &ply[..], 8),
+            (Content::Vtk, &vtk[..], 6),
+            (Content::Numbers, b"1 2\n0,5 2\n", 2),
+            (Content::Obj, b"v 0,5 1 2\n", 1),
+        ] {
+            let expected = Fault::DecimalComma { line, word: "0,5".to_owned() };
+            assert_eq!(read(content, text).unwrap_err(), expected, "{content:?}");
+        }
+        // Commas between numbers are no decimal commas, nor are they why this one cannot be read.
+        let fault = read(Content::Numbers, b"1.5,2.5\n1.0,NA\n").unwrap_err();
+        assert_eq!(fault, Fault::NoNumber { line: 2, word: "NA".to_owned() });
+        assert!(
+            !has_decimal_comma(b"1,2,3") && !has_decimal_comma(b",5") && !has_decimal_comma(b"a,b")
+        );
+        assert!(has_decimal_comma(b"-12,5e-3"));
     }
 
     #[test]

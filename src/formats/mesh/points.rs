@@ -4,7 +4,7 @@
 //! `x,y,z` or `x,y`, lines that begin with `#`, and the frame of the `.pts` files of face alignment
 //! (`version:`, `n_points:`, braces) are skipped.
 
-use super::{Mesh, at_line, lines, number};
+use super::{Mesh, at_line, finite, lines, no_number, number};
 use crate::formats::error::Fault;
 use crate::model::Cells;
 
@@ -23,7 +23,7 @@ pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
         }
         let before = points.len();
         for word in values(line) {
-            let value = number(word).ok_or_else(|| at_line(index, "it is not all numbers"))?;
+            let value = finite(word).ok_or_else(|| no_number(index, word))?;
             points.push(value);
         }
         let found = points.len() - before;
@@ -89,7 +89,8 @@ mod tests {
         let fault = |text: &str| read(text.as_bytes()).unwrap_err();
         assert_eq!(fault("1 2 3\n4 5\n"), at_line(1, "it has 2 numbers, not 3"), "two");
         assert_eq!(fault("1 2 3 4\n"), at_line(0, "it has 4 numbers, not 2 or 3"), "four");
-        assert_eq!(fault("1 2 x\n"), at_line(0, "it is not all numbers"), "a letter");
+        assert_eq!(fault("1 2 x\n"), no_number(0, b"x"), "a letter");
+        assert_eq!(fault("1 2\n3 NaN\n"), no_number(1, b"NaN"), "a missing value");
         let detail = "3 points were announced, 1 are there".to_owned();
         assert_eq!(fault("n_points: 3\n1 2\n"), Fault::CutOff { detail }, "cut");
     }

@@ -13,7 +13,7 @@
 //!
 //! **References.** Rohlf, tpsDig.
 
-use super::{Mesh, at_line, ends_early, lines, number, words};
+use super::{Mesh, at_line, ends_early, finite, lines, no_number, number, words};
 use crate::formats::error::Fault;
 use crate::model::Cells;
 
@@ -68,7 +68,7 @@ pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Vec<Specimen>, Fault> {
         let draft = current.as_mut().ok_or_else(|| early(index))?;
         let before = draft.points.len();
         for word in words(line) {
-            let value = number(word).ok_or_else(|| at_line(index, "it is not all numbers"))?;
+            let value = finite(word).ok_or_else(|| no_number(index, word))?;
             draft.points.push(value);
         }
         let found = draft.points.len() - before;

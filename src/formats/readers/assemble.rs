@@ -89,6 +89,7 @@ pub(crate) fn assemble(ingredients: Ingredients) -> Result<Assembled, Fault> {
             *value += base;
         }
     }
+    let single = mean_values.iter().all(is_single);
     let mut scaled = columns(basis, mean_values.len())?;
     scale(&mut scaled, scaling, &mut notes)?;
     let standardised = scores.and_then(|scores| {
@@ -121,7 +122,17 @@ pub(crate) fn assemble(ingredients: Ingredients) -> Result<Assembled, Fault> {
     if let Some(standardised) = standardised {
         model = model.with_training_coefficients(columns * standardised);
     }
+    if single {
+        model = model.in_single_precision();
+    }
     Ok(Assembled { model, check, notes })
+}
+
+/// Whether a number has no more digits than single precision holds, in whatever type it is written; as text too.
+#[allow(clippy::cast_possible_truncation, reason = "that is the question")]
+fn is_single(value: &f64) -> bool {
+    let single = *value as f32;
+    f64::from(single) == *value || single.to_string().parse() == Ok(*value)
 }
 
 /// A mean shape and how it is drawn, without modes.

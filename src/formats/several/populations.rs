@@ -163,7 +163,8 @@ impl Shapes {
                 self.add_corners(&input.name, &corners)
             }
             Content::Tps => {
-                let specimens = tps::read(&bytes).map_err(refused)?;
+                let specimens = tps::read(&bytes)
+                    .map_err(|fault| refused(mesh::unless_decimal_commas(fault, &bytes)))?;
                 let several = specimens.len() > 1;
                 for (index, specimen) in specimens.into_iter().enumerate() {
                     let name = if several {
