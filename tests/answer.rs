@@ -125,6 +125,22 @@ fn reach_says_what_is_true_of_models_inside_one_another_and_apart() {
         report(&compared(&population(&group(6, 0.0, 5)), &population(&group(6, 10.0, 6)), few()));
     let text = said(&apart, Topic::ReachOfA).unwrap();
     assert!(text.contains(" of it no plausible one avoids."), "{text}");
+    // The least distance, of every second point alone, is a little more than the mean of all: not a part of it.
+    let uneven = |offset: f64| {
+        let mean = DVector::from_fn(1200, |row, _| {
+            let point = row / 2;
+            let away = if point.is_multiple_of(2) { offset } else { 0.95 * offset };
+            if row.is_multiple_of(2) { point as f64 } else { away }
+        });
+        let basis = DMatrix::from_fn(1200, 1, |row, _| if row % 2 == 0 { 1e-3 } else { 0.0 });
+        LinearModel::from_scaled_basis(2, mean, basis).unwrap().0
+    };
+    let text = said(&report(&compared(&uneven(0.0), &uneven(10.0), few())), Topic::ReachOfA);
+    let text = text.unwrap();
+    assert!(
+        text.ends_with("; plausible shapes of the two are at least 10.0 units apart."),
+        "{text}"
+    );
     // Points on nearly the same line, twenty standard deviations apart.
     let far = report(&compared(&along(0.0, 0.0), &along(20.0, 0.001), few()));
     let text = said(&far, Topic::NearestPlausible).unwrap();

@@ -260,8 +260,12 @@ fn reach_of(report: &Report, side: Side, found: &ReachOfSide, meeting: f64) -> S
         parts.extend([words(", but lies "), distance, words(" from the nearest plausible one")]);
     }
     // Where a model is nearer to some shapes than plausible ones ever are, the next sentence says it.
-    if meeting > SMALL * found.mean && meeting <= (1.0 + FURTHER) * further.unwrap_or(found.mean) {
+    let distance = further.unwrap_or(found.mean);
+    if meeting > SMALL * found.mean && meeting <= distance {
         parts.extend([words("; "), least(), words(" of it no plausible one avoids")]);
+    } else if meeting > distance && meeting <= (1.0 + FURTHER) * distance {
+        parts.extend([words("; plausible shapes of the two are at least "), least()]);
+        parts.push(words(" apart"));
     }
     parts.push(words("."));
     Sentence { about, parts }
