@@ -395,7 +395,12 @@ impl Comparison {
     }
 
     /// What is said of the nearest shape `image`, with coefficients a′, to `shape`.
-    fn nearest(&self, shape: &[f64], image: &[f64], coefficients: &DVector<f64>) -> Nearest {
+    pub(super) fn nearest(
+        &self,
+        shape: &[f64],
+        image: &[f64],
+        coefficients: &DVector<f64>,
+    ) -> Nearest {
         let dimension = self.pair().a().dimension();
         let residuals: Vec<f64> = shape
             .chunks_exact(dimension)

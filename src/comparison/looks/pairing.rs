@@ -60,21 +60,20 @@ impl Comparison {
         let known = model.training_shapes();
         let shape = known.map_or_else(|| random_shape(model, side, number), |it| it.shape(number));
         let other = self.prepared.model(side.other());
-        let nearest = formed(other, &nearest_coefficients(other, &shape));
-        let dimension = other.dimension();
-        let contained = self.prepared.operator(side).is_contained(self.pair().rounding());
-        let missed: Vec<f64> = shape
-            .as_slice()
-            .chunks_exact(dimension)
-            .zip(nearest.chunks_exact(dimension))
-            .map(|(x, y)| x.iter().zip(y).map(|(x, y)| (x - y) * (x - y)).sum::<f64>().sqrt())
-            .map(|distance| if contained { 0.0 } else { distance })
-            .collect();
+        let coefficients = nearest_coefficients(other, &shape);
+        let found = self.nearest(shape.as_slice(), &formed(other, &coefficients), &coefficients);
+        // Where the other model holds all shapes, what is left of any is rounding.
+        let (missed, distance) =
+            if self.prepared.operator(side).is_contained(self.pair().rounding()) {
+                (vec![0.0; other.point_count()].into(), 0.0)
+            } else {
+                (found.residuals, found.distance)
+            };
         Pairing {
-            distance: missed.iter().sum::<f64>() / missed.len() as f64,
             shape: single(shape.iter()).into(),
-            nearest: single(&nearest).into(),
-            missed: single(&missed).into(),
+            nearest: found.shape,
+            missed,
+            distance,
             number: number + 1,
             rank: rank + 1,
             count,

@@ -81,14 +81,19 @@ export const LEVEL = 0.05;
 /** A cut rim or a single point that is missed by far would darken all the rest. */
 const COVERED = 0.98;
 
-/** What the other model misses, on the differences alone: the map of the contrast. */
+/** A map of what the other model misses, of the differences alone. */
+function missedMap(values: ShownMap["values"]): ShownMap {
+  return { name: "reach", mode: 0, signed: false, palette: "magma", values, covers: COVERED };
+}
+
+/** What the other model misses on average: the map of the contrast. */
 export const contrastMap = computed<ShownMap>(() => {
   const values: ShownMap["values"] = {};
   for (const region of REGIONS) {
     const missed = shapes.value[region]?.contrast?.missed;
     if (missed) values[region] = missed;
   }
-  return { name: "reach", mode: 0, signed: false, palette: "magma", values, covers: COVERED };
+  return missedMap(values);
 });
 
 /** How far the shapes of the view Pairs lie from the nearest of the other model. */
@@ -98,7 +103,7 @@ export const pairsMap = computed<ShownMap>(() => {
     const missed = pairings.value?.[side].missed;
     if (missed) values[DIFFERENCE_OF[side]] = missed;
   }
-  return { name: "reach", mode: 0, signed: false, palette: "magma", values, covers: COVERED };
+  return missedMap(values);
 });
 
 /** The map chosen for the view Map, without values until the engine has sent them. */
