@@ -16,7 +16,7 @@ use crate::comparison::{
     ShapeSource, Space, Stage, SweepPoint, VertexMap,
 };
 use crate::files::{Download, OpenedModel, RunFile, RunModel, ShownShape, Sources};
-use crate::formats::{Group, Origin};
+use crate::formats::{Applied, Choice, Finding, Group, Origin};
 use crate::inspect::{Agreement, Inspection, MeanDistance, Remedy, UnitFound};
 use crate::lessons::*;
 use crate::linalg::Moments;
@@ -113,7 +113,7 @@ fn declarations() -> String {
         names: BTreeSet::new(),
     };
     declared!(all:
-        Side, Sides<()>, Moments, Unit, Kind, Alignment, Notice,
+        Side, Sides<()>, Moments, Unit, Kind, Alignment, Notice, Finding, Choice, Applied,
         // Settings.
         Sampler, FitMethod, FitChoice, Pooling, Plausibility, DifferenceDefinition,
         SidePreparation, PointSelection, Preparation, Settings, FieldValue, Field,

@@ -20,7 +20,7 @@ use wasm_bindgen::prelude::*;
 use crate::comparison::{Comparison, DifferenceView, Region, Stage};
 use crate::error::ComparisonError;
 use crate::files::{self, Described, Download, Error};
-use crate::formats::{self, Options};
+use crate::formats::{self, Options, Reading, ReadingError};
 use crate::lessons::Lesson;
 use crate::linalg::parallel;
 use crate::model::{Geometry, LinearModel};
@@ -101,7 +101,18 @@ fn fault(code: &str, message: impl ToString, hint: impl ToString) -> JsValue {
 
 fn thrown(error: impl Into<Error>) -> JsValue {
     let error = error.into();
-    fault(error.code(), &error, error.hint())
+    let fault = fault(error.code(), &error, error.hint());
+    if let Error::Format(error) = &error
+        && !error.choices().is_empty()
+    {
+        // Setting a member of a fresh object cannot fail.
+        let _ = Reflect::set(&fault, &JsValue::from_str("choices"), &plain(&error.choices()));
+    }
+    fault
+}
+
+fn reading_of(text: &str) -> Result<Reading, JsValue> {
+    text.parse().map_err(|error| fault(ReadingError::CODE, error, ReadingError::HINT))
 }
 
 /// A plain object; `null` for `None`.
@@ -178,12 +189,13 @@ impl Engine {
         &mut self,
         #[wasm_bindgen(unchecked_param_type = "DroppedFile[]")] files: &Array,
         part: Option<String>,
-        scale: bool,
+        reading: &str,
         #[wasm_bindgen(unchecked_param_type = "(bytes: number, of: number) => void")]
         on_read: Option<Function>,
     ) -> Result<JsValue, JsValue> {
         let inputs = blobs::inputs(files, on_read)?;
-        let opened = files::open(&inputs, &Options { part, scale });
+        let reading = reading_of(reading)?;
+        let opened = files::open(&inputs, &Options { part, reading });
         blobs::release();
         opened.map(|described| self.keep(described)).map_err(thrown)
     }
@@ -198,10 +210,10 @@ impl Engine {
         model: u32,
         #[wasm_bindgen(unchecked_param_type = "DroppedFile[]")] files: &Array,
         name: &str,
-        scale: bool,
+        reading: &str,
     ) -> Result<JsValue, JsValue> {
         let inputs = blobs::inputs(files, None)?;
-        let added = files::add_shapes(self.model(model)?, name, &inputs, scale);
+        let added = files::add_shapes(self.model(model)?, name, &inputs, &reading_of(reading)?);
         blobs::release();
         let described = added.map_err(thrown)?;
         let opened = plain(&described.opened(model));

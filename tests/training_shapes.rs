@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 use serde::Deserialize;
 use shapevenn::evidence::Evidence;
 use shapevenn::files::{self, Described};
-use shapevenn::formats::{self, Input, Options};
+use shapevenn::formats::{self, Input, Options, Reading};
 use shapevenn::model::{Alignment, LinearModel, ShapesRole, model_of_population};
 use shapevenn::pair::Pair;
 use shapevenn::report::Report;
@@ -168,7 +168,7 @@ fn shapes_beside_a_model_give_the_evidence_of_the_model_of_the_shapes() {
     let beside = [0, 1].map(|side| {
         let model = alone(&opened[side]);
         assert_eq!(model.model.training_shapes(), None, "not in the file");
-        files::add_shapes(&model, "folder", &folders[side], false).unwrap()
+        files::add_shapes(&model, "folder", &folders[side], &Reading::default()).unwrap()
     });
     for described in &beside {
         let shapes = described.report.shapes.clone().unwrap();
@@ -248,17 +248,17 @@ fn shapes_that_do_not_fit_a_model_are_refused_with_both_names_and_numbers() {
         files::open(&inputs("a", &drawn(&face_like_pair(60, 9).0, 5, 1)), &Options::default());
     let opened = opened.unwrap();
     let others = inputs("heads", &drawn(&face_like_pair(48, 9).0, 5, 1));
-    let error = files::add_shapes(&opened, "heads", &others, false).unwrap_err();
+    let error = files::add_shapes(&opened, "heads", &others, &Reading::default()).unwrap_err();
     assert_eq!(error.code(), "point-mismatch", "{error}");
     assert_eq!(
         error.to_string(),
         "heads cannot be the shapes of a: the shapes have 48 points, the model has 60."
     );
     assert!(error.hint().contains("in correspondence"), "{}", error.hint());
-    let error = files::add_shapes(&opened, "heads", &others[..1], false).unwrap_err();
+    let error = files::add_shapes(&opened, "heads", &others[..1], &Reading::default()).unwrap_err();
     assert_eq!(error.code(), "point-mismatch", "points come first: {error}");
     let one = inputs("one", &drawn(&face_like_pair(60, 9).0, 1, 1));
-    let error = files::add_shapes(&opened, "one", &one, false).unwrap_err();
+    let error = files::add_shapes(&opened, "one", &one, &Reading::default()).unwrap_err();
     assert_eq!(error.code(), "too-few-shapes", "{error}");
 }
 

@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 use serde::Deserialize;
 use shapevenn::demos;
 use shapevenn::evidence::{Evidence, Groups, Options, left_out_errors};
-use shapevenn::formats::{Input, read_shapes};
+use shapevenn::formats::{Input, Reading, read_shapes};
 use shapevenn::model::{Alignment, Side};
 use shapevenn::pair::Pair;
 use shapevenn::report::{EvidenceReport, Hypothesis};
@@ -38,7 +38,7 @@ fn groups() -> Groups {
     let [a, b] = ["aedes", "culex"].map(|genus| {
         let path = format!("{}/demos/wings/wings-{genus}.tps", env!("CARGO_MANIFEST_DIR"));
         let file = Input::of_bytes(&path, std::fs::read(&path).unwrap());
-        read_shapes(&[file]).unwrap().shapes
+        read_shapes(&[file], &Reading::default()).unwrap().shapes
     });
     Groups::new(2, &a, &b, Alignment::Similarity).unwrap()
 }

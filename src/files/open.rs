@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::Error;
 use crate::demos;
-use crate::formats::{self, Input, Options, Origin};
+use crate::formats::{self, Input, Options, Origin, Reading};
 use crate::inspect::guessed_unit;
 use crate::measure::{self, Evaluation};
 use crate::model::{Alignment, LinearModel, TrainingShapes, Unit};
@@ -81,7 +81,8 @@ pub fn open(inputs: &[Input], options: &Options) -> Result<Described, Error> {
         part: Some(part.name.clone()),
         fingerprint: Some(model.fingerprint()),
         ..ModelReport::new(&model, &opened.format, &part.notes)
-    };
+    }
+    .with_reading(&options.reading, part.findings);
     Ok(Described { parts: opened.parts, part: part.name, origin: part.origin, model, report })
 }
 
@@ -124,7 +125,8 @@ pub fn open_demo(name: &str, bytes: Option<&[u8]>) -> Result<Described, Error> {
 }
 
 /// The model with shapes of files or archives as its training or test shapes, whichever they are; a note says which.
-/// `name` is what the shapes are called, `scale` whether they may also be brought to the size of its mean.
+/// `name` is what the shapes are called; `reading` says how they are read, and whether they may also be brought to the size
+/// of its mean.
 ///
 /// # Errors
 /// [`Error::Format`] when they cannot be read, [`Error::Shapes`] when they do not fit the model.
@@ -132,20 +134,25 @@ pub fn add_shapes(
     described: &Described,
     name: &str,
     shapes: &[Input],
-    scale: bool,
+    reading: &Reading,
 ) -> Result<Described, Error> {
     let alignment = match described.origin {
         Origin::Shapes { scaled: true, .. } => Alignment::Similarity,
-        _ if scale => Alignment::Similarity,
+        _ if reading.scale => Alignment::Similarity,
         _ => Alignment::Rigid,
     };
-    let set = formats::read_shapes(shapes)?;
+    let reading = reading_of_shapes(described, reading);
+    let set = formats::read_shapes(shapes, &reading)?;
     let model =
         described.model.with_shapes(set.dimension, set.shapes, alignment).map_err(|error| {
             let (shapes, model) = (name.to_owned(), described.report.name.clone());
             Error::Shapes { shapes, model, error }
         })?;
     let mut report = described.report.clone();
+    if report.reading.is_none() {
+        report = report.with_reading(&reading, Vec::new());
+    }
+    report.findings.extend(set.findings.iter().cloned());
     report.shapes = model.training_shapes().map(|known| KnownShapes {
         count: known.count(),
         role: known.role(),
@@ -156,6 +163,21 @@ pub fn add_shapes(
     Ok(Described { model, report, ..described.clone() })
 }
 
+/// What a reading says of shapes beside a model: all of it, unless the model is one of shapes itself, whose specimens it
+/// then names.
+fn reading_of_shapes(described: &Described, reading: &Reading) -> Reading {
+    match described.origin {
+        Origin::Shapes { .. } => Reading {
+            scale: reading.scale,
+            first_column: reading.first_column,
+            missing: reading.missing,
+            without_points: reading.without_points.clone(),
+            ..Reading::default()
+        },
+        _ => reading.clone(),
+    }
+}
+
 /// Evaluates a model by shapes that test it, or by those that it was made of (`training`).
 ///
 /// # Errors
@@ -164,13 +186,14 @@ pub fn evaluate(
     described: &Described,
     shapes: &[Input],
     training: bool,
+    reading: &Reading,
 ) -> Result<Evaluation, Error> {
     let made_by = described.model.training_shapes().map(TrainingShapes::alignment);
     let alignment = match made_by {
         Some(Alignment::Similarity) => Alignment::Similarity,
         _ => Alignment::Rigid,
     };
-    let set = formats::read_shapes(shapes)?;
+    let set = formats::read_shapes(shapes, &reading_of_shapes(described, reading))?;
     measure::evaluate(&described.model, set.dimension, set.shapes, training, alignment)
         .map_err(Error::Evaluation)
 }

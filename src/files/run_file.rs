@@ -53,6 +53,10 @@ pub struct RunModel {
     /// Its fingerprint; unknown in reports of old engines.
     #[serde(default)]
     pub fingerprint: Option<String>,
+    /// How it was read, as text.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, ts(optional))]
+    pub reading: Option<String>,
     /// The shapes that were given beside it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, ts(optional))]
@@ -86,6 +90,7 @@ impl RunFile {
             part: report.part.clone(),
             source: source.clone(),
             fingerprint: report.fingerprint.clone(),
+            reading: report.reading.clone(),
             shapes: beside(report.shapes.as_ref()).cloned(),
         };
         Self {

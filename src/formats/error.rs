@@ -6,6 +6,7 @@
 
 use core::fmt;
 
+use super::reading::Choice;
 use crate::model::ModelError;
 
 /// Formats that can be read, as listed to the user.
@@ -53,6 +54,25 @@ pub enum Fault {
         line: usize,
         /// The word.
         word: String,
+    },
+    /// Landmarks of some specimens are missing.
+    Missing {
+        /// Which, in words.
+        which: String,
+        /// What can be left out.
+        choices: Vec<Choice>,
+    },
+    /// A specimen or point that the reading names is not there.
+    NoSpecimen {
+        /// Its name.
+        wanted: String,
+        /// What there is.
+        found: String,
+    },
+    /// Shares of the variance where variances are needed.
+    VarianceShares {
+        /// Name of the array.
+        what: String,
     },
     /// The file ends before something that it announces.
     Truncated {
@@ -295,13 +315,17 @@ impl FormatError {
             Fault::Shape { .. } => "shape",
             Fault::CellIndices { .. } | Fault::CellCorners { .. } => "cells",
             Fault::NotFinite { .. } => "nan",
-            Fault::NegativeVariances { .. } | Fault::SingularValues { .. } => "variance",
+            Fault::NegativeVariances { .. }
+            | Fault::SingularValues { .. }
+            | Fault::VarianceShares { .. } => "variance",
             Fault::NotNumbers { .. } => "npyobj",
             Fault::NotMesh { .. } => "notmesh",
             Fault::Size { .. } => "size",
             Fault::Damaged { .. } => "damaged",
             Fault::DecimalComma { .. } => "decimal-comma",
             Fault::NoNumber { .. } => "no-number",
+            Fault::Missing { .. } => "missing-landmarks",
+            Fault::NoSpecimen { .. } => "no-specimen",
             Fault::Unreadable { .. } => "unreadable",
             Fault::NoPart { .. } => "unknown-part",
             Fault::Bilinear { .. } => "bilinear",
@@ -323,6 +347,14 @@ impl FormatError {
             Fault::Mixed { .. } => "mixed",
             Fault::Model(error) => error.code(),
             Fault::Write { .. } => "write",
+        }
+    }
+
+    /// Readings that would help, to choose from.
+    pub fn choices(&self) -> &[Choice] {
+        match &self.fault {
+            Fault::Missing { choices, .. } => choices,
+            _ => &[],
         }
     }
 
@@ -367,6 +399,15 @@ impl FormatError {
             Fault::SingularValues { .. } => {
                 "Save the variances as `eigenvalues`: the squares of the singular values, divided by \
                  the number of training shapes less one."
+            }
+            Fault::VarianceShares { .. } => {
+                "Save the variances beside them as `eigenvalues`: `explained_variance_` of scikit-learn."
+            }
+            Fault::Missing { .. } => {
+                "Leave out these specimens, or these landmarks of all specimens; or fill in the values."
+            }
+            Fault::NoSpecimen { .. } => {
+                "Name specimens by number from 1 or by file name, points by number from 1."
             }
             Fault::NotNumbers { .. } => "Save it as an array of numbers with `numpy.savez`.",
             Fault::NotMesh { .. } => "Load a model of points or of a mesh.",
@@ -570,6 +611,14 @@ impl fmt::Display for Fault {
             Self::DecimalComma { line, word } => {
                 write!(f, "Line {line} has a decimal comma, “{word}”; a point was expected.")
             }
+            Self::Missing { which, .. } => write!(f, "{which}."),
+            Self::NoSpecimen { wanted, found } => {
+                write!(f, "There is no “{wanted}” among its {found}.")
+            }
+            Self::VarianceShares { what } => write!(
+                f,
+                "`{what}` are shares of the variance; variances were expected, in the unit of the mean squared."
+            ),
             Self::NoNumber { line, word } => {
                 write!(f, "Line {line} has “{word}” where a number was expected.")
             }

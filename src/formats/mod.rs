@@ -29,6 +29,7 @@ mod mesh;
 mod open;
 mod opened;
 mod readers;
+mod reading;
 mod several;
 mod write;
 
@@ -38,6 +39,9 @@ pub use error::{Fault, FormatError};
 pub use input::{Input, Storage};
 pub use open::open;
 pub use opened::{Opened, Options, Origin, Part};
+pub use reading::{
+    Applied, Choice, Finding, FirstColumn, Missing, ModeLength, Order, Reading, ReadingError,
+};
 pub use several::groups::{Group, groups};
 pub use several::populations::{ShapeSet, read_shapes};
 pub use write::{

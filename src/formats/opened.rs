@@ -1,14 +1,15 @@
 //! The result of opening files: one model, the names of all parts, and where the model comes from.
 
+use crate::formats::reading::{Finding, Reading};
 use crate::model::{BasisCheck, LinearModel};
 
-/// Options for reading files: which part, and whether shapes are scaled.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+/// Options for reading files: which part, and what they do not say themselves.
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Options {
     /// The part to read of a file of several models; by default the one to show first.
     pub part: Option<String>,
-    /// Whether shapes of a set are also brought to one size before a model is made of them.
-    pub scale: bool,
+    /// How they are to be read where they do not say so.
+    pub reading: Reading,
 }
 
 /// One model that was read from a file or from several.
@@ -37,6 +38,8 @@ pub struct Part {
     pub map: Option<Vec<u32>>,
     /// Notes for the user, each one sentence.
     pub notes: Vec<String>,
+    /// What the user should look at, with readings to choose from.
+    pub findings: Vec<Finding>,
 }
 
 /// Where a model comes from.

@@ -19,6 +19,7 @@ mod points;
 mod population;
 mod procrustes;
 mod side;
+mod specimens;
 mod training;
 
 pub use beside::ShapesError;
@@ -31,4 +32,5 @@ pub(crate) use population::into_principal_components;
 pub use population::{generalised_procrustes, model_of_population, principal_components};
 pub use procrustes::{Alignment, Similarity, align_to, procrustes};
 pub use side::{Side, Sides};
+pub(crate) use specimens::look;
 pub use training::{ShapesRole, TrainingShapes};

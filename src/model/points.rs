@@ -19,15 +19,7 @@ impl LinearModel {
     /// # Panics
     /// When a point number is not below the number of points.
     pub fn restricted(&self, points: &[u32]) -> Result<Self, ModelError> {
-        let cells = match self.cells() {
-            Cells::None => Cells::None,
-            Cells::Segments(segments) => {
-                Cells::Segments(kept_cells(segments, &self.places(points)))
-            }
-            Cells::Triangles(triangles) => {
-                Cells::Triangles(kept_cells(triangles, &self.places(points)))
-            }
-        };
+        let cells = self.cells().at_points(points, self.point_count());
         self.at_points(points, cells)
     }
 
@@ -64,14 +56,21 @@ impl LinearModel {
         model.training = self.training_shapes().map(|shapes| Arc::new(shapes.at_rows(&rows)));
         model.with_cells(cells)
     }
+}
 
-    /// For every point its index in `points`; `u32::MAX` where it is not among them.
-    fn places(&self, points: &[u32]) -> Vec<u32> {
-        let mut places = vec![u32::MAX; self.point_count()];
-        for (place, &point) in (0_u32..).zip(points) {
+impl Cells {
+    /// The cells of which all corners are among some points, numbered anew.
+    pub(crate) fn at_points(&self, chosen: &[u32], of: usize) -> Self {
+        let mut places = vec![u32::MAX; of];
+        for (place, &point) in (0_u32..).zip(chosen) {
             places[point as usize] = place;
         }
-        places
+        let places = &places;
+        match self {
+            Self::None => Self::None,
+            Self::Segments(segments) => Self::Segments(kept_cells(segments, places)),
+            Self::Triangles(triangles) => Self::Triangles(kept_cells(triangles, places)),
+        }
     }
 }
 

@@ -7,6 +7,7 @@
 mod answer;
 mod evidence;
 
+use crate::formats::{Applied, Finding, Reading};
 use crate::model::{Side, Sides};
 use crate::pair::{ReachDraws, ReachOfSide};
 use crate::settings::SigmaSource;
@@ -129,6 +130,18 @@ pub struct ModelReport {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[cfg_attr(test, ts(optional))]
     pub shapes: Option<KnownShapes>,
+    /// How it was read where its file does not say so: a [`Reading`] as text.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, ts(optional))]
+    pub reading: Option<String>,
+    /// What the reading says, each with the reading that takes it back.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(test, ts(optional, as = "Option<Vec<Applied>>"))]
+    pub applied: Vec<Applied>,
+    /// What a person should look at, with readings to choose from.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(test, ts(optional, as = "Option<Vec<Finding>>"))]
+    pub findings: Vec<Finding>,
 }
 
 /// Shapes that are known with a model.
@@ -198,7 +211,19 @@ impl ModelReport {
             part: None,
             fingerprint: None,
             shapes: KnownShapes::of(model),
+            reading: None,
+            applied: Vec::new(),
+            findings: Vec::new(),
         }
+    }
+
+    /// The same, read in this way, with what the reader found.
+    #[must_use]
+    pub fn with_reading(mut self, reading: &Reading, findings: Vec<Finding>) -> Self {
+        self.reading = Some(reading.to_string()).filter(|text| !text.is_empty());
+        self.applied = reading.applied();
+        self.findings.extend(findings);
+        self
     }
 }
 

@@ -5,7 +5,7 @@
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
-use shapevenn::formats::FormatError;
+use shapevenn::formats::{FormatError, Part};
 use shapevenn::model::{Cells, Kind, LinearModel, Unit};
 
 /// What a `make_….py` noted about one model.
@@ -72,6 +72,13 @@ pub fn json<T: for<'a> Deserialize<'a>>(path: &str) -> T {
     serde_json::from_str(&text).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
+/// What a user is told of a model: notes and findings.
+pub fn said_of(part: &Part) -> Vec<String> {
+    let findings = part.findings.iter().map(|finding| finding.message.clone());
+    part.notes.iter().cloned().chain(findings).collect()
+}
+
+/// How many cells there are.
 pub fn cell_count(cells: &Cells) -> usize {
     match cells {
         Cells::None => 0,

@@ -33,7 +33,7 @@ const RUST = {
     ...["roofline", "typescript", "wasm", "bin"],
   ],
   "src/formats": [
-    ...["error", "opened", "input", "containers", "mesh", "readers", "several", "write", "open"],
+    ...["reading", "error", "opened", "input", "containers", "mesh", "readers", "several", "write", "open"],
   ],
 };
 

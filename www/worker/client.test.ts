@@ -72,7 +72,7 @@ test("a model that nobody waits for any more is closed", async () => {
   const { client, worker } = begin();
   const controller = new AbortController();
   const files = [{ name: "x.h5", blob: new Blob(["x"]) }];
-  const opening = client.open(controller.signal, files, null, false, () => {});
+  const opening = client.open(controller.signal, files, null, "", () => {});
   const { id } = worker().last();
   controller.abort();
   await assert.rejects(opening, { name: "AbortError" });
@@ -87,7 +87,7 @@ test("how far a file is read is told to whoever opens it", async () => {
   const { client, worker } = begin();
   const told: [number, number][] = [];
   const files = [{ name: "x.h5", blob: new Blob(["x"]) }];
-  const opening = client.open(never(), files, "color", false, (...read) => told.push(read));
+  const opening = client.open(never(), files, "color", "", (...read) => told.push(read));
   const { id } = worker().last();
   worker().say({ t: "reading", id, bytes: 10, of: 40 });
   worker().say({ t: "reading", id: id + 1, bytes: 20, of: 40 });

@@ -107,10 +107,10 @@ export class EngineClient {
     signal: AbortSignal,
     files: DroppedFile[],
     part: string | null,
-    scale: boolean,
+    reading: string,
     onRead: OnRead,
   ): Promise<Reply<"opened">> {
-    return this.#opened(signal, { t: "open", files, part, scale }, [], onRead);
+    return this.#opened(signal, { t: "open", files, part, reading }, [], onRead);
   }
 
   async addShapes(
@@ -118,9 +118,9 @@ export class EngineClient {
     model: Handle,
     files: DroppedFile[],
     name: string,
-    scale: boolean,
+    reading: string,
   ): Promise<OpenedModel> {
-    const request = { t: "addShapes", model, files, name, scale } as const;
+    const request = { t: "addShapes", model, files, name, reading } as const;
     return (await this.#ask(signal, request, "shapesAdded")).opened;
   }
 

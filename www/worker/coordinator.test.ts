@@ -172,12 +172,12 @@ const files = [{ name: "set/1.ply", blob: new Blob(["x"]) }];
 
 test("while a file is read the page hears how far, ten times a second and at the end", () => {
   const { coordinator, posted, kinds } = begin(1, {
-    open: (_files, _part, _scale, onRead) => {
+    open: (_files, _part, _reading, onRead) => {
       for (let bytes = 1; bytes <= 1000; bytes += 1) onRead(bytes, 1000);
       return { model: 4, parts: ["shape"], part: "shape" } as ReturnType<Engine["open"]>;
     },
   });
-  coordinator.receive({ t: "open", id: 3, files, part: null, scale: false });
+  coordinator.receive({ t: "open", id: 3, files, part: null, reading: "" });
   const told = posted.flatMap((message) => (message.t === "reading" ? [message.bytes] : []));
   assert.equal(told[0], 1);
   assert.equal(told.at(-1), 1000);
@@ -194,8 +194,8 @@ test("a part, a size and the files themselves come to the engine as they were as
     },
     groups: (given) => given.map(({ name }, i) => ({ name, files: [i] })),
   });
-  coordinator.receive({ t: "open", id: 1, files, part: "expression", scale: true });
-  coordinator.receive({ t: "open", id: 2, files, part: null, scale: false });
+  coordinator.receive({ t: "open", id: 1, files, part: "expression", reading: "scale" });
+  coordinator.receive({ t: "open", id: 2, files, part: null, reading: "" });
   assert.deepEqual(asked, [
     [files, "expression", true],
     [files, undefined, false],

@@ -85,8 +85,9 @@ export class Coordinator {
     } catch (thrown) {
       if (this.#run?.id === id) this.#run = null;
       if (isEngineError(thrown)) {
-        const { code, message, hint } = thrown;
-        this.#post({ t: "error", id, code, message, hint: hint ?? "" });
+        const { code, message, hint, choices } = thrown;
+        const offered = choices ? { choices } : {};
+        this.#post({ t: "error", id, code, message, hint: hint ?? "", ...offered });
       } else {
         this.#run = null;
         this.#post({ t: "fatal", message: sentenceOf(thrown) });
@@ -125,13 +126,13 @@ export class Coordinator {
       case "groups":
         return { t: "groups", id, groups: engine.groups(message.files) };
       case "open": {
-        const { files, part, scale } = message;
+        const { files, part, reading } = message;
         const onRead = this.#teller(id);
-        return this.#opened(id, () => engine.open(files, part ?? undefined, scale, onRead));
+        return this.#opened(id, () => engine.open(files, part ?? undefined, reading, onRead));
       }
       case "addShapes": {
-        const { model, files, name, scale } = message;
-        return { t: "shapesAdded", id, opened: engine.addShapes(model, files, name, scale) };
+        const { model, files, name, reading } = message;
+        return { t: "shapesAdded", id, opened: engine.addShapes(model, files, name, reading) };
       }
       case "openDemo": {
         const bytes = message.bytes === null ? undefined : new Uint8Array(message.bytes);

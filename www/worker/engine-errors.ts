@@ -1,20 +1,27 @@
-import type { Notice } from "./protocol";
+import type { Choice, Notice } from "./protocol";
+
+/** What the engine throws: a notice, with readings of the file that would help where there are some. */
+export interface EngineError extends Notice {
+  choices?: Choice[];
+}
 
 /** An error of the engine as the page's promises reject with it. */
 export class EngineFailure extends Error implements Notice {
   readonly code: string;
   readonly hint: string;
+  readonly choices: Choice[];
 
-  constructor(error: Notice) {
+  constructor(error: EngineError) {
     super(error.message);
     this.name = "EngineFailure";
     this.code = error.code;
     this.hint = error.hint;
+    this.choices = error.choices ?? [];
   }
 }
 
-/** The engine throws plain `{code, message, hint}`; anything else is a panic or out of memory. */
-export function isEngineError(thrown: unknown): thrown is Notice {
+/** The engine throws plain `{code, message, hint}`, sometimes with `choices`; anything else is a panic or out of memory. */
+export function isEngineError(thrown: unknown): thrown is EngineError {
   return (
     typeof thrown === "object" &&
     thrown !== null &&

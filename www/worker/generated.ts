@@ -38,6 +38,34 @@ export type Notice = {
   hint: string,
 };
 
+/** Something about a file that a person should look at, with what can be done. */
+export type Finding = {
+  /** Stable code, for programs. */
+  code: string,
+  /** One sentence or two: what was found, and what was done about it. */
+  message: string,
+  /** Whether the answer may be wrong if nothing is chosen; else the reader is sure. */
+  doubt: boolean,
+  /** Readings to choose from. */
+  choices: Array<Choice>,
+};
+
+/** A reading that can be chosen. */
+export type Choice = {
+  /** A few words for a button. */
+  label: string,
+  /** The [`Reading`] as text. */
+  reading: string,
+};
+
+/** Something that the reading says, with the reading that takes it back. */
+export type Applied = {
+  /** One sentence. */
+  sentence: string,
+  /** The [`Reading`] without it, as text. */
+  undo: string,
+};
+
 /** How the intersection is sampled. */
 export type Sampler = "auto" | "variational" | "independence" | "hmc" | "mala" | "pcn" | "paper" | "paper-corrected";
 
@@ -283,6 +311,12 @@ export type ModelReport = {
   fingerprint?: string,
   /** The shapes that are known with it. */
   shapes?: KnownShapes,
+  /** How it was read where its file does not say so: a [`Reading`] as text. */
+  reading?: string,
+  /** What the reading says, each with the reading that takes it back. */
+  applied?: Array<Applied>,
+  /** What a person should look at, with readings to choose from. */
+  findings?: Array<Finding>,
 };
 
 /** What the page is told of a model that was opened; other parts are opened when they are chosen. */
@@ -1265,6 +1299,8 @@ export type RunModel = {
   source: string | null,
   /** Its fingerprint; unknown in reports of old engines. */
   fingerprint: string | null,
+  /** How it was read, as text. */
+  reading?: string,
   /** The shapes that were given beside it. */
   shapes?: KnownShapes,
 };

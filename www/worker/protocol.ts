@@ -19,6 +19,7 @@ import type {
   LessonAsk,
   MapName,
   Nearest,
+  Choice,
   Notice,
   OpenedModel,
   Pairing,
@@ -84,8 +85,8 @@ export type LessonAnswer = LessonAnswers[LessonAsk["ask"]];
 export type ToEngine =
   /** Which of these files belong together. */
   | { t: "groups"; id: number; files: DroppedFile[] }
-  /** `part` null takes the first; `scale` also brings the shapes of a set to one size. */
-  | { t: "open"; id: number; files: DroppedFile[]; part: string | null; scale: boolean }
+  /** `part` null takes the first; `reading` says how it is read where its file does not. */
+  | { t: "open"; id: number; files: DroppedFile[]; part: string | null; reading: string }
   /** Takes shapes as training or test shapes of an open model, whichever they are; `name` is what they are called. */
   | {
       t: "addShapes";
@@ -93,7 +94,7 @@ export type ToEngine =
       model: Handle;
       files: DroppedFile[];
       name: string;
-      scale: boolean;
+      reading: string;
     }
   /** `bytes`: the packaged head file; null for demos that are made by code. */
   | { t: "openDemo"; id: number; demo: string; bytes: ArrayBuffer | null }
@@ -199,7 +200,7 @@ export type FromEngine =
   | { t: "runFile"; id: number; text: string }
   | { t: "lesson"; id: number; answer: LessonAnswer }
   | { t: "exported"; id: number; name: string; mime: string; bytes: ArrayBuffer }
-  | ({ t: "error"; id: number } & Notice)
+  | ({ t: "error"; id: number; choices?: Choice[] } & Notice)
   | { t: "fatal"; message: string };
 
 /** The class that the engine's package exports (src/wasm.rs), as the worker uses it. */

@@ -5,7 +5,7 @@ use shapevenn::files;
 use shapevenn::measure::{Evaluation, Method};
 
 use crate::numbers::plain;
-use crate::{Failure, sources, to_json};
+use crate::{Failure, reading, sources, to_json};
 
 #[derive(Debug, Args)]
 pub(crate) struct Arguments {
@@ -17,21 +17,21 @@ pub(crate) struct Arguments {
     /// The shapes are those that the model was made of: leave them out in turn
     #[arg(long)]
     training: bool,
-    /// The model was made of shapes that were brought to one size
-    #[arg(long)]
-    scale: bool,
+    #[command(flatten)]
+    reading: reading::OfOne,
     /// Print one JSON document
     #[arg(long)]
     json: bool,
 }
 
 pub(crate) fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
-    let model = sources::open(&arguments.model, arguments.scale)?;
+    let reading = arguments.reading.reading()?;
+    let model = sources::open(&arguments.model, &reading)?;
     let mut shapes = Vec::new();
     for source in &arguments.shapes {
         shapes.extend(sources::inputs_of(source)?);
     }
-    let found = files::evaluate(&model, &shapes, arguments.training)?;
+    let found = files::evaluate(&model, &shapes, arguments.training, &reading)?;
     if arguments.json {
         println!("{}", to_json(&found)?);
         return Ok(());

@@ -43,7 +43,8 @@ pub(crate) fn evidence(arguments: &Arguments) -> Result<(), Failure> {
         ..Settings::default()
     })?;
     settings.check().map_err(|error| Error::from(ComparisonError::from(error)))?;
-    let [a, b] = arguments.shapes.open([&arguments.a, &arguments.b], prepare.scale)?;
+    let [a, b] =
+        arguments.shapes.open([&arguments.a, &arguments.b], &prepare.reading.readings()?)?;
     for (model, source, side) in [(&a.model, &arguments.a, "A"), (&b.model, &arguments.b, "B")] {
         if model.training_shapes().is_none() {
             return Err(Failure::Input {

@@ -4,11 +4,12 @@
 //! read, the command line refuses: whoever types a command sees what was wrong with it.
 
 use serde_json::{Map, Value, json};
+use shapevenn::formats::Reading;
 use shapevenn::settings::{FIELDS, FieldValue, SIGMA_SINCE, Settings};
 
 use shapevenn::report::ModelReport;
 
-use crate::Failure;
+use crate::{Failure, reading};
 
 /// What is done to one model first; each key ends in `-a` or `-b`.
 const OF_ONE: [(&str, Written); 3] =
@@ -154,6 +155,12 @@ impl Link {
         }
         let [name, hash] = ["name", "hash"].map(|key| self.get(&format!("{key}-{side}")));
         name.or(hash).map(Said::File)
+    }
+
+    /// How the two models are read.
+    pub(crate) fn readings(&self) -> Result<[Reading; 2], Failure> {
+        let of = |key| reading::parsed(self.get(key).unwrap_or_default());
+        Ok([of("read-a")?, of("read-b")?])
     }
 
     /// What to open as A and B: what is `given`, else what the link names. What it names and cannot hold is never replaced by

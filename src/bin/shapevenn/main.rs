@@ -13,6 +13,7 @@ mod matrix;
 mod numbers;
 mod overlap_document;
 mod prepare;
+mod reading;
 mod reproduce;
 mod rerun;
 mod setting_options;
@@ -31,6 +32,7 @@ use shapevenn::comparison::{Comparison, Stage};
 use shapevenn::error::ComparisonError;
 use shapevenn::files::{self, Download, Error, ShownShape, Sources};
 use shapevenn::formats;
+use shapevenn::formats::Reading;
 use shapevenn::model::LinearModel;
 use shapevenn::pair::{MeanSquare, Quantiles};
 use shapevenn::report::{ModelReport, Report, Seconds};
@@ -51,6 +53,8 @@ enum Command {
         /// Files, folders of shapes, `FILE#part` or `demo:NAME`
         #[arg(required = true)]
         files: Vec<String>,
+        #[command(flatten)]
+        reading: reading::OfOne,
         /// Print one JSON array of descriptions
         #[arg(long)]
         json: bool,
@@ -172,7 +176,13 @@ impl Failure {
 
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
-        Self::Input { message: error.to_string(), hint: error.hint() }
+        let mut hint = error.hint();
+        if let Error::Format(error) = &error {
+            for choice in error.choices() {
+                hint += &format!("\n  --read \"{}\"   {}", choice.reading, choice.label);
+            }
+        }
+        Self::Input { message: error.to_string(), hint }
     }
 }
 
@@ -182,7 +192,7 @@ fn system(what: &Path, error: &std::io::Error) -> Failure {
 
 fn main() -> ExitCode {
     let done = match Cli::parse().command {
-        Command::Info { files, json } => info(&files, json),
+        Command::Info { files, reading, json } => info(&files, &reading, json),
         Command::Compare(arguments) => compare(&arguments),
         Command::Inspect { a, b, prepare, shapes, json } => {
             inspect([&a, &b], &prepare, &shapes, json)
@@ -207,12 +217,13 @@ fn main() -> ExitCode {
     }
 }
 
-fn info(named: &[String], json: bool) -> Result<(), Failure> {
+fn info(named: &[String], reading: &reading::OfOne, json: bool) -> Result<(), Failure> {
+    let reading = reading.reading()?;
     let mut descriptions: Vec<ModelReport> = Vec::new();
     // A file that cannot be read does not hide the others.
     let mut failed: Option<Failure> = None;
     for source in named {
-        match sources::open_all(source) {
+        match sources::open_all(source, &reading) {
             Ok(models) => descriptions.extend(models.into_iter().map(|model| model.report)),
             Err(failure) => {
                 if let Some(before) = failed.replace(failure) {
@@ -241,6 +252,10 @@ fn info(named: &[String], json: bool) -> Result<(), Failure> {
         for note in &model.notes {
             println!("  note: {note}");
         }
+        for step in &model.applied {
+            println!("  note: {}", step.sentence);
+        }
+        reading::print_findings("--read", &model.findings);
     }
     failed.map_or(Ok(()), Err)
 }
@@ -252,7 +267,7 @@ fn inspect(
     json: bool,
 ) -> Result<(), Failure> {
     let settings = prepare.settings(Settings::default())?;
-    let [a, b] = shapes.open(named, prepare.scale)?;
+    let [a, b] = shapes.open(named, &prepare.reading.readings()?)?;
     let found = shapevenn::inspect::inspect(&a.model, &b.model, &settings);
     if json {
         println!("{}", to_json(&found)?);
@@ -298,7 +313,14 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
             (given.map(|source| source.unwrap_or_default().to_owned()), settings(arguments)?)
         }
     };
-    let [a, b] = arguments.shapes.open([&named[0], &named[1]], arguments.prepare.scale)?;
+    let given = arguments.prepare.reading.readings()?;
+    let readings = match (&again, &arguments.link) {
+        _ if given.iter().any(|reading| !reading.is_default()) => given,
+        (Some((run, _)), _) => rerun::readings(run)?,
+        (None, Some(link)) => Link::parse(link).readings()?,
+        (None, None) => given,
+    };
+    let [a, b] = arguments.shapes.open([&named[0], &named[1]], &readings)?;
     if let Some((run, _)) = &again {
         run.check(&a.report, &b.report)?;
     } else if let Some(link) = &arguments.link {
@@ -366,7 +388,8 @@ fn sweep(
         return Err(Error::from(ComparisonError::from(SettingsError::Sigma { found })).into());
     }
     let settings = prepare.settings(Settings::default())?;
-    let [a, b] = [sources::open(named[0], prepare.scale)?, sources::open(named[1], prepare.scale)?];
+    let [of_a, of_b] = prepare.reading.readings()?;
+    let [a, b] = [sources::open(named[0], &of_a)?, sources::open(named[1], &of_b)?];
     let mut run =
         Comparison::new(&a.model, &b.model, [a.report, b.report], settings).map_err(Error::from)?;
     while run.stage() == Stage::Prepare {
@@ -520,6 +543,10 @@ fn print_in_words(report: &Report) {
 
 /// What shapes that were given beside a model are.
 fn print_shapes(name: &str, model: &ModelReport) {
+    for step in &model.applied {
+        println!("{name}  {}", step.sentence);
+    }
+    reading::print_findings(if name == "A" { "--read-a" } else { "--read-b" }, &model.findings);
     if let Some(shapes) = model.shapes.as_ref().filter(|shapes| shapes.name.is_some()) {
         println!("{name}  {}", shapes.sentence());
     }
@@ -601,7 +628,7 @@ fn print_distances(report: &Report) {
 }
 
 fn convert(input: &str, output: &Path) -> Result<(), Failure> {
-    let model: LinearModel = sources::open(input, false)?.model;
+    let model: LinearModel = sources::open(input, &Reading::default())?.model;
     let name = output.file_name().map(|name| name.to_string_lossy().to_lowercase());
     let name = name.unwrap_or_default();
     #[allow(clippy::cast_possible_truncation, reason = "meshes hold single precision")]

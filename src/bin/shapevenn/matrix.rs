@@ -109,9 +109,10 @@ pub(crate) fn matrix(arguments: &Arguments) -> Result<(), Failure> {
     let settings = Settings { sigma: arguments.sigma, ..Settings::default() };
     let settings = arguments.prepare.settings(settings)?;
     settings.check().map_err(|error| Error::from(ComparisonError::from(error)))?;
+    let [reading, _] = arguments.prepare.reading.readings()?;
     let mut models = Vec::new();
     for source in &arguments.files {
-        models.push(sources::open(source, arguments.prepare.scale)?);
+        models.push(sources::open(source, &reading)?);
     }
     let mut found = Matrix {
         models: models.iter().map(|model| model.report.name.clone()).collect(),

@@ -9,7 +9,7 @@ use shapevenn::model::{Alignment, Unit};
 use shapevenn::pair::{PointSelection, Preparation, SidePreparation};
 use shapevenn::settings::Settings;
 
-use crate::Failure;
+use crate::{Failure, reading};
 
 /// What is done to the models before they are compared.
 #[derive(Debug, Args)]
@@ -47,9 +47,9 @@ pub(crate) struct Arguments {
     /// Compare at most so many points, evenly spread
     #[arg(long, value_name = "POINTS")]
     subsample: Option<usize>,
-    /// Bring the shapes of a set also to one size before a model is made of them
-    #[arg(long)]
-    pub(crate) scale: bool,
+    /// How the files are read
+    #[command(flatten)]
+    pub(crate) reading: reading::OfTwo,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]

@@ -10,6 +10,7 @@ use serde::Serialize;
 use shapevenn::demos::HEADS;
 use shapevenn::error::ComparisonError;
 use shapevenn::files::Error;
+use shapevenn::formats::Reading;
 use shapevenn::model::LinearModel;
 use shapevenn::reproduce::{
     self, Ablation, EvidenceStudy, Machine, Observer, PairOfModels, Plan, SamplePlan, Table1,
@@ -107,19 +108,23 @@ fn table1(arguments: &Arguments, screen: &Screen) -> Result<Table1, Failure> {
 }
 
 fn table2(arguments: &Arguments, screen: &Screen) -> Result<Table2, Failure> {
-    let head = sources::open(SPLIT, false)?.model;
+    let head = sources::open(SPLIT, &Reading::default())?.model;
     run(reproduce::table2(&head, plan(arguments, 3), screen))
 }
 
 fn sigma(arguments: &Arguments, screen: &Screen) -> Result<Ablation, Failure> {
-    let [a, b]: [LinearModel; 2] =
-        [sources::open(COMPARED[0], false)?.model, sources::open(COMPARED[1], false)?.model];
+    let [a, b]: [LinearModel; 2] = [
+        sources::open(COMPARED[0], &Reading::default())?.model,
+        sources::open(COMPARED[1], &Reading::default())?.model,
+    ];
     run(reproduce::sigma([&a, &b], plan(arguments, 3), screen))
 }
 
 /// The pairs that the page offers, samples of the male heads, and one of male and female heads.
 fn evidence(screen: &Screen) -> Result<EvidenceStudy, Failure> {
-    let open = |name: &str| Ok::<_, Failure>(sources::open(&format!("demo:{name}"), false)?.model);
+    let open = |name: &str| {
+        Ok::<_, Failure>(sources::open(&format!("demo:{name}"), &Reading::default())?.model)
+    };
     let pair = |name: &str, kind: &'static str, [a, b]: [&str; 2]| {
         let models = [open(a)?, open(b)?];
         Ok::<_, Failure>(PairOfModels { name: name.to_owned(), kind, models })
@@ -148,7 +153,8 @@ fn pairs() -> Result<Vec<PairOfModels>, Failure> {
     let mut pairs = reproduce::generated_pairs();
     for (index, first) in HEADS.iter().enumerate() {
         for second in &HEADS[index + 1..] {
-            let open = |name: &str| sources::open(&format!("demo:heads-{name}"), false);
+            let open =
+                |name: &str| sources::open(&format!("demo:heads-{name}"), &Reading::default());
             let models = [open(first)?.model, open(second)?.model];
             pairs.push(PairOfModels { name: format!("{first}, {second}"), kind: "heads", models });
         }

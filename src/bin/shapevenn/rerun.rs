@@ -3,8 +3,9 @@
 use std::path::Path;
 
 use shapevenn::files::{RunFile, RunModel, Sources};
+use shapevenn::formats::Reading;
 
-use crate::{Failure, sources};
+use crate::{Failure, reading, sources};
 
 /// Reads a run file, or a report.
 pub(crate) fn read(path: &Path) -> Result<RunFile, Failure> {
@@ -45,6 +46,12 @@ pub(crate) fn models(
         message: format!("{} needs {}.", path.display(), missing.join(", and ")),
         hint: format!("Name the files: shapevenn compare --run {} A B.", path.display()),
     })
+}
+
+/// How the two models were read.
+pub(crate) fn readings(run: &RunFile) -> Result<[Reading; 2], Failure> {
+    let of = |model: &RunModel| reading::parsed(model.reading.as_deref().unwrap_or_default());
+    Ok([of(&run.models.a)?, of(&run.models.b)?])
 }
 
 /// `FILE#part` of the part that the run was made with, where none is named.

@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use clap::Args;
 use shapevenn::files::{self, Described};
-use shapevenn::formats::{self, Input, Options, Storage};
+use shapevenn::formats::{self, Input, Options, Reading, Storage};
 
 use crate::Failure;
 
@@ -37,13 +37,13 @@ pub(crate) fn part_of(source: &str) -> Option<(&str, &str)> {
 }
 
 /// One model: of `FILE#part` that part, else the first.
-pub(crate) fn open(source: &str, scale: bool) -> Result<Described, Failure> {
+pub(crate) fn open(source: &str, reading: &Reading) -> Result<Described, Failure> {
     let (source, part) = part_of(source).map_or((source, None), |(file, part)| (file, Some(part)));
     if let Some(name) = source.strip_prefix("demo:") {
         return Ok(files::open_demo(name, packaged(name))?);
     }
     let inputs = inputs_of(source)?;
-    let options = Options { part: part.map(str::to_owned), scale };
+    let options = Options { part: part.map(str::to_owned), reading: reading.clone() };
     let groups = formats::groups(&inputs).map_err(files::Error::from)?;
     let [group] = groups.as_slice() else {
         // Files of a format that is not read, or that cannot be, are no models: the first says why.
@@ -76,21 +76,30 @@ pub(crate) struct ShapesBeside {
 
 impl ShapesBeside {
     /// Opens two models, with the shapes that are given beside them.
-    pub(crate) fn open(&self, named: [&str; 2], scale: bool) -> Result<[Described; 2], Failure> {
-        let open = |source: &str, shapes: &Option<String>| -> Result<Described, Failure> {
-            let model = open(source, scale)?;
+    pub(crate) fn open(
+        &self,
+        named: [&str; 2],
+        readings: &[Reading; 2],
+    ) -> Result<[Described; 2], Failure> {
+        let open = |source: &str, shapes: &Option<String>, reading| -> Result<Described, Failure> {
+            let model = open(source, reading)?;
             match shapes {
                 None => Ok(model),
-                Some(shapes) => Ok(files::add_shapes(&model, shapes, &inputs_of(shapes)?, scale)?),
+                Some(shapes) => {
+                    Ok(files::add_shapes(&model, shapes, &inputs_of(shapes)?, reading)?)
+                }
             }
         };
-        Ok([open(named[0], &self.training_a)?, open(named[1], &self.training_b)?])
+        Ok([
+            open(named[0], &self.training_a, &readings[0])?,
+            open(named[1], &self.training_b, &readings[1])?,
+        ])
     }
 }
 
 /// All models of a source. A part that cannot be read is mentioned in the notes of the first.
-pub(crate) fn open_all(source: &str) -> Result<Vec<Described>, Failure> {
-    let first = open(source, false)?;
+pub(crate) fn open_all(source: &str, reading: &Reading) -> Result<Vec<Described>, Failure> {
+    let first = open(source, reading)?;
     let mut models = vec![first];
     if part_of(source).is_some() {
         return Ok(models);
@@ -99,7 +108,7 @@ pub(crate) fn open_all(source: &str) -> Result<Vec<Described>, Failure> {
         if part == models[0].part {
             continue;
         }
-        match open(&format!("{source}#{part}"), false) {
+        match open(&format!("{source}#{part}"), reading) {
             Ok(model) => models.push(model),
             Err(Failure::Input { message, .. }) => {
                 let note = format!("The part {part} was left out: {message}");

@@ -3,6 +3,7 @@
 //! A model of 300 MB needs only some of its bytes in memory at once. [`Storage`] is the interface to them: the command
 //! line reads a file on disk, the page a file that the browser holds, tests a list of bytes.
 
+pub(crate) mod columns;
 pub(crate) mod compressed;
 pub(crate) mod paths;
 pub(crate) mod sniffing;

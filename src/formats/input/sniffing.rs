@@ -6,6 +6,7 @@
 use crate::formats::FormatError;
 use crate::formats::error::Fault;
 use crate::formats::input::Input;
+use crate::formats::input::columns::{Heading, columns, is_missing};
 
 /// Bytes that are searched; headers of HDF5 may also be further on.
 const LOOKED_AT: usize = 4096;
@@ -266,15 +267,18 @@ impl<'a> Text<'a> {
     fn says_points(&self) -> bool {
         let first = self.lines().next().unwrap_or_default().to_lowercase();
         let is_pts = first.starts_with("version:") && self.text.contains("n_points:");
-        is_pts || matches!(first.replace([' ', ';', '\t'], ",").as_str(), "x,y" | "x,y,z")
+        is_pts || Heading::of(&columns(&first)).is_some()
     }
 
     fn is_numeric(&self) -> bool {
         const BETWEEN: [char; 4] = [' ', '\t', ',', ';'];
         let is_number = |word: &str| word.parse::<f64>().is_ok();
+        let missing_or_number = |word: &str| is_number(word) || is_missing(word);
         let numeric = |line: &str| {
+            let mut words = line.split(BETWEEN).filter(|word| !word.is_empty());
             line.starts_with('#')
-                || line.split(BETWEEN).filter(|word| !word.is_empty()).all(is_number)
+                || words.clone().all(missing_or_number)
+                    && (words.clone().any(is_number) || words.all(is_missing))
         };
         let complete =
             if self.goes_on { self.lines().count().saturating_sub(1) } else { usize::MAX };

@@ -25,6 +25,7 @@ mod vtp_numbers;
 
 use super::error::Fault;
 use crate::formats::input::sniffing::Content;
+use crate::formats::reading::FirstColumn;
 use crate::model::Cells;
 
 /// Points and cells.
@@ -38,9 +39,35 @@ pub(super) struct Mesh {
     pub(super) cells: Cells,
     /// Notes for the user, each one sentence.
     pub(super) notes: Vec<String>,
+    /// Points of which a coordinate is missing; that is NaN.
+    pub(super) missing: Vec<MissingPoint>,
+    /// Whether a first column that counts the points was left out.
+    pub(super) numbered: bool,
+}
+
+/// A point of which a coordinate is missing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct MissingPoint {
+    /// Its number, from 0.
+    pub(super) point: usize,
+    /// Where in the file, and the word that stands there.
+    pub(super) place: Option<String>,
 }
 
 impl Mesh {
+    /// The same, where some points are missing: their coordinates may be NaN.
+    pub(super) fn with_missing(
+        dimension: usize,
+        mut points: Vec<f64>,
+        cells: Cells,
+        missing: Vec<MissingPoint>,
+    ) -> Result<Self, Fault> {
+        let given = points.clone();
+        points.iter_mut().filter(|value| value.is_nan()).for_each(|value| *value = 0.0);
+        let mesh = Self::new(dimension, points, cells)?;
+        Ok(Self { points: given, missing, ..mesh })
+    }
+
     /// A mesh whose coordinates are finite and whose corners exist.
     pub(super) fn new(dimension: usize, points: Vec<f64>, cells: Cells) -> Result<Self, Fault> {
         let count = points.len() / dimension;
@@ -52,7 +79,14 @@ impl Mesh {
         if beyond > 0 {
             return Err(Fault::CellIndices { count: beyond, points: count });
         }
-        Ok(Self { dimension, points, cells, notes: Vec::new() })
+        Ok(Self {
+            dimension,
+            points,
+            cells,
+            notes: Vec::new(),
+            missing: Vec::new(),
+            numbered: false,
+        })
     }
 
     /// Number of points.
@@ -95,8 +129,25 @@ pub(super) fn is_shape(content: Content) -> bool {
     is_mesh(content) || matches!(content, Content::Tps | Content::Numbers)
 }
 
-/// Reads a single mesh; STL is welded by its own corners.
+/// Reads a single mesh of which no point is missing; STL is welded by its own corners.
 pub(super) fn read(content: Content, bytes: &[u8]) -> Result<Mesh, Fault> {
+    let mesh = read_specimen(content, bytes, None)?;
+    match mesh.missing.first() {
+        None => Ok(mesh),
+        Some(missing) => {
+            let place = missing.place.as_deref().unwrap_or_default();
+            let what = format!("Point {}", missing.point + 1);
+            Err(damaged(what, format!("a coordinate is missing ({place})")))
+        }
+    }
+}
+
+/// Reads a single mesh of a population, of which points may be missing.
+pub(super) fn read_specimen(
+    content: Content,
+    bytes: &[u8],
+    first_column: Option<FirstColumn>,
+) -> Result<Mesh, Fault> {
     let mesh = match content {
         Content::Ply => ply::read(bytes),
         Content::Obj => obj::read(bytes),
@@ -106,7 +157,7 @@ pub(super) fn read(content: Content, bytes: &[u8]) -> Result<Mesh, Fault> {
         }
         Content::Vtk => vtk::read(bytes),
         Content::Vtp => vtp::read(bytes),
-        Content::Numbers => points::read(bytes),
+        Content::Numbers => points::read(bytes, first_column),
         other => return Err(Fault::Alone { format: other.name() }),
     };
     mesh.map_err(|fault| unless_decimal_commas(fault, bytes))
@@ -296,8 +347,10 @@ mod tests {
             assert_eq!(read(content, text).unwrap_err(), expected, "{content:?}");
         }
         // Commas between numbers are no decimal commas, nor are they why this one cannot be read.
+        let fault = read(Content::Numbers, b"1.5,2.5\n1.0,c\n").unwrap_err();
+        assert_eq!(fault, Fault::NoNumber { line: 2, word: "c".to_owned() });
         let fault = read(Content::Numbers, b"1.5,2.5\n1.0,NA\n").unwrap_err();
-        assert_eq!(fault, Fault::NoNumber { line: 2, word: "NA".to_owned() });
+        assert_eq!(fault, damaged("Point 2", "a coordinate is missing (line 2: “NA”)"));
         assert!(
             !has_decimal_comma(b"1,2,3") && !has_decimal_comma(b",5") && !has_decimal_comma(b"a,b")
         );

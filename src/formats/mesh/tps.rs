@@ -8,13 +8,14 @@
 //! | `ID=`, `IMAGE=` … | skipped |
 //!
 //! Keys may be in lower case, blank lines are allowed anywhere. `SCALE` counts only where every specimen has one.
-//! Negative coordinates are taken as they are: some programs mark missing points by them, in other files they are
-//! legal.
+//! Words for missing values (`NA`, `NaN`) make a landmark missing; numbers that mark one, as −1 −1, are told by where the
+//! landmark of the other specimens lies.
 //!
 //! **References.** Rohlf, tpsDig.
 
-use super::{Mesh, at_line, ends_early, finite, lines, no_number, number, words};
+use super::{Mesh, MissingPoint, at_line, ends_early, finite, lines, no_number, number, words};
 use crate::formats::error::Fault;
+use crate::formats::input::columns::is_missing;
 use crate::model::Cells;
 
 /// The landmarks of one specimen.
@@ -68,8 +69,17 @@ pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Vec<Specimen>, Fault> {
         let draft = current.as_mut().ok_or_else(|| early(index))?;
         let before = draft.points.len();
         for word in words(line) {
-            let value = finite(word).ok_or_else(|| no_number(index, word))?;
-            draft.points.push(value);
+            let text = core::str::from_utf8(word).unwrap_or_default();
+            if let Some(value) = finite(word) {
+                draft.points.push(value);
+            } else if !text.is_empty() && is_missing(text) {
+                let point = draft.points.len() / draft.dimension;
+                let place = Some(format!("line {}: “{text}”", index + 1));
+                draft.missing.push(MissingPoint { point, place });
+                draft.points.push(f64::NAN);
+            } else {
+                return Err(no_number(index, word));
+            }
         }
         let found = draft.points.len() - before;
         if found != draft.dimension {
@@ -95,17 +105,19 @@ struct Draft {
     dimension: usize,
     expected: u64,
     points: Vec<f64>,
+    missing: Vec<MissingPoint>,
     scale: Option<f64>,
 }
 
 impl Draft {
-    fn finish(self, before: usize) -> Result<Specimen, Fault> {
+    fn finish(mut self, before: usize) -> Result<Specimen, Fault> {
         let found = (self.points.len() / self.dimension) as u64;
         if found < self.expected {
             let what = format!("points of specimen {}", before + 1);
             return Err(ends_early(&what, self.expected, found));
         }
-        let mesh = Mesh::new(self.dimension, self.points, Cells::None)?;
+        self.missing.dedup_by_key(|missing| missing.point);
+        let mesh = Mesh::with_missing(self.dimension, self.points, Cells::None, self.missing)?;
         Ok(Specimen { mesh, scale: self.scale })
     }
 }

@@ -6,14 +6,17 @@
 //! says so. Columns need be neither orthogonal nor sorted: [`LinearModel::from_scaled_basis`] makes them so.
 //!
 //! **Orientation.** The basis may be D × q, q × D, n × d × q or q × n × d, with D = d·n the length of
-//! the mean; a square one is taken as D × q.
+//! the mean; a square one is taken as D × q. How the D numbers follow one another is told by [`coordinates`] where arrays
+//! leave it open.
 
 use nalgebra::{DMatrix, DVector};
 
 use crate::formats::containers::arrays::{Array, Data};
 use crate::formats::error::{Fault, counted, not_numbers, shape_text, short};
 use crate::formats::readers::cells::{self, Habit};
+use crate::formats::readers::coordinates::{self, Coordinates, Known};
 use crate::formats::readers::scores::Scores;
+use crate::formats::reading::{Finding, ModeLength, Order, Reading};
 use crate::model::{BasisCheck, Cells, Kind, LinearModel};
 
 /// How far norms may be from 1 or √λ and still count as such.
@@ -64,6 +67,10 @@ pub(crate) struct Ingredients {
     /// Coefficients of the training shapes; what they cannot be used for is said in a note.
     pub(crate) scores: Option<Scores>,
     pub(crate) kind: Kind,
+    /// Whether the format says how the coordinates follow one another.
+    pub(crate) order_stated: bool,
+    /// What the user says about reading it.
+    pub(crate) reading: Reading,
 }
 
 /// An assembled model, with notes for the user.
@@ -72,26 +79,31 @@ pub(crate) struct Assembled {
     pub(crate) model: LinearModel,
     pub(crate) check: BasisCheck,
     pub(crate) notes: Vec<String>,
+    pub(crate) findings: Vec<Finding>,
 }
 
 /// Assembles a model.
 pub(crate) fn assemble(ingredients: Ingredients) -> Result<Assembled, Fault> {
-    let Ingredients { mean, basis, scaling, points, cells, habit, base, rows, scores, kind } =
-        ingredients;
+    let Ingredients {
+        mean,
+        basis,
+        scaling,
+        points,
+        cells,
+        habit,
+        base,
+        rows,
+        scores,
+        kind,
+        order_stated,
+        reading,
+    } = ingredients;
     let mut notes = Vec::new();
-    let (mut mean_values, stated) = mean_vector(mean, &mut notes)?;
-    let dimension = stated
-        .or_else(|| points.and_then(|points| dimension_of_points(points, &mean_values)))
-        .or_else(|| dimension_of_basis(&basis.array.shape, mean_values.len()))
-        .unwrap_or_else(|| dimension_of_cells(cells.as_ref(), mean_values.len()));
-    if let Some(base) = base {
-        for (value, base) in mean_values.iter_mut().zip(base.iter()) {
-            *value += base;
-        }
-    }
-    let single = mean_values.iter().all(is_single);
+    let Mean { values: mut mean_values, stated, by_points, interleaved } = mean_vector(mean, &mut notes)?;
+    let basis_sides = basis.array.shape.clone();
     let mut scaled = columns(basis, mean_values.len())?;
-    scale(&mut scaled, scaling, &mut notes)?;
+    let mut findings = Vec::new();
+    scale(&mut scaled, scaling, &reading, &mut findings, &mut notes)?;
     let standardised = scores.and_then(|scores| {
         let deviations: Vec<f64> = scaled.column_iter().map(|column| column.norm()).collect();
         scores.standardised(&deviations).unwrap_or_else(|note| {
@@ -104,6 +116,38 @@ pub(crate) fn assemble(ingredients: Ingredients) -> Result<Assembled, Fault> {
             column.iter_mut().zip(&rows).for_each(|(value, row)| *value *= row);
         }
     }
+    let of_basis = dimension_of_basis(&basis_sides, mean_values.len());
+    let of_cells = dimension_of_cells(cells.as_ref(), mean_values.len());
+    let known = Known {
+        dimension: stated
+            .or_else(|| points.and_then(|points| dimension_of_points(points, &mean_values)))
+            .or(of_basis)
+            .or(of_cells)
+            .or(order_stated.then(|| usual_dimension(mean_values.len()))),
+        usual: usual_dimension(mean_values.len()),
+        // Neighbours in colour are no neighbours; a base is point by point.
+        mean_by_points: by_points || base.is_some() || kind == Kind::Color,
+        modes_by_points: of_basis.is_some() || kind == Kind::Color,
+        stated: order_stated || by_points && !interleaved,
+    };
+    let edges = edges(cells.as_ref(), habit, mean_values.len(), known);
+    let decided = coordinates::decide(&mean_values, &scaled, &edges, known, &reading)?;
+    let Coordinates { dimension, mean: mean_order, modes: modes_order, findings: found } = decided;
+    findings.extend(found);
+    if mean_order == Order::Axes {
+        point_by_point(&mut mean_values, dimension);
+    }
+    if modes_order == Order::Axes {
+        for mut column in scaled.column_iter_mut() {
+            point_by_point(column.as_mut_slice(), dimension);
+        }
+    }
+    if let Some(base) = base {
+        for (value, base) in mean_values.iter_mut().zip(base.iter()) {
+            *value += base;
+        }
+    }
+    let single = mean_values.iter().all(is_single);
     let drawn = drawn(cells.as_ref(), habit, kind, &mean_values, dimension, &mut notes)?;
     let (model, check, columns) =
         LinearModel::from_columns(dimension, DVector::from_vec(mean_values), scaled)
@@ -125,7 +169,28 @@ pub(crate) fn assemble(ingredients: Ingredients) -> Result<Assembled, Fault> {
     if single {
         model = model.in_single_precision();
     }
-    Ok(Assembled { model, check, notes })
+    Ok(Assembled { model, check, notes, findings })
+}
+
+/// Brings x₀ x₁ … y₀ y₁ … into the order x₀ y₀ z₀ x₁ ….
+fn point_by_point(values: &mut [f64], dimension: usize) {
+    let points = values.len() / dimension;
+    let by_axes = values.to_vec();
+    for (place, value) in values.iter_mut().enumerate() {
+        *value = by_axes[place % dimension * points + place / dimension];
+    }
+}
+
+/// Edges between points, where the faces fit the mean.
+fn edges(cells: Option<&Array>, habit: Habit, length: usize, known: Known) -> Vec<[u32; 2]> {
+    let points = length / known.dimension.unwrap_or(known.usual);
+    match cells.and_then(|array| cells::read(array, habit, points).ok()) {
+        Some((Cells::Triangles(triangles), _)) => {
+            triangles.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect()
+        }
+        Some((Cells::Segments(segments), _)) => segments,
+        _ => Vec::new(),
+    }
 }
 
 /// Whether a number has no more digits than single precision holds, in whatever type it is written; as text too.
@@ -143,10 +208,11 @@ pub(crate) fn mesh_of(
     habit: Habit,
 ) -> Result<(Vec<f64>, Cells), Fault> {
     let mut notes = Vec::new();
-    let (mean, stated) = mean_vector(mean, &mut notes)?;
+    let Mean { values: mean, stated, .. } = mean_vector(mean, &mut notes)?;
     let dimension = stated
         .or_else(|| points.and_then(|points| dimension_of_points(points, &mean)))
-        .unwrap_or_else(|| dimension_of_cells(cells.as_ref(), mean.len()));
+        .or_else(|| dimension_of_cells(cells.as_ref(), mean.len()))
+        .unwrap_or_else(|| usual_dimension(mean.len()));
     let cells = drawn(cells.as_ref(), habit, Kind::Shape, &mean, dimension, &mut notes)?;
     Ok((mean, cells))
 }
@@ -173,28 +239,40 @@ fn drawn(
     Ok(drawn)
 }
 
-/// The mean, interleaved, and the dimension when its shape tells it.
-fn mean_vector(mean: Named, notes: &mut Vec<String>) -> Result<(Vec<f64>, Option<usize>), Fault> {
+/// A mean that was read.
+struct Mean {
+    values: Vec<f64>,
+    /// The dimension, when its shape tells it.
+    stated: Option<usize>,
+    /// Whether its shape tells that it is point by point, or it was made so.
+    by_points: bool,
+    /// Whether it was made so.
+    interleaved: bool,
+}
+
+/// The mean, point by point where its shape tells how it is stored.
+fn mean_vector(mean: Named, notes: &mut Vec<String>) -> Result<Mean, Fault> {
     let Named { name, array } = mean;
     let shape = array.shape.clone();
-    let values = array.into_f64().ok_or_else(|| not_numbers(&name, "text"))?;
+    let mut values = array.into_f64().ok_or_else(|| not_numbers(&name, "text"))?;
     let count = values.iter().filter(|value| !value.is_finite()).count();
     if count > 0 {
         return Err(Fault::NotFinite { what: name, count });
     }
-    match *shape.as_slice() {
-        [_, dimension @ 2..=3] => Ok((values, Some(dimension))),
+    let mut interleaved = false;
+    let stated = match *shape.as_slice() {
+        [_, dimension @ 2..=3] => Some(dimension),
         [dimension @ 2..=3, points] if points > 3 => {
             notes.push(
                 "The mean is stored one axis after the other; it was interleaved.".to_owned(),
             );
-            let interleaved = (0..values.len())
-                .map(|place| values[place % dimension * points + place / dimension])
-                .collect();
-            Ok((interleaved, Some(dimension)))
+            point_by_point(&mut values, dimension);
+            interleaved = true;
+            Some(dimension)
         }
-        _ => Ok((values, None)),
-    }
+        _ => None,
+    };
+    Ok(Mean { values, stated, by_points: stated.is_some(), interleaved })
 }
 
 /// The dimension of reference points, d × n or n × d; where both fit, that in which they lie closer
@@ -234,15 +312,24 @@ fn dimension_of_basis(shape: &[usize], length: usize) -> Option<usize> {
     }
 }
 
-/// 3, unless the length of the mean or a cell's point number says that there are more points.
-fn dimension_of_cells(cells: Option<&Array>, length: usize) -> usize {
-    let largest = cells
-        .and_then(Array::to_integers)
-        .and_then(|indices| indices.into_iter().max())
-        .and_then(|index| usize::try_from(index).ok())
-        .unwrap_or(0);
-    let flat = length.is_multiple_of(2) && largest > length / 3 && largest <= length / 2;
-    if flat || (!length.is_multiple_of(3) && length.is_multiple_of(2)) { 2 } else { 3 }
+/// The dimension that the largest point number of the faces tells.
+fn dimension_of_cells(cells: Option<&Array>, length: usize) -> Option<usize> {
+    let largest = cells?.to_integers()?.into_iter().max()?;
+    let largest = usize::try_from(largest).ok()?;
+    let fits = |dimension: usize| {
+        // Faces count from 0 or from 1; a point or two may be without a face.
+        length.is_multiple_of(dimension) && largest <= length / dimension
+    };
+    match (fits(3), fits(2)) {
+        (true, _) if largest + 2 >= length / 3 => Some(3),
+        (false, true) => Some(2),
+        _ => None,
+    }
+}
+
+/// 3, unless the length of the mean says otherwise.
+fn usual_dimension(length: usize) -> usize {
+    if !length.is_multiple_of(3) && length.is_multiple_of(2) { 2 } else { 3 }
 }
 
 /// The basis as D × q, not yet scaled.
@@ -322,59 +409,74 @@ fn fill<T: Copy>(
 }
 
 /// Multiplies the columns by the file's convention, or by what their norms show instead.
-fn scale(basis: &mut DMatrix<f64>, scaling: Scaling, notes: &mut Vec<String>) -> Result<(), Fault> {
+fn scale(
+    basis: &mut DMatrix<f64>,
+    scaling: Scaling,
+    reading: &Reading,
+    findings: &mut Vec<Finding>,
+    notes: &mut Vec<String>,
+) -> Result<(), Fault> {
     let norms: Vec<f64> = basis.column_iter().map(|column| column.norm()).collect();
-    let all_unit = norms.iter().all(|norm| (norm - 1.0).abs() < NORM_TOLERANCE);
-    let factors = match scaling {
+    // A mode of zeros, as padding of a fixed number of modes, says nothing about the others.
+    let mut moving = norms.iter().filter(|norm| **norm > 0.0).peekable();
+    let all_unit =
+        moving.peek().is_some() && moving.all(|norm| (norm - 1.0).abs() < NORM_TOLERANCE);
+    let as_they_are =
+        || reading.choice("Take the modes as they are", |to| to.modes = Some(ModeLength::Scaled));
+    let multiply =
+        || reading.choice("Multiply by √variance", |to| to.modes = Some(ModeLength::Unit));
+    let (variances, said_unit) = match scaling {
         Scaling::Factors(factors) => {
             expect_count(norms.len(), factors.len())?;
-            factors
+            return multiply_columns(basis, factors);
         }
-        Scaling::Unstated if all_unit => {
-            notes.push(
-                "The file has no variances and its modes have length 1: every mode was given the \
-                 standard deviation 1."
-                    .to_owned(),
-            );
+        Scaling::Unstated | Scaling::AlreadyScaled => {
+            let one = matches!(scaling, Scaling::AlreadyScaled) && norms.len() == 1;
+            if all_unit && !one && reading.modes != Some(ModeLength::Scaled) {
+                let message = "The modes have length 1 and the file has no standard deviations for them: every mode counts with the standard deviation 1, which is hardly that of the shapes. Save the variances in the file as `eigenvalues`.";
+                findings.push(Finding::new("deviations-missing", message, vec![as_they_are()]));
+            }
             return Ok(());
         }
-        Scaling::Unstated | Scaling::AlreadyScaled => return Ok(()),
-        Scaling::Unit(variances) => {
-            let deviations = standard_deviations(norms.len(), &variances, notes)?;
-            if !all_unit && equal_norms(&norms, &deviations) {
-                notes.push(
-                    "The file says that its modes have length 1, but they have the length of their \
-                     standard deviations: they were taken as already scaled."
-                        .to_owned(),
-                );
-                return Ok(());
-            }
-            if !all_unit {
-                let shortest = norms.iter().copied().fold(f64::INFINITY, f64::min);
-                let longest = norms.iter().copied().fold(0.0, f64::max);
-                notes.push(format!(
-                    "The file says that its modes have length 1, but they have lengths from \
-                     {} to {}; they were multiplied by √variance all the same.",
-                    short(shortest),
-                    short(longest)
-                ));
-            }
-            deviations
-        }
-        Scaling::Scaled(variances) => {
-            let deviations = standard_deviations(norms.len(), &variances, notes)?;
-            let ones = vec![1.0; norms.len()];
-            if !all_unit || equal_norms(&ones, &deviations) {
-                return Ok(());
-            }
-            notes.push(
-                "The file says that its modes are already scaled, but they have length 1: they were \
-                 multiplied by √variance."
-                    .to_owned(),
-            );
-            deviations
-        }
+        Scaling::Unit(variances) => (variances, true),
+        Scaling::Scaled(variances) => (variances, false),
     };
+    let deviations = standard_deviations(norms.len(), &variances, notes)?;
+    match reading.modes {
+        Some(ModeLength::Scaled) => return Ok(()),
+        Some(ModeLength::Unit) => return multiply_columns(basis, deviations),
+        None => {}
+    }
+    let already = equal_norms(&norms, &deviations);
+    if said_unit {
+        if all_unit {
+            return multiply_columns(basis, deviations);
+        }
+        if already {
+            let message = "The file says that its modes have length 1, but they have the length of their standard deviations: they were taken as already scaled.";
+            findings.push(Finding::new("modes-scaled", message, vec![multiply()]).sure());
+            return Ok(());
+        }
+        let shortest = norms.iter().copied().fold(f64::INFINITY, f64::min);
+        let longest = norms.iter().copied().fold(0.0, f64::max);
+        let message = format!(
+            "The file says that its modes have length 1, but they have lengths from {} to {}; they were multiplied by √variance all the same.",
+            short(shortest),
+            short(longest)
+        );
+        findings.push(Finding::new("modes-length", message, vec![as_they_are()]));
+        return multiply_columns(basis, deviations);
+    }
+    let ones: Vec<f64> = norms.iter().map(|norm| f64::from(u8::from(*norm > 0.0))).collect();
+    if !all_unit || equal_norms(&ones, &deviations) {
+        return Ok(());
+    }
+    let message = "The file says that its modes are already scaled, but they have length 1: they were multiplied by √variance.";
+    findings.push(Finding::new("modes-unit", message, vec![as_they_are()]).sure());
+    multiply_columns(basis, deviations)
+}
+
+fn multiply_columns(basis: &mut DMatrix<f64>, factors: Vec<f64>) -> Result<(), Fault> {
     for (mut column, factor) in basis.column_iter_mut().zip(factors) {
         column *= factor;
     }

@@ -99,11 +99,21 @@ fn model(input: &Input, value: Value, options: &Options) -> Result<Opened, Fault
         rows: Some([1.0, -1.0].repeat(turned)),
         scores: None,
         kind: Kind::Shape,
+        order_stated: true,
+        reading: options.reading.clone(),
     })?;
     let mut notes = vec!["The file's y points down; it was turned to point up.".to_owned()];
     notes.extend(assembled.notes);
     let (model, check) = (assembled.model.with_name(input.file_name()), assembled.check);
     let name = "shape".to_owned();
-    let part = Part { name, model, check, origin: Origin::File, map: None, notes };
+    let part = Part {
+        name,
+        model,
+        check,
+        origin: Origin::File,
+        map: None,
+        notes,
+        findings: assembled.findings,
+    };
     Ok(Opened { format: FORMAT.to_owned(), parts: vec!["shape".to_owned()], part })
 }

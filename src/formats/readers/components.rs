@@ -10,6 +10,7 @@ use crate::formats::containers::arrays::{Array, Data};
 use crate::formats::error::Fault;
 use crate::formats::readers::assemble::{Ingredients, Named, Scaling, assemble, mesh_of};
 use crate::formats::readers::cells::Habit;
+use crate::formats::reading::Reading;
 use crate::formats::{Origin, Part};
 use crate::model::{Cells, Kind, ModelError, Unit};
 
@@ -39,6 +40,7 @@ impl Components {
         triangles: Array,
         unit: Unit,
         title: &str,
+        reading: &Reading,
     ) -> Result<Part, Fault> {
         let length = self.mean.len();
         if !length.is_multiple_of(3) {
@@ -87,6 +89,8 @@ impl Components {
             rows,
             scores: None,
             kind,
+            order_stated: true,
+            reading: reading.clone(),
         })?;
         notes.extend(assembled.notes);
         let mut model = assembled.model.with_name(title);
@@ -97,7 +101,7 @@ impl Components {
             model = model.with_cells(borrowed).map_err(Fault::Model)?;
         }
         let (name, check, origin) = (self.name.to_owned(), assembled.check, Origin::File);
-        Ok(Part { name, model, check, origin, map: None, notes })
+        Ok(Part { name, model, check, origin, map: None, notes, findings: assembled.findings })
     }
 }
 

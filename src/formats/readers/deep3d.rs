@@ -59,7 +59,13 @@ pub(crate) fn open(
         let variances = deviations.iter().map(|deviation| deviation * deviation).collect();
         let components = Components { name: "expression", mean, basis, variances };
         let none = Array { shape: vec![0, 3], data: Data::I32(Vec::new()) };
-        let mut part = components.into_part(None, none, Unit::Micrometre, main.file_name())?;
+        let mut part = components.into_part(
+            None,
+            none,
+            Unit::Micrometre,
+            main.file_name(),
+            &options.reading,
+        )?;
         part.model = part.model.with_kind(Kind::Displacement);
         part.notes.insert(
             0,

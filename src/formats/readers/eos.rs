@@ -54,7 +54,13 @@ pub(crate) fn read(input: &Input, options: &Options) -> Result<Opened, FormatErr
                 }
                 _ => return Err(Fault::NoFace { count: 0 }),
             };
-            pca.components(name).into_part(shape, triangles, Unit::Millimetre, &title)
+            pca.components(name).into_part(
+                shape,
+                triangles,
+                Unit::Millimetre,
+                &title,
+                &options.reading,
+            )
         })?;
         part.notes.extend(left_out);
         let parts = names.into_iter().map(str::to_owned).collect();
@@ -239,6 +245,7 @@ impl File<'_> {
             origin: sampled.origin,
             map: None,
             notes: vec![sampled.note],
+            findings: Vec::new(),
         })
     }
 }

@@ -63,6 +63,7 @@ use crate::formats::readers::assemble::{Ingredients, Named, Scaling, assemble, m
 use crate::formats::readers::cells::Habit;
 use crate::formats::readers::parts::choose;
 use crate::formats::readers::scores::Scores;
+use crate::formats::reading::Reading;
 use crate::formats::{Opened, Options, Origin, Part};
 use crate::model::{Cells, Kind, Unit};
 
@@ -344,7 +345,8 @@ pub(crate) fn read(
     let ((index, mut part, own_name), left_out) =
         choose(&parts, options.part.as_deref(), |index| {
             let (_, layout, recipe) = &places[index];
-            read_part(table, layout, recipe).map(|(part, own_name)| (index, part, own_name))
+            read_part(table, layout, recipe, &options.reading)
+                .map(|(part, own_name)| (index, part, own_name))
         })?;
     let (name, layout, _) = &places[index];
     part.name.clone_from(name);
@@ -552,6 +554,7 @@ fn read_part(
     table: &mut dyn NamedArrays,
     layout: &Layout,
     recipe: &Recipe,
+    reading: &Reading,
 ) -> Result<(Part, Option<String>), Fault> {
     let mut source = Source { table, prefix: &layout.prefix };
     let mut notes = layout.notes.clone();
@@ -614,6 +617,8 @@ fn read_part(
         rows,
         scores: scores.map(Scores::plain),
         kind,
+        order_stated: !layout.name.is_empty(),
+        reading: reading.clone(),
     })?;
     notes.extend(assembled.notes);
     let mut model = assembled.model.with_unit(unit).with_noise_variance(noise);
@@ -622,7 +627,7 @@ fn read_part(
     }
     let name = if kind == Kind::Color { "color" } else { recipe.part }.to_owned();
     let (check, origin) = (assembled.check, Origin::File);
-    Ok((Part { name, model, check, origin, map, notes }, own_name))
+    Ok((Part { name, model, check, origin, map, notes, findings: assembled.findings }, own_name))
 }
 
 /// The modes from `start` to `end` of a basis with `modes` of them on its last side.

@@ -66,6 +66,8 @@ pub(crate) fn open(
             rows: None,
             scores: None,
             kind: Kind::Shape,
+            order_stated: true,
+            reading: options.reading.clone(),
         })?;
         let mut drawn = mesh.cells;
         let mut notes = mesh.notes;
@@ -74,7 +76,15 @@ pub(crate) fn open(
         let model = assembled.model.with_cells(drawn).map_err(Fault::Model)?;
         let (model, check) = (model.with_name(main.file_name()), assembled.check);
         let name = "shape".to_owned();
-        let part = Part { name, model, check, origin: Origin::File, map: None, notes };
+        let part = Part {
+            name,
+            model,
+            check,
+            origin: Origin::File,
+            map: None,
+            notes,
+            findings: assembled.findings,
+        };
         let format = "Mean mesh with tables of modes".to_owned();
         Ok(Opened { format, parts: vec!["shape".to_owned()], part })
     };

@@ -4,6 +4,7 @@ pub(crate) mod assemble;
 pub(crate) mod cells;
 pub(crate) mod clmtrackr;
 pub(crate) mod components;
+mod coordinates;
 pub(crate) mod deep3d;
 pub(crate) mod eos;
 pub(crate) mod known_layouts;

@@ -93,6 +93,8 @@ pub(crate) fn read(
         rows: None,
         scores: scores.map(Scores::plain),
         kind,
+        order_stated: true,
+        reading: options.reading.clone(),
     })?;
     let name = document.text(&["name"]).filter(|name| !name.is_empty());
     let unit = document.text(&["unit"]).and_then(|unit| Unit::from_symbol(&unit));
@@ -110,6 +112,7 @@ pub(crate) fn read(
         origin: Origin::File,
         map: None,
         notes: assembled.notes,
+        findings: assembled.findings,
     };
     Ok(Opened { format: "Shapevenn JSON".to_owned(), parts: vec![part.name.clone()], part })
 }

@@ -27,7 +27,8 @@ pub(crate) fn read(input: &Input, options: &Options) -> Result<Opened, FormatErr
         let variances = f64s(bytes.take(modes, 8, "the variances")?);
         let components = Components { name: "shape", mean, basis: Data::F64(basis), variances };
         let none = Array { shape: vec![0, 3], data: Data::I32(Vec::new()) };
-        let part = components.into_part(None, none, Unit::Unknown, input.file_name())?;
+        let part =
+            components.into_part(None, none, Unit::Unknown, input.file_name(), &options.reading)?;
         Ok(Opened { format: "point.pca model".to_owned(), parts: vec![part.name.clone()], part })
     };
     read().map_err(|fault| fault.of(&input.name))

@@ -95,10 +95,20 @@ pub(crate) fn read(
         rows: None,
         scores: None,
         kind: Kind::Shape,
+        order_stated: true,
+        reading: options.reading.clone(),
     })?;
     let (model, check) = (assembled.model.with_name(input.file_name()), assembled.check);
     let (name, notes) = ("shape".to_owned(), assembled.notes);
-    let part = Part { name, model, check, origin: Origin::File, map: None, notes };
+    let part = Part {
+        name,
+        model,
+        check,
+        origin: Origin::File,
+        map: None,
+        notes,
+        findings: assembled.findings,
+    };
     Ok(Opened { format: FORMAT.to_owned(), parts: vec!["shape".to_owned()], part })
 }
 

@@ -41,6 +41,7 @@ use crate::formats::readers::assemble::{Ingredients, Named, Scaling, assemble, m
 use crate::formats::readers::cells::Habit;
 use crate::formats::readers::parts::choose;
 use crate::formats::readers::scores::Scores;
+use crate::formats::reading::Reading;
 use crate::formats::{FormatError, Opened, Options, Origin, Part};
 use crate::model::{Cells, Kind, Unit};
 
@@ -96,8 +97,9 @@ pub(crate) fn read_tree(
             return Err(tree.cut_off().unwrap_or_else(|| no_model(tree)));
         }
         let parts: Vec<String> = places.iter().map(|place| place.name.clone()).collect();
-        let ((mut part, version), left_out) =
-            choose(&parts, options.part.as_deref(), |index| read_part(tree, &places, index))?;
+        let ((mut part, version), left_out) = choose(&parts, options.part.as_deref(), |index| {
+            read_part(tree, &places, index, &options.reading)
+        })?;
         let name = &part.name;
         part.model = part.model.with_name(if parts.len() > 1 {
             format!("{file}#{name}")
@@ -180,7 +182,12 @@ fn role_of(tree: &dyn Tree, place: &Place) -> Role {
 }
 
 /// Reads the model at one of the `places`, and the version that it states.
-fn read_part(tree: &dyn Tree, places: &[Place], index: usize) -> Result<(Part, String), Fault> {
+fn read_part(
+    tree: &dyn Tree,
+    places: &[Place],
+    index: usize,
+    reading: &Reading,
+) -> Result<(Part, String), Fault> {
     let place = &places[index];
     let at = |path: &str| format!("{}/{path}", place.path).trim_start_matches('/').to_owned();
     let dataset_type = tree.attribute(&at("representer"), "datasetType").unwrap_or_default();
@@ -248,6 +255,8 @@ fn read_part(tree: &dyn Tree, places: &[Place], index: usize) -> Result<(Part, S
         rows: None,
         scores,
         kind,
+        order_stated: true,
+        reading: reading.clone(),
     })?;
     let mut model = assembled.model.with_unit(unit).with_noise_variance(noise.unwrap_or(0.0));
     if let Some(cells) = borrowed {
@@ -255,7 +264,10 @@ fn read_part(tree: &dyn Tree, places: &[Place], index: usize) -> Result<(Part, S
     }
     notes.extend(assembled.notes);
     let (name, check, origin) = (place.name.clone(), assembled.check, Origin::File);
-    Ok((Part { name, model, check, origin, map: None, notes }, version))
+    Ok((
+        Part { name, model, check, origin, map: None, notes, findings: assembled.findings },
+        version,
+    ))
 }
 
 /// Coefficients of the training shapes. A model opens without them: what cannot be read is said.

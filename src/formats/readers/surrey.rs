@@ -43,7 +43,13 @@ pub(crate) fn read(input: &Input, options: &Options) -> Result<Opened, FormatErr
             let shape = (index > 0).then(|| f64s(models[0].mean));
             let title = title(input, &names, index);
             let components = models[index].components();
-            components.into_part(shape, triangles.clone(), Unit::Millimetre, &title)
+            components.into_part(
+                shape,
+                triangles.clone(),
+                Unit::Millimetre,
+                &title,
+                &options.reading,
+            )
         })?;
         part.notes.extend(left_out);
         let parts = names.into_iter().map(str::to_owned).collect();

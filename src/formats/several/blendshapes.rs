@@ -21,7 +21,7 @@ use crate::formats::input::{Input, compressed, paths};
 use crate::formats::readers::cells;
 use crate::formats::readers::sampled_blendshapes::sample;
 use crate::formats::several::naming::name_of;
-use crate::formats::several::populations::Shapes;
+use crate::formats::several::populations::{Population, Shapes};
 use crate::formats::{FormatError, Opened, Options, Origin, Part, mesh};
 use crate::model::{Cells, LinearModel, Unit};
 
@@ -94,9 +94,9 @@ fn read_all(inputs: &[Input], options: &Options) -> Result<Opened, FormatError> 
     let count = shapes.count() - 1;
     let format = format!("Blendshapes in {}", shapes.format());
     let refused = |fault: Fault| fault.of(&name);
-    let Some((dimension, shapes, mut drawn, mut notes)) = shapes.into_matrix() else {
-        return Err(Fault::Empty.of(&name));
-    };
+    let population =
+        shapes.into_population().map_err(refused)?.ok_or_else(|| refused(Fault::Empty))?;
+    let Population { dimension, shapes, cells: mut drawn, mut notes, .. } = population;
     let mut mean: DVector<f64> = shapes.column(0).into_owned();
     let mut columns = shapes.remove_column(0);
     columns.column_iter_mut().for_each(|mut column| column -= &mean);
@@ -121,7 +121,11 @@ fn read_all(inputs: &[Input], options: &Options) -> Result<Opened, FormatError> 
     let part = wanted.to_owned();
     let model_name = if parts.len() > 1 { format!("{name}#{part}") } else { name.clone() };
     let model = with_faces(model, drawn, unit(neutral)).map_err(refused)?.with_name(model_name);
-    Ok(Opened { format, parts, part: Part { name: part, model, check, origin, map: None, notes } })
+    Ok(Opened {
+        format,
+        parts,
+        part: Part { name: part, model, check, origin, map: None, notes, findings: Vec::new() },
+    })
 }
 
 fn with_faces(model: LinearModel, drawn: Cells, unit: Unit) -> Result<LinearModel, Fault> {

@@ -5,3 +5,4 @@ pub(crate) mod companions;
 pub(crate) mod groups;
 pub(crate) mod naming;
 pub(crate) mod populations;
+mod specimens;

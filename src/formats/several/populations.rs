@@ -21,7 +21,9 @@ use crate::formats::input::{Input, compressed, paths};
 use crate::formats::mesh::stl::Welding;
 use crate::formats::mesh::{self, Mesh, stl, tps};
 use crate::formats::readers::cells;
+use crate::formats::reading::{Finding, Reading};
 use crate::formats::several::naming::name_of;
+use crate::formats::several::specimens::{self, Specimens};
 use crate::formats::{FormatError, Opened, Options, Origin, Part};
 use crate::model::{
     Alignment, BasisCheck, Cells, ModelError, generalised_procrustes, model_of_population,
@@ -36,12 +38,12 @@ const ROUNDING: f64 = 3e-7;
 pub(crate) fn read(inputs: &[Input], options: &Options) -> Result<Opened, FormatError> {
     let name = name_of(inputs);
     let (inputs, local) = without_local(inputs);
-    let mut shapes = Shapes::default();
+    let mut shapes = Shapes::new(&options.reading);
     for input in inputs {
         shapes.add_file(input)?;
     }
     let format = shapes.format();
-    let part = shapes.into_part(&name, local, options).map_err(|fault| fault.of(&name))?;
+    let part = shapes.into_part(&name, local).map_err(|fault| fault.of(&name))?;
     if let Some(wanted) = &options.part
         && *wanted != part.name
     {
@@ -58,6 +60,8 @@ pub struct ShapeSet {
     pub dimension: usize,
     /// Points of all shapes, one shape a column (d·n × N).
     pub shapes: DMatrix<f64>,
+    /// What is unusual about them.
+    pub findings: Vec<Finding>,
 }
 
 /// Reads the shapes of files or archives, one or several in each, without making a model of them. Files of
@@ -65,7 +69,7 @@ pub struct ShapeSet {
 ///
 /// # Errors
 /// [`FormatError`] of the first file that has none, or that does not correspond to the first.
-pub fn read_shapes(inputs: &[Input]) -> Result<ShapeSet, FormatError> {
+pub fn read_shapes(inputs: &[Input], reading: &Reading) -> Result<ShapeSet, FormatError> {
     let name = name_of(inputs);
     let mut files = Vec::new();
     for input in inputs {
@@ -86,12 +90,16 @@ pub fn read_shapes(inputs: &[Input]) -> Result<ShapeSet, FormatError> {
                 || shape_endings.contains(&paths::ending(input.file_name()))
         });
     }
-    let mut shapes = Shapes::default();
+    let mut shapes = Shapes::new(reading);
     for input in without_local(&inputs).0 {
         shapes.add_file(input)?;
     }
-    let (dimension, shapes, ..) = shapes.into_matrix().ok_or_else(|| Fault::Empty.of(&name))?;
-    Ok(ShapeSet { dimension, shapes })
+    let refused = |fault: Fault| fault.of(&name);
+    let population =
+        shapes.into_population().map_err(refused)?.ok_or_else(|| refused(Fault::Empty))?;
+    let Population { dimension, shapes, specimens, .. } = population;
+    let findings = specimens.findings(dimension, &shapes);
+    Ok(ShapeSet { dimension, shapes, findings })
 }
 
 /// ShapeWorks writes each shape twice: `_world` is aligned, `_local` as it was. Returns the aligned
@@ -116,6 +124,22 @@ pub(crate) struct Shapes {
     contents: Vec<Content>,
     scales: Vec<Option<f64>>,
     notes: Vec<String>,
+    /// What each shape is called, and which of its points are missing.
+    specimens: Specimens,
+}
+
+/// Shapes that are read, without those that the reading leaves out.
+pub(crate) struct Population {
+    /// Coordinates per point.
+    pub(crate) dimension: usize,
+    /// One shape a column (d·n × N).
+    pub(crate) shapes: DMatrix<f64>,
+    /// Cells of the points that are left.
+    pub(crate) cells: Cells,
+    /// Notes for the user.
+    pub(crate) notes: Vec<String>,
+    /// Names of the specimens that are left.
+    pub(crate) specimens: Specimens,
 }
 
 /// What all further shapes must agree with.
@@ -129,6 +153,11 @@ struct First {
 }
 
 impl Shapes {
+    /// No shapes yet, to be read in this way.
+    pub(crate) fn new(reading: &Reading) -> Self {
+        Self { specimens: Specimens::new(reading), ..Self::default() }
+    }
+
     /// Number of shapes.
     pub(crate) fn count(&self) -> usize {
         self.count
@@ -160,7 +189,7 @@ impl Shapes {
         match content {
             Content::Stl => {
                 let corners = stl::corners(&bytes).map_err(refused)?;
-                self.add_corners(&input.name, &corners)
+                self.add_corners(&input.name, input.file_name(), &corners)
             }
             Content::Tps => {
                 let specimens = tps::read(&bytes)
@@ -173,7 +202,8 @@ impl Shapes {
                         input.name.clone()
                     };
                     self.scales.push(specimen.scale);
-                    self.add(&name, specimen.mesh)?;
+                    let file = (!several).then(|| input.file_name());
+                    self.add(&name, file, specimen.mesh)?;
                 }
                 Ok(())
             }
@@ -181,13 +211,19 @@ impl Shapes {
                 Err(refused(Fault::NoShape { format: content.name() }))
             }
             content => {
-                let mesh = mesh::read(content, &bytes).map_err(refused)?;
-                self.add(&input.name, mesh)
+                let first_column = self.specimens.reading().first_column;
+                let mesh = mesh::read_specimen(content, &bytes, first_column).map_err(refused)?;
+                self.add(&input.name, Some(input.file_name()), mesh)
             }
         }
     }
 
-    fn add_corners(&mut self, name: &str, corners: &[[f64; 3]]) -> Result<(), FormatError> {
+    fn add_corners(
+        &mut self,
+        name: &str,
+        file: &str,
+        corners: &[[f64; 3]],
+    ) -> Result<(), FormatError> {
         if self.first.is_none() {
             let welding = Welding::of(corners);
             let mesh = welding.mesh(corners).map_err(|fault| fault.of(name))?;
@@ -196,7 +232,7 @@ impl Shapes {
                  point in all."
                     .to_owned(),
             );
-            self.add(name, mesh)?;
+            self.add(name, Some(file), mesh)?;
             if let Some(first) = &mut self.first {
                 first.welding = Some(welding);
             }
@@ -230,11 +266,11 @@ impl Shapes {
             return Err(Fault::Correspondence { difference }.of(name));
         }
         let mesh = welding.mesh(corners).map_err(|fault| fault.of(name))?;
-        self.add(name, mesh)
+        self.add(name, Some(file), mesh)
     }
 
-    /// Adds a shape, if it corresponds to the first.
-    fn add(&mut self, name: &str, mesh: Mesh) -> Result<(), FormatError> {
+    /// Adds a shape, if it corresponds to the first; `file` is the name of the file that it has to itself.
+    fn add(&mut self, name: &str, file: Option<&str>, mesh: Mesh) -> Result<(), FormatError> {
         match &self.first {
             None => {
                 self.notes.extend(mesh.notes.iter().cloned());
@@ -260,12 +296,13 @@ impl Shapes {
         self.values.try_reserve(mesh.points.len()).map_err(full)?;
         self.values.extend_from_slice(&mesh.points);
         self.count += 1;
+        self.specimens.add(file, mesh.missing, mesh.numbered);
         Ok(())
     }
 
-    /// Points of all shapes (d·n × N), their cells, their dimension, and notes.
-    pub(crate) fn into_matrix(mut self) -> Option<(usize, DMatrix<f64>, Cells, Vec<String>)> {
-        let First { mut dimension, points, cells, .. } = self.first?;
+    /// The shapes as the reading wants them; `None` when there are none.
+    pub(crate) fn into_population(mut self) -> Result<Option<Population>, Fault> {
+        let Some(First { mut dimension, points, cells, .. }) = self.first else { return Ok(None) };
         let length = dimension * points;
         if !self.scales.is_empty() && self.scales.iter().all(Option::is_some) {
             for (shape, scale) in self.values.chunks_exact_mut(length).zip(&self.scales) {
@@ -289,19 +326,25 @@ impl Shapes {
             let note = "All points of a contour have the same z: it was taken as two-dimensional.";
             self.notes.push(note.to_owned());
         }
-        let matrix = DMatrix::from_vec(dimension * points, self.count, self.values);
-        Some((dimension, matrix, cells, self.notes))
+        let shapes = DMatrix::from_vec(dimension * points, self.count, self.values);
+        let specimens::Chosen { shapes, cells, notes } =
+            self.specimens.choose(dimension, shapes, cells)?;
+        self.notes.extend(notes);
+        let (notes, specimens) = (self.notes, self.specimens);
+        Ok(Some(Population { dimension, shapes, cells, notes, specimens }))
     }
 
-    fn into_part(self, name: &str, local: usize, options: &Options) -> Result<Part, Fault> {
-        let count = self.count;
+    fn into_part(self, name: &str, local: usize) -> Result<Part, Fault> {
+        let scaled = self.specimens.reading().scale;
+        let Some(population) = self.into_population()? else { return Err(Fault::Empty) };
+        let Population { dimension, mut shapes, cells: mut drawn, notes: file_notes, specimens } =
+            population;
+        let count = shapes.ncols();
         if count < 3 {
             return Err(Fault::Model(ModelError::TooFewShapes { found: count }));
         }
-        let Some((dimension, mut shapes, mut drawn, file_notes)) = self.into_matrix() else {
-            return Err(Fault::Empty);
-        };
-        let alignment = if options.scale { Alignment::Similarity } else { Alignment::Rigid };
+        let mut findings = specimens.findings(dimension, &shapes);
+        let alignment = if scaled { Alignment::Similarity } else { Alignment::Rigid };
         let mean = generalised_procrustes(dimension, &mut shapes, alignment);
         if mean.iter().any(|value| !value.is_finite()) || varies_by(&shapes, dimension) <= ROUNDING
         {
@@ -310,7 +353,7 @@ impl Shapes {
         let model = model_of_population(dimension, shapes, alignment).map_err(Fault::Model)?;
         let mut notes = vec![format!(
             "Made of {count} shapes, moved and turned onto their mean {}: {}.",
-            if options.scale { "and brought to one size" } else { "without changing their size" },
+            if scaled { "and brought to one size" } else { "without changing their size" },
             counted(model.mode_count(), "mode", "modes"),
         )];
         if local > 0 {
@@ -320,13 +363,15 @@ impl Shapes {
         notes.extend(file_notes);
         notes.extend(cells::turn_outwards(&mut drawn, model.mean().as_slice(), dimension));
         let model = model.with_cells(drawn).map_err(Fault::Model)?.with_name(name);
+        findings.extend(specimens.first_column_finding());
         Ok(Part {
             name: "shape".to_owned(),
             model,
             check: BasisCheck { orthogonality_error: 0.0, dropped_modes: 0 },
-            origin: Origin::Shapes { count, scaled: options.scale },
+            origin: Origin::Shapes { count, scaled },
             map: None,
             notes,
+            findings,
         })
     }
 }

@@ -20,7 +20,7 @@ import type { Nouns } from "../state/demos";
 import { completed, preparationWords, UNSTATED } from "../state/preparation";
 import { DIFFERENCE_OF, letters } from "../state/regions";
 import { SIGMA_SINCE } from "../state/settings";
-import type { Reading } from "../state/state";
+import type { ReadProgress } from "../state/state";
 import {
   bytes,
   capital,
@@ -519,7 +519,7 @@ export function settingsSentence(report: Report): string {
 }
 
 /** Progress of opening a file: bytes read, of how many. */
-export function readingSentence(read: Reading | null): string {
+export function readingSentence(read: ReadProgress | null): string {
   if (read === null) return "Opening…";
   const does = read.arrives ? "Downloading" : "Reading";
   if (read.of === null) return `${does}: ${bytes(read.bytes)} so far`;

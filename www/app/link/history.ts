@@ -93,6 +93,10 @@ function models(): LinkedModels {
       ({ part, parts }) => (part === parts[0] ? null : part),
       (side) => asked?.parts[side] ?? null,
     ),
+    readings: each(
+      ({ reading }) => reading || null,
+      (side) => asked?.readings[side] ?? null,
+    ),
   };
 }
 
@@ -299,7 +303,7 @@ export function modelsOf(link: LinkState): Record<Side, Wanted | null> | null {
       const address = found[side];
       return address === null
         ? null
-        : { source: sourceOf(address), part: named[side], scale: false };
+        : { source: sourceOf(address), part: named[side], reading: link.readings[side] ?? "" };
     };
     return { a: wanted("a"), b: wanted("b") };
   }

@@ -7,11 +7,17 @@ import type { ExpectedModel, ExpectedRun } from "./runfile/expected";
 
 /** The expected models of a link; null if all of them can be fetched. Pure. */
 export function expectedByLink(link: LinkState): ExpectedRun | null {
-  const { urls, hashes, parts } = link;
+  const { urls, hashes, parts, readings } = link;
   if (!urls || (urls.a !== null && urls.b !== null)) return null;
   const model = (side: "a" | "b"): ExpectedModel => {
     const name = askedName(link, side);
-    return { name, source: urls[side], part: parts[side], fingerprint: hashes[side] };
+    return {
+      name,
+      source: urls[side],
+      part: parts[side],
+      reading: readings[side] ?? "",
+      fingerprint: hashes[side],
+    };
   };
   return {
     file: null,

@@ -17,7 +17,7 @@ import {
   notify,
   opening,
   painting,
-  type Reading,
+  type ReadProgress,
   reopening,
   SIDES,
   type Slot,
@@ -30,6 +30,7 @@ import {
 } from "../state/state";
 import { closeUnused, release, retain } from "./list/handles";
 import { afterChoice } from "./list/order";
+import { withWord } from "./reading";
 import { mayBeShapesOf } from "./shapes";
 import {
   baseName,
@@ -181,10 +182,16 @@ export async function choosePart(side: Side, part: string): Promise<void> {
   await reread(side, { ...wantedOf(slot), part });
 }
 
+/** Reads the file of a model in another way. */
+export async function chooseReading(side: Side, reading: string): Promise<void> {
+  const slot = slots[side].value;
+  if (slot) await reread(side, { ...wantedOf(slot), reading });
+}
+
 /** Computes the model of a set of shapes again, with or without scaling them to one size. */
 export async function chooseScale(side: Side, scale: boolean): Promise<void> {
   const slot = slots[side].value;
-  if (slot) await reread(side, { ...wantedOf(slot), scale });
+  if (slot) await chooseReading(side, withWord(slot.reading, "scale", scale));
 }
 
 /** Takes shapes as the training or test shapes of a model, whichever they are. */
@@ -200,7 +207,7 @@ export async function removeShapes(side: Side): Promise<void> {
 }
 
 export async function openParts(source: Source, a: string, b: string): Promise<void> {
-  const part = (name: string): Wanted => ({ source, part: name, scale: false });
+  const part = (name: string): Wanted => ({ source, part: name, reading: "" });
   await openPair(part(a), part(b), forget());
 }
 
@@ -265,7 +272,7 @@ export async function load(side: Side, wanted: Wanted): Promise<Slot | null> {
   const { source } = wanted;
   const name = nameOf(source);
   const controller = begin(side, name);
-  const onRead = (read: Reading) => {
+  const onRead = (read: ReadProgress) => {
     if (loads[side] === controller) opening[side].value = { name, read };
   };
   const again = source.kind === "url" ? () => void reread(side, wanted) : null;
@@ -274,7 +281,8 @@ export async function load(side: Side, wanted: Wanted): Promise<Slot | null> {
     if (source.kind !== "demo") spoken.value = `${name} opened as model ${side}.`;
     return slot;
   } catch (thrown) {
-    if (!wasAborted(thrown)) report(side, thrown, again);
+    const choose = (reading: string) => void reread(side, { ...wanted, reading });
+    if (!wasAborted(thrown)) report(side, thrown, again, choose);
     else if (again && loads[side] === controller && slots[side].peek() === null) {
       notify(side, "not-downloaded", `“${name}” was not downloaded.`, "", again);
     }

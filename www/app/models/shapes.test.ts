@@ -15,7 +15,7 @@ const slot = (given: object): Slot =>
     source: filesSource("male.h5", files("male.h5")),
     part: "shape",
     parts: ["shape"],
-    scale: false,
+    reading: "",
     origin: { kind: "file" },
     ...given,
   }) as unknown as Slot;

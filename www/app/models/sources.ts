@@ -5,7 +5,7 @@ import { packagedFile } from "../state/demos";
 import { engineClient } from "../state/engine";
 import {
   type Files,
-  type Reading,
+  type ReadProgress,
   type Slot,
   type Source,
   slotKey,
@@ -21,9 +21,9 @@ export interface NamedSource {
 
 let fileSerial = 0;
 
-/** The first model of a source, without scaling. */
+/** The first model of a source, as its file says. */
 export function first(source: Source): Wanted {
-  return { source, part: null, scale: false };
+  return { source, part: null, reading: "" };
 }
 
 export function demoSource(name: string): Source {
@@ -36,15 +36,15 @@ export function filesSource(name: string, files: DroppedFile[]): Files {
 }
 
 /** Source, part and shapes with which this model can be opened again. */
-export function wantedOf({ source, part, scale, shapes = null }: Wanted): Wanted {
-  return { source, part, scale, shapes };
+export function wantedOf({ source, part, reading, shapes = null }: Wanted): Wanted {
+  return { source, part, reading, shapes };
 }
 
 /** Whether an open model is the wanted one. */
 export function isOpen(slot: Slot, wanted: Wanted): boolean {
-  const { source, scale, shapes = null } = wanted;
+  const { source, reading, shapes = null } = wanted;
   const part = wanted.part ?? slot.parts[0] ?? "";
-  return slotKey(slot) === slotKey({ ...slot, source, scale, shapes, part });
+  return slotKey(slot) === slotKey({ ...slot, source, reading, shapes, part });
 }
 
 export function nameOf(source: Source): string {
@@ -61,7 +61,7 @@ export function sourceText(source: Source): string | null {
   return source.kind === "url" ? source.url : null;
 }
 
-export type OnRead = (read: Reading) => void;
+export type OnRead = (read: ReadProgress) => void;
 
 /** Opens a model without its geometry, which only A and B need. */
 export async function openWanted(
@@ -69,7 +69,7 @@ export async function openWanted(
   wanted: Wanted,
   onRead: OnRead,
 ): Promise<Slot> {
-  const { source, part, scale, shapes = null } = wanted;
+  const { source, part, reading, shapes = null } = wanted;
   const client = engineClient();
   let opened: OpenedModel;
   let bytes: number | null = null;
@@ -82,13 +82,13 @@ export async function openWanted(
     const files =
       source.kind === "files" ? source.files : [await fetchModel(signal, source.url, arrive)];
     bytes = files.reduce((sum, { blob }) => sum + blob.size, 0);
-    opened = await client.open(signal, files, part, scale, (bytes, of) => onRead({ bytes, of }));
+    opened = await client.open(signal, files, part, reading, (bytes, of) => onRead({ bytes, of }));
   }
-  if (shapes) opened = await withShapes(signal, opened, shapes, scale);
+  if (shapes) opened = await withShapes(signal, opened, shapes, reading);
   const { format, parts, model, report, origin, hasMap } = opened;
   return {
     source,
-    scale,
+    reading,
     shapes,
     bytes,
     geometry: null,
@@ -107,10 +107,10 @@ async function withShapes(
   signal: AbortSignal,
   { model }: OpenedModel,
   { files, name }: Files,
-  scale: boolean,
+  reading: string,
 ): Promise<OpenedModel> {
   try {
-    return await engineClient().addShapes(signal, model, files, name, scale);
+    return await engineClient().addShapes(signal, model, files, name, reading);
   } catch (thrown) {
     engineClient().close(model);
     throw thrown;

@@ -16,6 +16,7 @@ import {
   openParts,
   removeShapes,
 } from "../models/opening";
+import { hasWord } from "../models/reading";
 import { nameOfShapes } from "../models/shapes";
 import { filesSource, nameOf } from "../models/sources";
 import { cardPicture, drawable } from "../stage/stage-controller";
@@ -39,6 +40,7 @@ import { FileButton } from "../ui/FileButton";
 import { Notices } from "../ui/Notices";
 import { Scree } from "../ui/Scree";
 import { Select } from "../ui/Select";
+import { Findings } from "./Findings";
 import { ModesKept } from "./ModesKept";
 import { OpenButtons } from "./OpenButtons";
 
@@ -101,6 +103,7 @@ export function ModelCard({ side }: { side: Side }) {
           </figure>
         </div>
       )}
+      {slot && !busy && <Findings side={side} report={slot.report} />}
       {slot && <Made side={side} slot={slot} />}
       {slot && !busy && <Shapes side={side} slot={slot} />}
       {report && demo.value === null && <Basis report={report} />}
@@ -159,7 +162,7 @@ function Made({ side, slot }: { side: Side; slot: Slot }) {
     <>
       {sentence && <p class="made">{sentence}</p>}
       {origin.kind === "shapes" && (
-        <Check checked={slot.scale} onChange={(scale) => void chooseScale(side, scale)}>
+        <Check checked={hasWord(slot.reading, "scale")} onChange={(scale) => void chooseScale(side, scale)}>
           Also scale to one size
         </Check>
       )}

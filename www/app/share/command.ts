@@ -8,8 +8,8 @@ export interface CommandModel {
   source: string;
   /** Part of the file; null for the first. */
   part: string | null;
-  /** Whether the shapes of a set were scaled to one size. */
-  scale: boolean;
+  /** How it was read, "" for nothing said. */
+  reading: string;
   /** What the shapes beside it are called. */
   shapes?: string | null;
 }
@@ -55,8 +55,13 @@ export function commandOf(settings: Settings, models: Sides<CommandModel>): Comm
   }
   const missing: string[] = [];
   words.push(...preparation(settings, missing));
-  if (models.a.scale && models.b.scale) words.push("--scale");
-  else if (models.a.scale || models.b.scale) missing.push("one size for the shapes of one model");
+  if (models.a.reading === models.b.reading) {
+    if (models.a.reading !== "") words.push("--read", models.a.reading);
+  } else {
+    for (const side of ["a", "b"] as const) {
+      if (models[side].reading !== "") words.push(`--read-${side}`, models[side].reading);
+    }
+  }
   return { line: words.map(quoted).join(" "), missing };
 }
 

@@ -8,10 +8,10 @@ import { holdsSentences } from "./holds";
 import { qrCode } from "./qr";
 import { elementSnippet, frameSnippet } from "./snippets";
 
-const model = (source: string, part: string | null = null, scale = false) => ({
+const model = (source: string, part: string | null = null, reading = "") => ({
   source,
   part,
-  scale,
+  reading,
 });
 const heads = { a: model("demo:heads-male"), b: model("demo:heads-female") };
 const line = (settings: Partial<Settings>, models = heads) =>
@@ -57,9 +57,11 @@ test("steps before the comparison are flags; what there is no flag for is told",
   assert.equal(prepared({ a: { ...side, variance: 0.9 } }).missing.length, 1);
   const rebased = { ...side, rebase: true };
   assert.equal(prepared({ a: rebased, b: rebased }).missing.length, 1);
-  const sized = { a: model("a", null, true), b: model("b", null, true) };
-  assert.match(prepared({}, sized).line, /--scale$/);
-  assert.equal(prepared({}, { ...sized, b: model("b") }).missing.length, 1);
+  const sized = { a: model("a", null, "scale"), b: model("b", null, "scale") };
+  assert.match(prepared({}, sized).line, /--read scale$/);
+  assert.match(prepared({}, { ...sized, b: model("b") }).line, /--read-a scale$/);
+  const mirrored = { a: model("a", null, "missing=points mirror=3"), b: model("b") };
+  assert.match(prepared({}, mirrored).line, /--read-a 'missing=points mirror=3'$/);
 });
 
 test("what a link holds is said for files, for more models and for lists of points", () => {

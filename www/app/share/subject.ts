@@ -96,11 +96,11 @@ function comparing(): Line | null {
 function commandModel(side: Side): CommandModel | null {
   const slot = slots[side].value;
   if (!slot) return null;
-  const { source, part, parts, scale, shapes } = slot;
+  const { source, part, parts, reading, shapes } = slot;
   return {
     source: source.kind === "demo" ? `demo:${source.name}` : nameOf(source),
     part: part === parts[0] ? null : part,
-    scale,
+    reading,
     shapes: shapes?.name ?? null,
   };
 }

@@ -59,12 +59,15 @@ export function report(
   place: ShownNotice["place"],
   thrown: unknown,
   again: ShownNotice["again"] = null,
+  choose: ((reading: string) => void) | null = null,
 ): void {
   const failure =
     thrown instanceof EngineFailure
       ? thrown
       : { code: "unexpected", message: sentenceOf(thrown), hint: "" };
   if (failure.code === "engine-stopped" || failure.code === "superseded") return;
-  notify(place, failure.code, failure.message, failure.hint, again);
+  const offered = choose && failure instanceof EngineFailure ? failure.choices : [];
+  const choices = offered.map(({ label, reading }) => ({ label, act: () => choose?.(reading) }));
+  notify(place, failure.code, failure.message, failure.hint, again, choices);
   spoken.value = `${failure.message} ${failure.hint}`;
 }

@@ -11,6 +11,8 @@ export interface LinkedModels {
   urls: Each<string | null> | null;
   /** Parts of the files at these addresses; null for the first. */
   parts: Each<string | null>;
+  /** How these files are read where they do not say so; null for nothing said. */
+  readings: Each<string | null>;
   /** Names of the visitor's own files, unless they are left out. */
   names: Each<string | null>;
   /** Start of each fingerprint, to check the opened models. */
@@ -18,5 +20,5 @@ export interface LinkedModels {
 }
 
 export function noLinkedModels(): LinkedModels {
-  return { urls: null, parts: NONE, names: NONE, hashes: NONE };
+  return { urls: null, parts: NONE, readings: NONE, names: NONE, hashes: NONE };
 }

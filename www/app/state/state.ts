@@ -37,20 +37,20 @@ export interface Files {
 /** Where a model came from, so that it can be opened again. */
 export type Source = { kind: "demo"; name: string } | Files | { kind: "url"; url: string };
 
-/** A model of a source: which part, whether scaled, and the shapes beside it. */
+/** A model of a source: which part, how it is read, and the shapes beside it. */
 export interface Wanted {
   source: Source;
   /** Part of the file; null for the first that can be read. */
   part: string | null;
-  /** Whether the shapes of a set are also scaled to one size. */
-  scale: boolean;
+  /** How it is read where its file does not say so, in the words of the engine; "" for nothing said. */
+  reading: string;
   /** Its training or test shapes, where they are given beside it. */
   shapes?: Files | null;
 }
 
 export interface Slot extends OpenedModel {
   source: Source;
-  scale: boolean;
+  reading: string;
   shapes?: Files | null;
   /** Size of the files. */
   bytes: number | null;
@@ -60,10 +60,10 @@ export interface Slot extends OpenedModel {
 /** A model that is being opened, with its progress. */
 export interface Opening {
   name: string;
-  read: Reading | null;
+  read: ReadProgress | null;
 }
 
-export interface Reading {
+export interface ReadProgress {
   bytes: number;
   /** Total size; null if unknown. */
   of: number | null;
@@ -98,6 +98,14 @@ export interface ShownNotice {
   hint: string;
   /** Tries again, if that may help. */
   again: (() => void) | null;
+  /** What else may help. */
+  choices?: Action[];
+}
+
+/** Something that a button does. */
+export interface Action {
+  label: string;
+  act: () => void;
 }
 
 export type PaintTool = "add" | "erase" | "turn";
@@ -223,13 +231,13 @@ export function sourceKey(source: Source): string {
 }
 
 /** Key of a model: two models with the same key are the same; the first part of a source has no name in it. */
-export function modelKey(source: Source, part: string, scale: boolean): string {
-  return `${sourceKey(source)}#${part}${scale ? " in one size" : ""}`;
+export function modelKey(source: Source, part: string, reading: string): string {
+  return `${sourceKey(source)}#${part}${reading === "" ? "" : ` read ${reading}`}`;
 }
 
-export function slotKey({ source, part, parts, scale, shapes }: Slot): string {
+export function slotKey({ source, part, parts, reading, shapes }: Slot): string {
   const beside = shapes ? ` with ${sourceKey(shapes)}` : "";
-  return modelKey(source, part === parts[0] ? "" : part, scale) + beside;
+  return modelKey(source, part === parts[0] ? "" : part, reading) + beside;
 }
 
 export function comparisonKey(a: string, b: string, chosen: Settings): string {
@@ -329,10 +337,11 @@ export function notify(
   message: string,
   hint: string,
   again: ShownNotice["again"] = null,
+  choices: Action[] = [],
 ): void {
   noticeId += 1;
   const kept = notices.value.filter((notice) => notice.place !== place);
-  notices.value = [...kept, { id: noticeId, place, code, message, hint, again }];
+  notices.value = [...kept, { id: noticeId, place, code, message, hint, again, choices }];
 }
 
 export function dismiss(place: ShownNotice["place"]): void {

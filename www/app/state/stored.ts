@@ -47,7 +47,7 @@ export async function fetchStored(pictured: boolean): Promise<Stored | null> {
     const [text, picture] = await Promise.all([response.text(), drawn]);
     const report = JSON.parse(text) as Report;
     const settings = settingsOf(report.settings);
-    const demo = (name: string) => modelKey({ kind: "demo", name }, "", false);
+    const demo = (name: string) => modelKey({ kind: "demo", name }, "", "");
     const key = comparisonKey(demo(FIRST_DEMO.a), demo(FIRST_DEMO.b), settings);
     return { report, picture, text, settings, key, draws: fetchDraws };
   } catch {

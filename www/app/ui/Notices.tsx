@@ -21,6 +21,11 @@ export function Notices({ place }: { place: ShownNotice["place"] }) {
                 Try again
               </button>
             )}
+            {notice.choices?.map(({ label, act }) => (
+              <button key={label} type="button" class="notice-again" onClick={act}>
+                {label}
+              </button>
+            ))}
           </div>
           <button
             type="button"

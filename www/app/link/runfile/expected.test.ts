@@ -13,6 +13,7 @@ import {
 } from "./expected";
 
 const male: ExpectedModel = {
+  reading: "",
   name: "male.h5",
   part: "shape",
   source: null,

@@ -15,6 +15,8 @@ export interface ExpectedModel {
   /** Null if a link does not state it. */
   name: string | null;
   part: string | null;
+  /** How it was read, "" for nothing said. */
+  reading: string;
   /** `demo:NAME`, an address, or null for the visitor's own file. */
   source: string | null;
   /** Hash of its content, or the start of it; older reports have none. */
@@ -58,10 +60,11 @@ export function expectedRun(
   const whole = JSON.parse(text.replace(/^\ufeff/, "")) as { engine?: unknown } & Partial<Report>;
   const engine = typeof whole.engine === "string" ? whole.engine : null;
   const model = (side: "a" | "b"): ExpectedModel => {
-    const { name, part, source, fingerprint, shapes } = run.models[side];
+    const { name, part, reading, source, fingerprint, shapes } = run.models[side];
     return {
       name,
       part: part || null,
+      reading: reading ?? "",
       source: source || null,
       fingerprint: fingerprint || null,
       // Shapes of the model's own file have no fingerprint.

@@ -121,13 +121,13 @@ export function awaitLink(link: LinkState): Promise<void> | null {
 
 /** Opens the models whose source the run file states, unless they are open. */
 function fetchable(run: ExpectedRun, side: Side): Wanted | null {
-  const { source, part } = run.models[side];
+  const { source, part, reading } = run.models[side];
   const demo = /^demo:(.+)/.exec(source ?? "")?.[1];
   const slot = slots[side].value;
   let wanted: Wanted | null = null;
   if (demo !== undefined) wanted = DEMO_MODELS.includes(demo) ? first(demoSource(demo)) : null;
   else if (source && looksLikeAddress(source)) {
-    wanted = { source: { kind: "url", url: source }, part, scale: false };
+    wanted = { source: { kind: "url", url: source }, part, reading };
   }
   return wanted && slot && isOpen(slot, wanted) ? null : wanted;
 }
@@ -171,7 +171,7 @@ async function takeFromModelList(run: ExpectedRun): Promise<void> {
     if (isSame(expected, openAs(side)) || expected.fingerprint === null) return null;
     const open = (slot: Slot) => ({ report: slot.report, source: null });
     const slot = modelList.value.find((one) => isSame(expected, open(one)));
-    return slot ? wantedOf(slot) : partOf(expected);
+    return slot ? wantedOf(slot) : otherwise(expected);
   };
   const [a, b] = [found("a"), found("b")];
   const complete = SIDES.every(
@@ -180,12 +180,15 @@ async function takeFromModelList(run: ExpectedRun): Promise<void> {
   if (complete && (a || b)) await openPair(a, b);
 }
 
-/** The expected part of an open file of that name, of which other parts are open. */
-function partOf({ name, part }: ExpectedModel): Wanted | null {
-  if (name === null || part === null) return null;
+/** The expected part of an open file of that name, of which other parts are open, or the same part read otherwise. */
+function otherwise({ name, part, reading }: ExpectedModel): Wanted | null {
+  if (name === null) return null;
   const files = modelList.value.filter(({ source }) => nameOf(source) === name);
-  const file = files.find(({ parts }) => parts.includes(part));
-  return file && files.every((one) => one.part !== part) ? { ...wantedOf(file), part } : null;
+  const wanted = (slot: Slot) => part ?? slot.part;
+  const file = files.find((slot) => slot.parts.includes(wanted(slot)));
+  const asExpected = (slot: Slot) => slot.part === wanted(slot) && slot.reading === reading;
+  if (!file || files.some(asExpected)) return null;
+  return { ...wantedOf(file), part: wanted(file), reading };
 }
 
 /** Applies its settings, as part of a step of undo or as a step of their own. */

@@ -10,7 +10,7 @@ import { looksLikeAddress } from "./address";
 export const HASH_DIGITS = 16;
 
 export function writeModels(models: LinkedModels): [string, string][] {
-  const { urls, parts, names, hashes } = models;
+  const { urls, parts, readings, names, hashes } = models;
   if (!urls) return [];
   const each = (key: string, of: Each<string | null>) =>
     (["a", "b"] as const).flatMap((side): [string, string][] => {
@@ -22,12 +22,14 @@ export function writeModels(models: LinkedModels): [string, string][] {
     ...each("name-", names),
     ...each("hash-", hashes),
     ...each("part-", parts),
+    ...each("read-", readings),
   ];
 }
 
 export function readModels(given: URLSearchParams): LinkedModels {
   const each = <T>(read: (side: "a" | "b") => T): Each<T> => ({ a: read("a"), b: read("b") });
   const parts = each((side) => given.get(`part-${side}`));
+  const readings = each((side) => given.get(`read-${side}`) || null);
   const urls = each((side) => addressIn(given, side));
   const names = each((side) => (given.has(side) ? null : given.get(`name-${side}`) || null));
   const hashes = each((side) => hashIn(given.get(`hash-${side}`)));
@@ -35,8 +37,8 @@ export function readModels(given: URLSearchParams): LinkedModels {
   const said = each(
     (side) => urls[side] ?? (given.has(side) ? null : (names[side] ?? hashes[side])),
   );
-  if (said.a === null || said.b === null) return { ...noLinkedModels(), parts };
-  return { urls, parts, names, hashes };
+  if (said.a === null || said.b === null) return { ...noLinkedModels(), parts, readings };
+  return { urls, parts, readings, names, hashes };
 }
 
 /** The invalid addresses of a link, as `key=value`. */

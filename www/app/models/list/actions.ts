@@ -8,7 +8,7 @@ import {
   demo,
   dismiss,
   modelList,
-  type Reading,
+  type ReadProgress,
   type Slot,
   type Source,
   settings,
@@ -84,7 +84,7 @@ async function openAll(wanted: Wanted[]): Promise<Slot[] | null> {
     if (signal.aborted) break;
     if ([...modelList.peek(), ...added].some((slot) => isOpen(slot, one))) continue;
     const name = nameOf(one.source);
-    const tell = (read: Reading | null) => {
+    const tell = (read: ReadProgress | null) => {
       if (opening === controller) addingModels.value = { name, read, done, of: wanted.length };
     };
     tell(null);

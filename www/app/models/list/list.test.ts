@@ -22,7 +22,7 @@ let handle = 0;
 function slot(name: string, part = "shape", parts = ["shape"]): Slot {
   handle += 1;
   const source = { kind: "demo", name } as const;
-  return { source, part, parts, model: handle, scale: false } as unknown as Slot;
+  return { source, part, parts, model: handle, reading: "" } as unknown as Slot;
 }
 
 const [a, b, c, d] = ["a", "b", "c", "d"].map((name) => slot(name)) as [Slot, Slot, Slot, Slot];

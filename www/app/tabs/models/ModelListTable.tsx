@@ -133,7 +133,7 @@ function OtherParts({ slot, name }: { slot: Slot; name: string }) {
           class="as-link"
           disabled={addingModels.value !== null}
           aria-label={`Add ${partName(part)} of ${name}`}
-          onClick={() => void addModels([{ source: slot.source, part, scale: slot.scale }])}
+          onClick={() => void addModels([{ source: slot.source, part, reading: slot.reading }])}
         >
           + {partName(part)}
         </button>

@@ -1,0 +1,534 @@
+//! Names the specimens of a population, leaves out, mirrors and rescales those that the reading says, and finds what is
+//! unusual about the others: missing landmarks, mirrored specimens, other sizes, outliers.
+
+use std::collections::BTreeMap;
+
+use nalgebra::DMatrix;
+
+use crate::formats::error::{Fault, counted};
+use crate::formats::mesh::MissingPoint;
+use crate::formats::reading::{Choice, Finding, FirstColumn, Missing, Reading};
+use crate::model::{Cells, look};
+use crate::text::{thousands, three_digits};
+
+/// Numbers that mark a missing landmark when all coordinates have them.
+const MARKS: [f64; 10] = [0.0, -1.0, -9.0, -99.0, -999.0, -9999.0, 99.0, 999.0, 9999.0, 99_999.0];
+
+/// Procrustes distance from which a note says what it means for a linear model: sin ρ is 2 % less than ρ.
+const WIDE: f64 = 0.35;
+
+/// Specimens named in a sentence.
+const NAMED: usize = 6;
+
+/// The specimens of a population, in the order of their files.
+#[derive(Debug, Default)]
+pub(crate) struct Specimens {
+    reading: Reading,
+    /// Name of the file that each has to itself; else it is called by its number.
+    files: Vec<Option<String>>,
+    /// Numbers of those that are left, from 0.
+    left: Vec<usize>,
+    /// Missing points of each, before any is left out.
+    missing: Vec<Vec<MissingPoint>>,
+    /// Numbers of the points that are left.
+    points: Vec<usize>,
+    /// Whether a first column that counts was left out.
+    numbered: bool,
+}
+
+/// What is left of a population.
+pub(crate) struct Chosen {
+    pub(crate) shapes: DMatrix<f64>,
+    pub(crate) cells: Cells,
+    pub(crate) notes: Vec<String>,
+}
+
+impl Specimens {
+    /// None yet, to be read in this way.
+    pub(crate) fn new(reading: &Reading) -> Self {
+        Self { reading: reading.clone(), ..Self::default() }
+    }
+
+    /// How they are to be read.
+    pub(crate) fn reading(&self) -> &Reading {
+        &self.reading
+    }
+
+    /// One more.
+    pub(crate) fn add(&mut self, file: Option<&str>, missing: Vec<MissingPoint>, numbered: bool) {
+        self.left.push(self.files.len());
+        self.files.push(file.map(str::to_owned));
+        self.missing.push(missing);
+        self.numbered |= numbered;
+    }
+
+    /// What a reading calls a specimen: its file where that is a word of its own, else its number.
+    fn key(&self, specimen: usize) -> String {
+        match &self.files[specimen] {
+            Some(file)
+                if !file.contains([' ', ',', ':', '=', ';', '"'])
+                    && file.parse::<usize>().is_err()
+                    && self.files.iter().filter(|other| other.as_ref() == Some(file)).count()
+                        == 1 =>
+            {
+                file.clone()
+            }
+            _ => (specimen + 1).to_string(),
+        }
+    }
+
+    /// What a sentence calls a specimen.
+    fn called(&self, specimen: usize) -> String {
+        self.files[specimen].clone().unwrap_or_else(|| format!("specimen {}", specimen + 1))
+    }
+
+    fn list(&self, specimens: &[usize]) -> String {
+        let names: Vec<String> =
+            specimens.iter().take(NAMED).map(|&specimen| self.called(specimen)).collect();
+        match specimens.len() {
+            0..=NAMED => in_words(&names),
+            more => format!("{} and {} more", names.join(", "), more - NAMED),
+        }
+    }
+
+    /// Its number from 0.
+    fn numbered_by(&self, name: &str) -> Result<usize, Fault> {
+        let number = name.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
+        let by_file = || self.files.iter().position(|file| file.as_deref() == Some(name));
+        number.filter(|number| *number < self.files.len()).or_else(by_file).ok_or_else(|| {
+            let named: Vec<&str> = self.files.iter().flatten().map(String::as_str).collect();
+            let found = match named.as_slice() {
+                [first, .., last] => format!("{} specimens, {first} to {last}", self.files.len()),
+                _ => format!("{} specimens", self.files.len()),
+            };
+            Fault::NoSpecimen { wanted: name.to_owned(), found }
+        })
+    }
+
+    fn numbers(&self, names: &[String]) -> Result<Vec<usize>, Fault> {
+        let mut numbers: Vec<usize> =
+            names.iter().map(|name| self.numbered_by(name)).collect::<Result<_, _>>()?;
+        numbers.sort_unstable();
+        numbers.dedup();
+        Ok(numbers)
+    }
+
+    /// Carries out what the reading says about shapes (d·n × N), and refuses them when landmarks are missing and it says
+    /// nothing about that.
+    pub(crate) fn choose(
+        &mut self,
+        dimension: usize,
+        mut shapes: DMatrix<f64>,
+        cells: Cells,
+    ) -> Result<Chosen, Fault> {
+        let points = shapes.nrows() / dimension;
+        let mut without = self.numbers(&self.reading.without)?;
+        let mut without_points = Vec::new();
+        for &number in &self.reading.without_points {
+            if number > points {
+                let found = format!("{} points", thousands(points));
+                return Err(Fault::NoSpecimen { wanted: format!("point {number}"), found });
+            }
+            without_points.push(number - 1);
+        }
+        for (name, factor) in &self.reading.rescale {
+            let mut shape = shapes.column_mut(self.numbered_by(name)?);
+            shape *= *factor;
+        }
+        for specimen in self.numbers(&self.reading.mirror)? {
+            let mut shape = shapes.column_mut(specimen);
+            shape.iter_mut().step_by(dimension).for_each(|value| *value = -*value);
+        }
+        let left_out = |specimen: usize, point: usize, without: &[usize], points: &[usize]| {
+            without.contains(&specimen) || points.contains(&point)
+        };
+        self.find_marks(dimension, &shapes);
+        let gone: Vec<(usize, usize)> = self
+            .missing
+            .iter()
+            .enumerate()
+            .flat_map(|(specimen, missing)| missing.iter().map(move |gap| (specimen, gap.point)))
+            .filter(|&(specimen, point)| !left_out(specimen, point, &without, &without_points))
+            .collect();
+        let mut notes = Vec::new();
+        if !gone.is_empty() {
+            match self.reading.missing {
+                Some(Missing::Specimens) => {
+                    let mut left_out: Vec<usize> = gone.iter().map(|(one, _)| *one).collect();
+                    left_out.dedup();
+                    notes
+                        .push(format!("Left out for missing landmarks: {}.", self.list(&left_out)));
+                    without.extend(left_out);
+                }
+                Some(Missing::Points) => {
+                    let mut left_out: Vec<usize> = gone.iter().map(|(_, point)| *point).collect();
+                    left_out.sort_unstable();
+                    left_out.dedup();
+                    notes.push(format!(
+                        "Left out because a specimen lacks them: {}.",
+                        landmarks(&left_out)
+                    ));
+                    without_points.extend(left_out);
+                }
+                _ => return Err(self.missing_fault(&gone, points)),
+            }
+        }
+        self.left = (0..shapes.ncols()).filter(|specimen| !without.contains(specimen)).collect();
+        self.points = (0..points).filter(|point| !without_points.contains(point)).collect();
+        if self.points.is_empty() {
+            let found = format!("{} points, all of which are left out", thousands(points));
+            return Err(Fault::NoSpecimen { wanted: "point that is left".to_owned(), found });
+        }
+        let whole = self.left.len() == shapes.ncols() && self.points.len() == points;
+        if whole {
+            return Ok(Chosen { shapes, cells, notes });
+        }
+        let rows: Vec<usize> = self
+            .points
+            .iter()
+            .flat_map(|point| (0..dimension).map(move |axis| point * dimension + axis))
+            .collect();
+        let kept: Vec<u32> = (0_u32..)
+            .zip(0..points)
+            .filter(|(_, point)| self.points.binary_search(point).is_ok())
+            .map(|(number, _)| number)
+            .collect();
+        let shapes = shapes.select_columns(&self.left).select_rows(&rows);
+        let cells = cells.at_points(&kept, points);
+        Ok(Chosen { shapes, cells, notes })
+    }
+
+    /// Finds numbers that mark missing landmarks: a point with the same such number in all coordinates, which lies
+    /// elsewhere than in the other specimens, or of which a specimen has two.
+    fn find_marks(&mut self, dimension: usize, shapes: &DMatrix<f64>) {
+        if self.reading.missing == Some(Missing::Values) {
+            return;
+        }
+        let mut doubted: BTreeMap<(usize, usize), f64> = BTreeMap::new();
+        for (specimen, shape) in shapes.column_iter().enumerate() {
+            for (point, place) in (0..shape.len()).step_by(dimension).enumerate() {
+                let first = shape[place];
+                let same = (1..dimension).all(|axis| shape[place + axis] == first);
+                if same && MARKS.contains(&first) {
+                    doubted.insert((specimen, point), first);
+                }
+            }
+        }
+        let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
+        for (_, point) in doubted.keys() {
+            *counts.entry(*point).or_default() += 1;
+        }
+        // A landmark that is at the origin in most specimens is what they were placed by.
+        let all = shapes.ncols();
+        let placed = |point: usize, mark: f64| {
+            let count = counts.get(&point).copied().unwrap_or(0);
+            count == all || mark == 0.0 && 2 * count >= all
+        };
+        doubted.retain(|&(_, point), mark| !placed(point, *mark));
+        if doubted.is_empty() {
+            return;
+        }
+        let absent: Vec<(usize, usize)> = self
+            .missing
+            .iter()
+            .enumerate()
+            .flat_map(|(specimen, missing)| missing.iter().map(move |gap| (specimen, gap.point)))
+            .collect();
+        let places: Vec<(usize, usize)> = doubted.keys().copied().collect();
+        // What is looked at must be numbers, also where it is passed over.
+        let numbers = shapes.map(|value| if value.is_finite() { value } else { 0.0 });
+        let confirmed = look(dimension, &numbers, &absent, &places).confirmed;
+        for (&(specimen, point), mark) in &doubted {
+            let twice = doubted
+                .iter()
+                .filter(|&(&(other, _), of_other)| other == specimen && of_other == mark)
+                .count()
+                > 1;
+            let usual = 2 * counts.get(&point).copied().unwrap_or(0) >= all;
+            if twice || usual || confirmed.contains(&(specimen, point)) {
+                let mark = vec![mark.to_string(); dimension].join(" ").replace('-', "−");
+                let place = Some(format!("“{mark}”"));
+                self.missing[specimen].push(MissingPoint { point, place });
+            }
+        }
+        for missing in &mut self.missing {
+            missing.sort_by_key(|gap| gap.point);
+        }
+    }
+
+    fn missing_fault(&self, gone: &[(usize, usize)], points: usize) -> Fault {
+        let mut by_specimen: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for &(specimen, point) in gone {
+            by_specimen.entry(specimen).or_default().push(point);
+        }
+        let shown: Vec<String> = by_specimen
+            .iter()
+            .take(NAMED)
+            .map(|(&specimen, points)| {
+                let first = self.missing[specimen].iter().find(|gap| gap.point == points[0]);
+                let place = first.and_then(|gap| gap.place.as_deref());
+                let place = place.map(|place| format!(" ({place})")).unwrap_or_default();
+                format!("{} of {}{place}", landmarks(points), self.called(specimen))
+            })
+            .collect();
+        let more = by_specimen.len().saturating_sub(NAMED);
+        let shown = if more > 0 {
+            format!("{}, and more in {}", shown.join(", "), counted(more, "specimen", "specimens"))
+        } else {
+            in_words(&shown)
+        };
+        let which = format!(
+            "{} missing in {} of {} specimens: {shown}",
+            counted(gone.len(), "landmark is", "landmarks are"),
+            by_specimen.len(),
+            self.left.len(),
+        );
+        let mut landmarks: Vec<usize> = gone.iter().map(|(_, point)| *point).collect();
+        landmarks.sort_unstable();
+        landmarks.dedup();
+        let mut choices = Vec::new();
+        if self.left.len() >= by_specimen.len() + 3 {
+            let label =
+                format!("Leave out {}", counted(by_specimen.len(), "specimen", "specimens"));
+            choices.push(self.reading.choice(label, |to| to.missing = Some(Missing::Specimens)));
+        }
+        if points >= landmarks.len() + 3 {
+            let label = format!(
+                "Leave out {} of all specimens",
+                counted(landmarks.len(), "landmark", "landmarks")
+            );
+            choices.push(self.reading.choice(label, |to| to.missing = Some(Missing::Points)));
+        }
+        let marks = gone.iter().all(|&(specimen, point)| {
+            let gap = self.missing[specimen].iter().find(|gap| gap.point == point);
+            gap.and_then(|gap| gap.place.as_deref()).is_some_and(|place| place.starts_with('“'))
+        });
+        if marks {
+            let label = "They are coordinates";
+            choices.push(self.reading.choice(label, |to| to.missing = Some(Missing::Values)));
+        }
+        Fault::Missing { which, choices }
+    }
+
+    /// That a first column was taken as the number of the point.
+    pub(crate) fn first_column_finding(&self) -> Option<Finding> {
+        let counts = self.numbered && self.reading.first_column.is_none();
+        counts.then(|| {
+            let message =
+                "The first column counts the points: it was taken as their number, not as x.";
+            let change = |to: &mut Reading| to.first_column = Some(FirstColumn::Coordinate);
+            let choices = vec![self.reading.choice("Take it as x", change)];
+            Finding::new("first-column", message, choices).sure()
+        })
+    }
+
+    /// What is unusual about the specimens that are left.
+    pub(crate) fn findings(&self, dimension: usize, shapes: &DMatrix<f64>) -> Vec<Finding> {
+        let found = look(dimension, shapes, &[], &[]);
+        let own = |column: usize| self.left[column];
+        let all = |columns: &[usize]| columns.iter().map(|&column| own(column)).collect::<Vec<_>>();
+        let mut findings = Vec::new();
+        if !found.mirrored.is_empty() {
+            let specimens = all(&found.mirrored);
+            let keys: Vec<String> = specimens.iter().map(|&one| self.key(one)).collect();
+            let message = format!(
+                "{} {} the other specimens only when mirrored: a right side among left ones, or an image that was flipped.",
+                self.list(&specimens),
+                if specimens.len() == 1 { "fits" } else { "fit" },
+            );
+            let label = if specimens.len() == 1 { "Mirror it" } else { "Mirror them" };
+            let mirror = self.reading.choice(label, |to| {
+                for key in keys {
+                    match to.mirror.iter().position(|name| *name == key) {
+                        Some(place) => drop(to.mirror.remove(place)),
+                        None => to.mirror.push(key),
+                    }
+                }
+            });
+            findings.push(Finding::new(
+                "mirrored",
+                message,
+                vec![mirror, self.leave_out(&specimens)],
+            ));
+        }
+        findings.extend(self.size_finding(&found.sizes));
+        if !found.same.is_empty() {
+            let pairs: Vec<String> = found
+                .same
+                .iter()
+                .take(NAMED)
+                .map(|&[one, other]| {
+                    format!("{} and {}", self.called(own(one)), self.called(own(other)))
+                })
+                .collect();
+            let message = format!(
+                "The same shape is there twice: {}{}.",
+                pairs.join("; "),
+                if found.same.len() > NAMED { " and more" } else { "" }
+            );
+            let mut later: Vec<usize> = found.same.iter().map(|&[_, other]| own(other)).collect();
+            later.sort_unstable();
+            later.dedup();
+            findings.push(Finding::new("duplicate", message, vec![self.leave_out(&later)]));
+        }
+        findings.extend(self.landmark_finding(&found.landmarks));
+        if !found.exchanged.is_empty() {
+            let each: Vec<String> = found
+                .exchanged
+                .iter()
+                .take(NAMED)
+                .map(|&(column, [one, other])| {
+                    let points = [self.points_named(one), self.points_named(other)];
+                    format!("{} and {} of {}", points[0], points[1], self.called(own(column)))
+                })
+                .collect();
+            let message = format!("Landmarks seem to be exchanged: {}.", each.join("; "));
+            let columns: Vec<usize> = found.exchanged.iter().map(|(column, _)| *column).collect();
+            let choices = vec![self.leave_out(&all(&columns))];
+            findings.push(Finding::new("exchanged-landmarks", message, choices));
+        }
+        if !found.far.is_empty() {
+            let columns: Vec<usize> = found.far.iter().map(|(column, _)| *column).collect();
+            let specimens = all(&columns);
+            let times = found.far.iter().map(|(_, times)| *times).fold(0.0, f64::max);
+            let message = format!(
+                "{} {} up to {} times as far from the others as the middle specimen: another kind of shape, or points in another order.",
+                self.list(&specimens),
+                if specimens.len() == 1 { "lies" } else { "lie" },
+                three_digits(times)
+            );
+            findings.push(Finding::new("outlier", message, vec![self.leave_out(&specimens)]));
+        }
+        if found.widest > WIDE {
+            let message = format!(
+                "The shapes vary much: the farthest lies {} radians (Procrustes distance) from the middle. A linear model treats the curved space of shapes as flat, which changes distances of this size by {} %.",
+                three_digits(found.widest),
+                three_digits(100.0 * (1.0 - libm::sin(found.widest) / found.widest)),
+            );
+            findings.push(Finding::new("wide-variation", message, Vec::new()).sure());
+        }
+        findings
+    }
+
+    fn size_finding(&self, sizes: &[(usize, f64)]) -> Option<Finding> {
+        if sizes.is_empty() {
+            return None;
+        }
+        /// Farther from a power of ten than this factor, and a unit does not explain it.
+        const NEAR: f64 = 1.6;
+        let specimens: Vec<usize> = sizes.iter().map(|&(column, _)| self.left[column]).collect();
+        let each: Vec<String> = sizes
+            .iter()
+            .take(NAMED)
+            .map(|&(column, ratio)| {
+                let size = if ratio > 1.0 {
+                    format!("{} times", three_digits(ratio))
+                } else {
+                    format!("1/{} of", three_digits(1.0 / ratio))
+                };
+                format!(
+                    "{} has {size} the size of the middle specimen",
+                    self.called(self.left[column])
+                )
+            })
+            .collect();
+        let more = if sizes.len() > NAMED { ", and more" } else { "" };
+        let message = format!("{}{more}: it may be in another unit.", each.join(", "));
+        let factors: Option<Vec<(String, f64)>> = sizes
+            .iter()
+            .map(|&(column, ratio)| {
+                let power = libm::round(libm::log10(1.0 / ratio));
+                let factor = libm::pow(10.0, power);
+                let rest = factor * ratio;
+                ((1.0 / NEAR..NEAR).contains(&rest) && power != 0.0)
+                    .then(|| (self.key(self.left[column]), factor))
+            })
+            .collect();
+        let mut choices = Vec::new();
+        if let Some(factors) = factors {
+            let label = match factors.as_slice() {
+                [(_, factor)] => format!("Multiply it by {factor}"),
+                _ => "Multiply them by powers of ten".to_owned(),
+            };
+            choices.push(self.reading.choice(label, |to| {
+                for (key, factor) in factors {
+                    to.rescale.retain(|(name, _)| *name != key);
+                    to.rescale.push((key, factor));
+                }
+            }));
+        }
+        choices.push(self.leave_out(&specimens));
+        Some(Finding::new("specimen-size", message, choices))
+    }
+
+    fn landmark_finding(&self, found: &[(usize, usize, f64)]) -> Option<Finding> {
+        if found.is_empty() {
+            return None;
+        }
+        let each: Vec<String> = found
+            .iter()
+            .take(NAMED)
+            .map(|&(column, point, radii)| {
+                format!(
+                    "landmark {} of {} by {}",
+                    self.points_named(point),
+                    self.called(self.left[column]),
+                    three_digits(radii)
+                )
+            })
+            .collect();
+        let more = if found.len() > NAMED { ", and more" } else { "" };
+        let message = format!(
+            "Landmarks lie elsewhere than in the other specimens, in units of the shape's radius (root mean square distance of its landmarks from their centre): {}{more}.",
+            each.join(", ")
+        );
+        let mut specimens: Vec<usize> =
+            found.iter().map(|(column, ..)| self.left[*column]).collect();
+        specimens.dedup();
+        let mut points: Vec<usize> =
+            found.iter().map(|(_, point, _)| self.points[*point]).collect();
+        points.sort_unstable();
+        points.dedup();
+        let label = format!("Leave out {} of all", landmarks(&points));
+        let change = |to: &mut Reading| {
+            to.without_points.extend(points.iter().map(|point| point + 1));
+            to.without_points.sort_unstable();
+            to.without_points.dedup();
+        };
+        let choices = vec![self.leave_out(&specimens), self.reading.choice(label, change)];
+        Some(Finding::new("outlying-landmark", message, choices))
+    }
+
+    /// The number of a point that is left, from 1, as the files count.
+    fn points_named(&self, point: usize) -> String {
+        (self.points.get(point).copied().unwrap_or(point) + 1).to_string()
+    }
+
+    fn leave_out(&self, specimens: &[usize]) -> Choice {
+        let label = match specimens {
+            [one] => format!("Leave out {}", self.called(*one)),
+            several => format!("Leave out {} specimens", several.len()),
+        };
+        self.reading.choice(label, |to| {
+            to.without.extend(specimens.iter().map(|&specimen| self.key(specimen)));
+        })
+    }
+}
+
+/// "landmark 6", "landmarks 2 and 4": from 1.
+fn landmarks(points: &[usize]) -> String {
+    let numbers: Vec<String> = points.iter().map(|point| (point + 1).to_string()).collect();
+    match numbers.as_slice() {
+        [one] => format!("landmark {one}"),
+        several => format!("landmarks {}", in_words(several)),
+    }
+}
+
+/// "a", "a and b", "a, b and c".
+fn in_words(items: &[String]) -> String {
+    match items {
+        [] => String::new(),
+        [one] => one.clone(),
+        [before @ .., last] => format!("{} and {last}", before.join(", ")),
+    }
+}
