@@ -1,8 +1,8 @@
 """The random numbers of the program, made again: ChaCha with 8 rounds, uniform numbers, normal ones by the polar method.
 
-docs/recomputed.md says which purposes there are. Everything here follows the published algorithms (Bernstein, "ChaCha, a
-variant of Salsa20", 2008; Marsaglia & Bray, SIAM Review 6, 1964) and what src/sampling/random.rs states of seeds and
-streams. Many streams are made at once, one a row.
+Everything here follows the published algorithms (Bernstein, "ChaCha, a variant of Salsa20", 2008; Marsaglia & Bray, SIAM
+Review 6, 1964) and what src/sampling/random.rs states of seeds, purposes and streams. Many streams are made at once, one a
+row.
 """
 import numpy as np
 

@@ -102,6 +102,8 @@ class Table:
 
 
 def _short(value):
+    if value is None or isinstance(value, str) or (isinstance(value, list) and value and isinstance(value[0], str)):
+        return str(value)
     value = np.atleast_1d(np.asarray(value, float)).ravel()
     return f"{value[0]:.12g}" if len(value) == 1 else f"{value[0]:.9g} ... [{len(value)}]"
 
