@@ -88,7 +88,7 @@ def all_of(runner, whole):
             yield of_heads(*pair)
     else:
         sources = [HEADS / "heads-male.npz", HEADS / "heads-female.npz"]
-        yield of_demos("heads male, female", sources, [heads["male"], heads["female"]], "--permutations", "39")
+        yield of_demos("heads male, female", sources, [heads["male"], heads["female"]], "--permutations", "19")
 
     # Wings: the population of the page, the two files by themselves, and every option that changes a number.
     yield "wings", lambda: runner.in_words("wings", demos, wings, independent=np.random.default_rng(1))
@@ -103,6 +103,11 @@ def all_of(runner, whole):
     six = [model.first(6) for model in wings]
     cut = sum(model.total for model in wings) - sum(model.total for model in six)
     yield of_demos("wings, 6 modes", demos, six, "--modes", "6", "--permutations", "99", as_opened=wings, cut_variance=cut)
+    kept = [int(np.argmax(np.cumsum(model.deviations**2) >= 0.9 * model.total * (1 - 1e-12))) + 1 for model in wings]
+    most = [model.first(count) for model, count in zip(wings, kept)]
+    cut_of_share = sum(model.total for model in wings) - sum(model.total for model in most)
+    yield of_demos("wings, 90 % of the variance", demos, most, "--variance", "0.9", *few, as_opened=wings,
+                   cut_variance=cut_of_share)
     yield of_demos("wings, large sigma", demos, wings, "--sigma", "0.02", *few)
     for definition in ("distance", "relative", "outside"):
         yield of_demos(f"wings, {definition}", demos, wings, "--difference", definition, *few)
@@ -115,6 +120,10 @@ def all_of(runner, whole):
     for row, setting in enumerate(STARS, 1):
         yield of_demos(f"stars {row}", [f"demo:stars-{row}-a", f"demo:stars-{row}-b"], shapes.stars(setting))
     yield of_demos("planes", ["demo:planes-a", "demo:planes-b"], shapes.planes())
+    third = shapes.stars(STARS[2])
+    yield of_demos("stars, noise", ["demo:stars-3-a", "demo:stars-3-b"], third, "--noise", "0.05")
+    on_mean = [third[0], dataclasses.replace(third[1], mean=third[0].mean)]
+    yield of_demos("stars, B on the mean of A", ["demo:stars-3-a", "demo:stars-3-b"], on_mean, "--rebase", "b", as_opened=third)
     larger = [shapes.stars(STARS[1])[0], shapes.rescaled(shapes.stars(STARS[1])[1], 10.0)]
     yield of_demos("stars, B in cm", ["demo:stars-2-a", "demo:stars-2-b"], larger, "--unit-a", "mm", "--unit-b", "cm",
                    "--convert-units", as_opened=shapes.stars(STARS[1]))

@@ -179,6 +179,68 @@ class Weighted:
         return mean * self.signs, covariance * np.outer(self.signs, self.signs)
 
 
+class Independent:
+    """Independence Metropolis-Hastings: proposals of the fit, one in a hundred of a wider Gaussian, chain by chain."""
+
+    def __init__(self, side, which, seed, sigma, fit, wide, settings):
+        signs, q = side.signs, side.q
+        chains, kept = settings["chains"], -(-settings["draws"] // settings["chains"])
+        burn_in, thin = settings["burnIn"], settings["thin"]
+        steps = burn_in + thin * kept
+        gaussians = []
+        for mean, precision in (fit, wide):
+            lower = np.linalg.cholesky(precision * np.outer(signs, signs))
+            gaussians.append((mean * signs, lower, np.linalg.inv(lower).T, np.log(np.diag(lower)).sum()))
+        each = (steps + 1) * (2 + int(2.8 * -(-q // 2))) + 500
+        buffers = streams.uniforms(seed, streams.CHAIN, which, range(chains), each)
+        z, choose, decide = np.zeros((chains, steps + 1, q)), np.zeros((chains, steps + 1)), np.zeros((chains, steps + 1))
+        for chain, numbers in enumerate(buffers):
+            place = 0
+            for step in range(steps + 1):
+                choose[chain, step] = numbers[place]
+                place += 1
+                for first in range(0, q, 2):
+                    while True:
+                        x, y = 2 * numbers[place] - 1, 2 * numbers[place + 1] - 1
+                        place += 2
+                        square = x * x + y * y
+                        if 0 < square < 1:
+                            break
+                    factor = math.sqrt(-2 * math.log(square) / square)
+                    z[chain, step, first] = x * factor
+                    if first + 1 < q:
+                        z[chain, step, first + 1] = y * factor
+                decide[chain, step] = numbers[place]
+                place += 1
+        rows, defensive = z.reshape(-1, q), choose.ravel() < 0.01
+        points = np.where(defensive[:, None], *[g[0] + rows @ g[2].T for g in gaussians[::-1]])
+        logs = [g[3] - 0.5 * (((points - g[0]) @ g[1]) ** 2).sum(axis=1) for g in gaussians]
+        mixture = np.logaddexp(logs[0] + math.log(0.99), logs[1] + math.log(0.01))
+        distances = side.distances(points * signs)
+        target = -0.5 * ((distances / sigma) ** 2 + side.plausibility(points * signs))
+        weights = (target - mixture).reshape(chains, steps + 1)
+        points, distances = points.reshape(chains, steps + 1, q), distances.reshape(chains, steps + 1)
+        state = np.zeros(chains, int)
+        self.draws, self.distances = np.zeros((chains, kept, q)), np.zeros((chains, kept))
+        accepted = 0
+        every = np.arange(chains)
+        for step in range(steps):
+            take = np.log(decide[:, step + 1]) < weights[:, step + 1] - weights[every, state]
+            state = np.where(take, step + 1, state)
+            if step >= burn_in:
+                accepted += int(take.sum())
+                if (step - burn_in + 1) % thin == 0:
+                    place = (step - burn_in + 1) // thin - 1
+                    self.draws[:, place], self.distances[:, place] = points[every, state], distances[every, state]
+        counted = weights[:, burn_in + 1:]
+        self.acceptance = accepted / counted.size
+        # Weights that differ by less are the same but for rounding.
+        self.is_even = np.ptp(counted) < 1e-6
+        plain = np.exp(counted - counted.max())
+        self.effective = plain.sum() ** 2 / (plain**2).sum()
+        self.k = smoothed(counted.T.ravel())[1]
+
+
 def accuracy(joint, totals, groups, pooled_of, components):
     """Standard errors of the intersection model from groups of weighted draws."""
     pooled = pooled_of([joint.lift(side, total) for side, total in totals])

@@ -260,7 +260,7 @@ class Meeting:
                 smooth *= 0.3
             weights = 1 / np.sqrt(lengths**2 + smooth**2)
             weights /= weights.mean()
-        return best, (best - bound) / best
+        return best, (best - bound) / best if best > 0 else 0.0
 
     @staticmethod
     def _in_balls(gram, shift, parts, radii):
