@@ -25,6 +25,7 @@ mod measures;
 mod moments;
 mod population;
 mod preparation;
+mod recompute;
 mod reproduce;
 mod run;
 mod runs;
