@@ -94,6 +94,8 @@ pub struct MeanDistance {
     pub rigid: Option<f64>,
     /// With B moved and brought to the size of A.
     pub similarity: Option<f64>,
+    /// With the mirror image of B (of the mirrored B, B itself) moved rigidly.
+    pub mirrored: Option<f64>,
 }
 
 /// One step that can be taken, or taken back.
@@ -113,31 +115,72 @@ pub struct Remedy {
     pub recommended: bool,
 }
 
+const LENGTHS: [Unit; 5] =
+    [Unit::Micrometre, Unit::Millimetre, Unit::Centimetre, Unit::Decimetre, Unit::Metre];
+
 /// The unit in which a shape of this extent is likely written: heads are a quarter of a metre, bodies
 /// one metre and three quarters. Nothing beyond a factor of two from both.
 pub fn guessed_unit(model: &LinearModel) -> Option<Unit> {
-    const USUAL_METRES: [f64; 2] = [0.25, 1.75];
     const FARTHEST: f64 = 2.0;
     if model.kind() != Kind::Shape || model.dimension() != 3 {
         return None;
     }
-    let extent = (0..3)
-        .map(|axis| {
-            let values = || model.mean().iter().skip(axis).step_by(3).copied();
-            values().fold(f64::MIN, f64::max) - values().fold(f64::MAX, f64::min)
-        })
-        .fold(0.0, f64::max);
-    let ratio = |(unit, usual): (Unit, f64)| {
-        let metres = extent * unit.metres().unwrap_or(1.0);
-        (unit, (metres / usual).max(usual / metres))
-    };
-    [Unit::Micrometre, Unit::Millimetre, Unit::Centimetre, Unit::Decimetre, Unit::Metre]
+    let extent = extent(model);
+    LENGTHS
         .into_iter()
-        .flat_map(|unit| USUAL_METRES.map(|usual| (unit, usual)))
-        .map(ratio)
-        .filter(|(_, ratio)| *ratio <= FARTHEST)
+        .map(|unit| (unit, from_usual(extent * unit.metres().unwrap_or(1.0))))
+        .filter(|(_, away)| *away <= libm::log(FARTHEST))
         .min_by(|first, second| first.1.total_cmp(&second.1))
         .map(|(unit, _)| unit)
+}
+
+/// |ln| of a length over that of a head or of a body, whichever is nearer; both in metres.
+fn from_usual(metres: f64) -> f64 {
+    const USUAL_METRES: [f64; 2] = [0.25, 1.75];
+    USUAL_METRES.map(|usual| libm::log(metres / usual).abs()).into_iter().fold(f64::MAX, f64::min)
+}
+
+/// Longest side of the box around the mean.
+fn extent(model: &LinearModel) -> f64 {
+    let dimension = model.dimension();
+    (0..dimension)
+        .map(|axis| {
+            let values = || model.mean().iter().skip(axis).step_by(dimension).copied();
+            values().fold(f64::MIN, f64::max) - values().fold(f64::MAX, f64::min)
+        })
+        .fold(0.0, f64::max)
+}
+
+/// The units in which two shapes of the same points are likely written: those in which they have nearly the same size, and
+/// of these the ones that make them a head or a body. `None` when no two units explain their sizes, or the same does.
+fn likely_units(a: &LinearModel, b: &LinearModel, stated: [Unit; 2]) -> Option<(Unit, Unit)> {
+    /// Shapes of the same points rarely differ more in size.
+    const ALIKE: f64 = 2.0;
+    let ratio = b.size() / a.size();
+    let alike = |ratio: f64| (1.0 / ALIKE..ALIKE).contains(&ratio);
+    // Sizes that are alike, or not explained by any power of ten, are no reason to doubt that there is one unit.
+    if !ratio.is_finite() || ratio <= 0.0 || (0.3..3.2).contains(&ratio) {
+        return None;
+    }
+    let metres = |unit: Unit| unit.metres().unwrap_or(1.0);
+    let possible =
+        |stated: Unit| if stated == Unit::Unknown { LENGTHS.to_vec() } else { vec![stated] };
+    let [of_a, of_b] = stated.map(possible);
+    let pairs = of_a.iter().flat_map(|&one| of_b.iter().map(move |&other| (one, other)));
+    pairs.filter(|&(one, other)| alike(ratio * metres(other) / metres(one))).min_by(
+        |first, second| {
+            let unusual = |(one, other): (Unit, Unit)| {
+                from_usual(extent(a) * metres(one)) + from_usual(extent(b) * metres(other))
+            };
+            unusual(*first).total_cmp(&unusual(*second))
+        },
+    )
+}
+
+/// Three digits, but 0 for what is rounding beside a size.
+fn beside(length: f64, size: f64) -> String {
+    const ROUNDING: f64 = 1e-9;
+    if length <= ROUNDING * size { "0".to_owned() } else { three_digits(length) }
 }
 
 /// Looks at two models and at what the settings do to them.
@@ -236,6 +279,9 @@ impl Inspector<'_> {
         let before = mean_vertex_distance(&first, &as_it_is, dimension);
         let factor = prepare.unit_factor(self.a, self.b);
         let mut second = as_it_is * factor;
+        if prepare.mirror {
+            second = mirror_image(second, dimension);
+        }
         if prepare.a.rebase || prepare.b.rebase {
             second.clone_from(&first);
         }
@@ -246,6 +292,10 @@ impl Inspector<'_> {
             mean_vertex_distance(&first, &moved, dimension)
         };
         let (rigid, similarity) = (moved(Alignment::Rigid), moved(Alignment::Similarity));
+        let mut image = mirror_image(second.clone(), dimension);
+        procrustes(first.as_slice(), image.as_slice(), dimension, Alignment::Rigid)
+            .move_points(image.as_mut_slice());
+        let mirrored = mean_vertex_distance(&first, &image, dimension);
         let now = match self.settings.align {
             Alignment::None => mean_vertex_distance(&first, &second, dimension),
             Alignment::Rigid => rigid,
@@ -257,6 +307,7 @@ impl Inspector<'_> {
             now: finite(now),
             rigid: finite(rigid),
             similarity: finite(similarity),
+            mirrored: finite(mirrored),
         }
     }
 
@@ -275,7 +326,12 @@ impl Inspector<'_> {
         let in_one_unit = unit.is_none();
         remedies.extend(unit);
         if in_one_unit {
-            remedies.extend(self.alignment_remedies(distance));
+            let mirror = self.mirror_remedy(distance);
+            let same_hand = mirror.is_none();
+            remedies.extend(mirror);
+            if same_hand {
+                remedies.extend(self.alignment_remedies(distance));
+            }
         }
         remedies.extend(self.shortening_remedies(compared));
         remedies
@@ -340,21 +396,17 @@ impl Inspector<'_> {
         if prepare.convert || [self.a, self.b].iter().any(|model| model.kind() != Kind::Shape) {
             return None;
         }
-        let likely = |found: &UnitFound| match found.stated {
-            Unit::Unknown => found.guess,
-            stated => Some(stated),
+        let stated = |found: &UnitFound| found.stated != Unit::Unknown;
+        let sure = stated(&units.a) && stated(&units.b);
+        let (of_a, of_b) = if sure {
+            (units.a.stated, units.b.stated)
+        } else {
+            likely_units(self.a, self.b, [units.a.stated, units.b.stated])?
         };
-        let (of_a, of_b) = (likely(&units.a)?, likely(&units.b)?);
         if of_a == of_b {
             return None;
         }
-        let stated = |found: &UnitFound| found.stated != Unit::Unknown;
-        let sure = stated(&units.a) && stated(&units.b);
-        // A guess needs a reason: the two sizes as they stand are far apart.
         let raw = self.b.size() / self.a.size();
-        if !sure && (0.4..2.5).contains(&raw) {
-            return None;
-        }
         let declare = |found: &UnitFound, unit: Unit| {
             if stated(found) { json!({}) } else { json!({ "unit": unit }) }
         };
@@ -364,12 +416,8 @@ impl Inspector<'_> {
         } else {
             let times = scale.unwrap_or(raw);
             format!(
-                "By their sizes A is likely in {a} and B in {b}: B is {} times as large in numbers.",
-                if (0.1..1000.0).contains(&times) {
-                    format!("{times:.1}")
-                } else {
-                    format!("{times:.1e}")
-                }
+                "In numbers B is {} times as large as A: A is likely in {a} and B in {b}.",
+                three_digits(times)
             )
         };
         Some(Remedy {
@@ -379,6 +427,29 @@ impl Inspector<'_> {
             settings: json!({ "prepare": {
                 "a": declare(&units.a, of_a), "b": declare(&units.b, of_b), "convert": true,
             } }),
+            recommended: true,
+        })
+    }
+
+    /// A left and a right side: the mirror image comes much nearer than any motion.
+    fn mirror_remedy(&self, distance: &MeanDistance) -> Option<Remedy> {
+        let shapes = self.a.kind() != Kind::Color && self.b.kind() != Kind::Color;
+        let (rigid, now, mirrored) = (distance.rigid?, distance.now?, distance.mirrored?);
+        if !shapes || mirrored >= RECOMMENDED * rigid || mirrored >= RECOMMENDED * now {
+            return None;
+        }
+        let unit = self.settings.prepare.a.unit.unwrap_or(self.a.unit()).symbol();
+        let mirror = !self.settings.prepare.mirror;
+        Some(Remedy {
+            id: "mirror",
+            label: if mirror { "Mirror B" } else { "Do not mirror B" }.to_owned(),
+            sentence: format!(
+                "{} and moved onto A, the mean of B lies {} {unit} from that of A; without, {} {unit} at best. One of them may be a right side and the other a left one, or be stored with an axis turned round.",
+                if mirror { "Mirrored" } else { "As it is" },
+                beside(mirrored, self.a.size()),
+                three_digits(rigid.min(now)),
+            ),
+            settings: json!({ "align": "rigid", "prepare": { "mirror": mirror } }),
             recommended: true,
         })
     }
@@ -396,8 +467,10 @@ impl Inspector<'_> {
         }
         let unit = self.settings.prepare.a.unit.unwrap_or(self.a.unit()).symbol();
         let mut remedies = Vec::new();
-        let from_to =
-            |to: f64| format!("from {} to {} {unit}", three_digits(now), three_digits(to));
+        let from_to = |to: f64| {
+            let to = beside(to, self.a.size());
+            format!("from {} to {to} {unit}", three_digits(now))
+        };
         if rigid < WORTH_A_CLICK * now {
             remedies.push(Remedy {
                 id: "align",
@@ -465,6 +538,11 @@ impl Inspector<'_> {
         applied.extend(self.applied_units());
         applied.extend(applied_to("a", "A", "B", prepare.a));
         applied.extend(applied_to("b", "B", "A", prepare.b));
+        if prepare.mirror {
+            let undo = json!({ "prepare": { "mirror": false } });
+            let sentence = "The mirror image of B is compared.";
+            applied.push(step("mirror", "B mirrored", sentence, undo));
+        }
         match align {
             Alignment::None => {}
             Alignment::Rigid => applied.push(step(
@@ -574,6 +652,11 @@ fn step(id: &'static str, label: impl Into<String>, sentence: &str, undo: Value)
 
 fn is_expression(model: &LinearModel) -> bool {
     model.name().ends_with("#expression")
+}
+
+fn mirror_image(mut points: DVector<f64>, dimension: usize) -> DVector<f64> {
+    points.iter_mut().step_by(dimension).for_each(|x| *x = -*x);
+    points
 }
 
 /// The mean at the chosen points.

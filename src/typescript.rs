@@ -20,7 +20,7 @@ use crate::formats::{Applied, Choice, Finding, Group, Origin};
 use crate::inspect::{Agreement, Inspection, MeanDistance, Remedy, UnitFound};
 use crate::lessons::*;
 use crate::linalg::Moments;
-use crate::measure::{Evaluation, Method};
+use crate::measure::{Evaluation, Method, Placement};
 use crate::model::{Alignment, Geometry, Kind, ShapesRole, Side, Sides, Unit};
 use crate::pair::{DifferenceDefinition, FitMethod, PointSelection, Preparation, SidePreparation};
 use crate::pair::{MeanSquare, PlausibleDistance, Quantiles, ReachOfSide};
@@ -120,7 +120,7 @@ fn declarations() -> String {
         // Models.
         Group, Origin, Spread, ShapesRole, KnownShapes, ModelReport, OpenedModel, Geometry,
         Agreement, UnitFound, MeanDistance, Remedy, Inspection, RelationReport,
-        Method, Evaluation,
+        Method, Placement, Evaluation,
         // The report.
         SigmaSource, Quantiles, MeanSquare, PlausibleDistance, ReachOfSide, ReachCurve, ReachReport,
         Histogram, Chance, StatisticName, Statistic, Hypothesis, Band, Bands, LeftOut, MatchedShares, ToldApart,

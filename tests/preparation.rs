@@ -310,6 +310,7 @@ fn every_step_is_shown_and_can_be_taken_back() {
             a: SidePreparation { rebase: index == 1, ..side(Unit::Millimetre) },
             b: SidePreparation { rebase: index == 2, variance: Some(0.9), ..side(Unit::Metre) },
             convert: index > 0,
+            mirror: false,
             points: Some(points),
             subsample: Some(40),
         };

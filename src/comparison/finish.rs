@@ -10,8 +10,8 @@ use crate::error::ComparisonError;
 use crate::evidence::Evidence;
 use crate::linalg::{Moments, product};
 use crate::measure::{
-    AffineSpace, Displacement, affine_grassmann_distance, compactness, linear_split,
-    mean_vertex_distance, scaled_modes, unexplained_share, vertex_standard_deviations,
+    Displacement, affine_grassmann_distance, compactness, linear_split, mean_vertex_distance,
+    scaled_modes, unexplained_share, vertex_standard_deviations,
 };
 use crate::model::{Side, Sides};
 use crate::pair::{Joint, JointModel, ReachDraws};
@@ -223,9 +223,10 @@ impl Comparison {
         let components = [&first, &second].map(Moments::principal_components);
         let deviations =
             |side: Side| components[side.index()].1.iter().map(|value| value.sqrt()).collect();
-        let space = |moments: &Moments, side: Side, modes: usize| AffineSpace {
-            point: moments.mean.clone(),
-            basis: components[side.index()].0.columns(0, modes).into_owned(),
+        let away = joint.coordinates_of(joint.origin());
+        let space = |moments: &Moments, side: Side, modes: usize| {
+            let basis = components[side.index()].0.columns(0, modes).into_owned();
+            affine_space(&away, &moments.mean, basis)
         };
         let fewest = components[0].0.ncols().min(components[1].0.ncols());
         let [a, b] = [&first, &second].map(|moments| joint.shape(&moments.mean));
@@ -281,7 +282,9 @@ impl Comparison {
             diagnostics: summary::of_independent(draws),
             vertex_sd,
             definition: self.settings.difference,
-            threshold: Some(criterion.level()),
+            // The quantile of scores that are all rounding: nothing lies outside of the other model.
+            threshold: Some(criterion.level())
+                .map(|level| if level > self.pair().rounding() { level } else { 0.0 }),
             envelope: match criterion.envelope() {
                 Envelope::Prior(_) => EnvelopeName::Prior,
                 Envelope::Tilted(_) => EnvelopeName::Tilted,

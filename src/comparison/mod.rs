@@ -120,15 +120,22 @@ impl Comparison {
     ) -> Result<Self, ComparisonError> {
         settings.check()?;
         let pair = Pair::prepared(a, b, &settings.prepare, settings.align, settings.modes)?;
-        let refresh = |before: ModelReport, model: &LinearModel| ModelReport {
-            name: before.name,
-            orthogonality: before.orthogonality,
-            dropped_modes: before.dropped_modes,
-            unit_guess: before.unit_guess,
-            part: before.part,
-            fingerprint: before.fingerprint,
-            shapes: before.shapes,
-            ..ModelReport::new(model, &before.format, &before.notes)
+        // What is computed is computed anew, what was read stays.
+        let refresh = |before: ModelReport, model: &LinearModel| {
+            let now = ModelReport::new(model, "", &[]);
+            ModelReport {
+                kind: now.kind,
+                points: now.points,
+                dimension: now.dimension,
+                modes: now.modes,
+                unit: now.unit,
+                total_variance: now.total_variance,
+                standard_deviations: now.standard_deviations,
+                size: now.size,
+                vertex_sd: now.vertex_sd,
+                cells: now.cells,
+                ..before
+            }
         };
         let Sides { a, b } = described.into();
         Ok(Self {

@@ -5,7 +5,7 @@ use super::inference::LARGEST_PARETO_K;
 use super::run::Drawing;
 use crate::inspect::canonical;
 use crate::measure::mean_vertex_distance;
-use crate::model::{Alignment, Cells, Side, Sides, procrustes};
+use crate::model::{Alignment, Cells, Kind, LinearModel, Side, Sides, Unit, procrustes};
 use crate::report::{Notice, Report, ToleranceReport};
 use crate::settings::{Plausibility, Sampler, SigmaSource};
 use crate::text::three_digits;
@@ -27,6 +27,58 @@ const LEADING_MODES: usize = 5;
 /// Share of the mean-to-mean distance that a rigid motion must remove to be worth a word.
 const WORTH_ALIGNING: f64 = 0.3;
 
+/// Whether both models lack nothing but the motions of their points.
+fn both_fill_shape_space(a: &LinearModel, b: &LinearModel) -> bool {
+    let dimension = a.dimension();
+    let motions = dimension * (dimension + 1) / 2;
+    let free = (dimension * a.point_count()).saturating_sub(motions);
+    let fills = |model: &LinearModel| {
+        // One more is fixed where the shapes were also brought to one size.
+        model.mode_count() + 1 >= free && model.mode_count() <= free && model.is_aligned()
+    };
+    free > 0 && a.kind() == Kind::Shape && fills(a) && fills(b)
+}
+
+/// That the two are in other units, or that their sizes are as if they were.
+fn about_units(of_a: Unit, of_b: Unit, a: &LinearModel, b: &LinearModel) -> Option<Notice> {
+    /// Models of the same points hardly differ more in size.
+    const ALIKE: f64 = 3.2;
+    let ratio = b.size() / a.size();
+    let alike = (1.0 / ALIKE..ALIKE).contains(&ratio);
+    let times = || {
+        if ratio >= 1.0 {
+            format!("B is {} times as large as A in numbers", three_digits(ratio))
+        } else {
+            format!("A is {} times as large as B in numbers", three_digits(1.0 / ratio))
+        }
+    };
+    let of_shapes = a.kind() == Kind::Shape && b.kind() == Kind::Shape;
+    let known = of_a != Unit::Unknown && of_b != Unit::Unknown;
+    let (message, hint) = match () {
+        () if of_a == of_b && (alike || !of_shapes || !ratio.is_finite()) => return None,
+        () if of_a == of_b => {
+            (format!("{}.", times()), "Check that both are in the same unit, or align with scale.")
+        }
+        () if known => (
+            format!("A is in {}, B in {}.", of_a.symbol(), of_b.symbol()),
+            "Convert B into the unit of A.",
+        ),
+        () => {
+            let (known, unit, unknown) =
+                if of_a == Unit::Unknown { ("B", of_b, "A") } else { ("A", of_a, "B") };
+            let sizes = if alike { String::new() } else { format!(", and {}", times()) };
+            (
+                format!(
+                    "{known} is in {}, the file of {unknown} does not say in what{sizes}.",
+                    unit.symbol()
+                ),
+                "Declare the unit of the other model; where it is another one, convert B into that of A.",
+            )
+        }
+    };
+    Some(Notice::new("unit", message, hint))
+}
+
 impl Comparison {
     pub(super) fn warnings(&self, drawing: &Drawing, report: &Report) -> Vec<Notice> {
         let mut warnings = Vec::new();
@@ -47,17 +99,30 @@ impl Comparison {
                 "Check that point k is the same place on both: the order of the points may differ.",
             ));
         }
-        if report.models.a.unit != report.models.b.unit {
+        for (side, model) in [("A", &report.models.a), ("B", &report.models.b)] {
+            for finding in model.findings.iter().filter(|finding| finding.doubt) {
+                warnings.push(Notice::new(
+                    &finding.code,
+                    format!("{side}, {}: {}", model.name, finding.message),
+                    if finding.choices.is_empty() {
+                        format!("Check the file of {side}.")
+                    } else {
+                        format!("Choose how {side} is read.")
+                    },
+                ));
+            }
+        }
+        if report.evidence.is_none() && both_fill_shape_space(a, b) {
             warnings.push(Notice::new(
-                "unit",
+                "shape-space-filled",
                 format!(
-                    "A is in {}, B in {}.",
-                    report.models.a.unit.symbol(),
-                    report.models.b.unit.symbol()
+                    "Both models have all directions in which {} aligned points can vary: they make the same shapes, and what still differs is left over from the alignment.",
+                    a.point_count()
                 ),
-                "Convert B into the unit of A.",
+                "Compare the means, the variances and the first modes, or use fewer modes.",
             ));
         }
+        warnings.extend(about_units(report.models.a.unit, report.models.b.unit, a, b));
         if self.settings.align == Alignment::None && a.point_count() > 2 {
             let mut moved = b.mean().clone();
             procrustes(a.mean().as_slice(), moved.as_slice(), a.dimension(), Alignment::Rigid)

@@ -6,7 +6,7 @@ use super::Error;
 use crate::demos;
 use crate::formats::{self, Input, Options, Origin, Reading};
 use crate::inspect::guessed_unit;
-use crate::measure::{self, Evaluation};
+use crate::measure::{self, Evaluation, Placement};
 use crate::model::{Alignment, LinearModel, TrainingShapes, Unit};
 use crate::report::{KnownShapes, ModelReport};
 
@@ -186,6 +186,7 @@ pub fn evaluate(
     described: &Described,
     shapes: &[Input],
     training: bool,
+    placement: Placement,
     reading: &Reading,
 ) -> Result<Evaluation, Error> {
     let made_by = described.model.training_shapes().map(TrainingShapes::alignment);
@@ -194,6 +195,6 @@ pub fn evaluate(
         _ => Alignment::Rigid,
     };
     let set = formats::read_shapes(shapes, &reading_of_shapes(described, reading))?;
-    measure::evaluate(&described.model, set.dimension, set.shapes, training, alignment)
+    measure::evaluate(&described.model, set.dimension, set.shapes, training, alignment, placement)
         .map_err(Error::Evaluation)
 }

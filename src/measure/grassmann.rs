@@ -93,13 +93,18 @@ pub fn grassmann_sampling_error(first: &[f64], others: &[f64], draws: f64) -> f6
     (sum / draws).sqrt()
 }
 
+/// A displacement below this share of the distance from the origin is rounding: the space goes through the origin.
+const ROUNDING: f64 = 1e-10;
+
 /// Stiefel coordinates Y, with the first `columns` columns of the basis.
 fn embedding(space: &AffineSpace, columns: usize, displacement: Displacement) -> DMatrix<f64> {
     let count = columns.min(space.basis.ncols());
     let basis = space.basis.columns(0, count);
     let mut away = &space.point - basis * basis.tr_mul(&space.point);
     let length = away.norm();
-    if displacement == Displacement::Unit && length > 0.0 {
+    if length <= ROUNDING * space.point.norm() {
+        away.fill(0.0);
+    } else if displacement == Displacement::Unit {
         away /= length;
     }
     let scale = 1.0 / (1.0 + away.norm_squared()).sqrt();

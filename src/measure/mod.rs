@@ -9,6 +9,7 @@ mod grassmann;
 mod kullback_leibler;
 mod linear_split;
 mod model_quality;
+mod placement;
 mod principal_vectors;
 mod rank_correlation;
 mod relative;
@@ -28,6 +29,7 @@ pub use grassmann::{
 pub use kullback_leibler::kullback_leibler;
 pub use linear_split::{LinearSplit, linear_split};
 pub use model_quality::{Evaluation, EvaluationError, MeanError, Method, evaluate};
+pub use placement::Placement;
 pub use principal_vectors::principal_vectors;
 pub use rank_correlation::rank_correlation;
 pub use relative::{RelativeEigenmodes, patterns, relative_eigenmodes};

@@ -4,8 +4,8 @@
 //! modes, with the standard error of the mean. Both are small for a good model; more modes make the
 //! first smaller and the second larger.
 //!
-//! **Limits.** Shapes are moved onto the model's mean (rotation and translation; size too where the model was
-//! made without it), but not brought into correspondence. That the training shapes are those of the
+//! **Limits.** Shapes are moved (rotation and translation; size too where the model was
+//! made without it), test shapes along with the fit if nothing else is asked, but not brought into correspondence. That the training shapes are those of the
 //! model cannot be seen: only that they have as many points.
 
 use core::fmt;
@@ -14,6 +14,7 @@ use nalgebra::DMatrix;
 use serde::Serialize;
 
 use crate::measure::generalization::{align, left_out_distances, projection_distances};
+use crate::measure::placement::{Placement, along_with_the_fit};
 use crate::measure::specificity::nearest_distances;
 use crate::model::{Alignment, Kind, LinearModel, ModelError};
 
@@ -50,6 +51,8 @@ pub struct Evaluation {
     pub method: Method,
     /// How many models were built for the cross-validation.
     pub folds: usize,
+    /// How test shapes were placed before they were projected; those that are left out lie on the mean of the others.
+    pub placement: Placement,
     /// Numbers of modes.
     pub modes: Vec<usize>,
     /// Mean distance of the shapes from their projection.
@@ -151,7 +154,8 @@ impl fmt::Display for EvaluationError {
 impl core::error::Error for EvaluationError {}
 
 /// Evaluates `model` by `shapes` (d·n × N, any frame); `training` when it was made of them. `alignment` is
-/// what may be moved: [`Alignment::Similarity`] for a model of shapes that were brought to one size.
+/// what may be moved: [`Alignment::Similarity`] for a model of shapes that were brought to one size. `placement` says how
+/// test shapes are placed; training shapes lie on the mean of those that are left.
 ///
 /// # Errors
 /// [`EvaluationError`].
@@ -161,6 +165,7 @@ pub fn evaluate(
     mut shapes: DMatrix<f64>,
     training: bool,
     alignment: Alignment,
+    placement: Placement,
 ) -> Result<Evaluation, EvaluationError> {
     if model.kind() != Kind::Shape {
         return Err(EvaluationError::Kind { kind: model.kind() });
@@ -178,7 +183,10 @@ pub fn evaluate(
     if count < needed {
         return Err(EvaluationError::TooFew { found: count, needed });
     }
-    align(model, &mut shapes, alignment);
+    let placement = if training { Placement::Mean } else { placement };
+    if placement == Placement::Mean {
+        align(model, &mut shapes, alignment);
+    }
     let (method, folds) = match training {
         false => (Method::Test, 0),
         true if count <= MOST_ALONE => (Method::LeaveOneOut, count),
@@ -189,11 +197,20 @@ pub fn evaluate(
         false => model.mode_count(),
     };
     let modes = spread_counts(most);
+    let fitted = match placement {
+        Placement::Fit => {
+            let (distances, placed) = along_with_the_fit(model, &shapes, &modes, alignment);
+            shapes = placed;
+            Some(distances)
+        }
+        _ => None,
+    };
     let specific = nearest_distances(model, &shapes, &modes, SAMPLES, SEED);
-    let general = match training {
-        true => left_out_distances(dimension, shapes, folds, &modes, alignment)
+    let general = match (training, fitted) {
+        (true, _) => left_out_distances(dimension, shapes, folds, &modes, alignment)
             .map_err(EvaluationError::Model)?,
-        false => projection_distances(model, &shapes, &modes),
+        (false, Some(distances)) => distances,
+        (false, None) => projection_distances(model, &shapes, &modes),
     };
     let column = |rows: &[Vec<f64>]| -> (Vec<f64>, Vec<f64>) {
         let each = (0..modes.len()).map(|k| MeanError::of(rows.iter().map(|row| row[k])));
@@ -205,6 +222,7 @@ pub fn evaluate(
         shapes: count,
         method,
         folds,
+        placement,
         modes,
         generalization,
         generalization_error,
@@ -299,12 +317,13 @@ mod tests {
         let all = population(72);
         let few = all.columns(0, 24).into_owned();
         let model = model_of(&few);
-        let alone = evaluate(&model, 3, few.clone(), true, rigid).unwrap();
+        let alone = evaluate(&model, 3, few.clone(), true, rigid, Placement::Mean).unwrap();
         assert_eq!((alone.method, alone.folds), (Method::LeaveOneOut, 24), "few");
-        let tenths = evaluate(&model_of(&all), 3, all.clone(), true, rigid).unwrap();
+        let tenths =
+            evaluate(&model_of(&all), 3, all.clone(), true, rigid, Placement::Mean).unwrap();
         assert_eq!((tenths.method, tenths.folds, tenths.shapes), (Method::Folds, 10, 72), "many");
         let others = all.columns(24, 48).into_owned();
-        let test = evaluate(&model, 3, others, false, rigid).unwrap();
+        let test = evaluate(&model, 3, others, false, rigid, Placement::Mean).unwrap();
         assert_eq!((test.method, test.folds), (Method::Test, 0), "others");
         for found in [&alone, &tenths, &test] {
             let falls = found.generalization.windows(2).all(|pair| pair[1] <= pair[0] + 1e-12);
@@ -317,7 +336,7 @@ mod tests {
             assert_eq!(found.modes.len(), found.specificity_error.len(), "as many errors");
         }
         // A shape is near itself where it is not left out: what leave-one-out is for.
-        let itself = evaluate(&model, 3, few, false, rigid).unwrap();
+        let itself = evaluate(&model, 3, few, false, rigid, Placement::Mean).unwrap();
         assert!(itself.generalization[9] < 0.8 * alone.generalization[9], "trained on them");
         assert_eq!(itself.specificity[..5], alone.specificity[..5], "the same random shapes");
     }
@@ -329,7 +348,9 @@ mod tests {
         larger *= 2.0;
         let model = model_of(&shapes);
         let of = |shapes: &DMatrix<f64>, alignment| {
-            evaluate(&model, 3, shapes.clone(), false, alignment).unwrap().generalization[0]
+            evaluate(&model, 3, shapes.clone(), false, alignment, Placement::Mean)
+                .unwrap()
+                .generalization[0]
         };
         let small = of(&shapes, Alignment::Similarity);
         let large = of(&larger, Alignment::Similarity);
@@ -342,7 +363,8 @@ mod tests {
         let shapes = population(6);
         let model = model_of(&shapes);
         let fault = |model: &LinearModel, dimension, shapes: DMatrix<f64>, training| {
-            let found = evaluate(model, dimension, shapes, training, Alignment::Rigid);
+            let found =
+                evaluate(model, dimension, shapes, training, Alignment::Rigid, Placement::Fit);
             found.map(|_| ()).unwrap_err().to_string()
         };
         assert_eq!(

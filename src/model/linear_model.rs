@@ -450,6 +450,32 @@ impl LinearModel {
         }
     }
 
+    /// The mirror image: x of every point changes its sign, and faces are wound the other way. A model of colours stays.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        if self.kind == Kind::Color {
+            return self.clone();
+        }
+        let dimension = self.dimension;
+        let mut mirrored = self.clone();
+        reflect(mirrored.mean.as_mut_slice(), dimension);
+        for mut mode in Arc::make_mut(&mut mirrored.basis).column_iter_mut() {
+            reflect(mode.as_mut_slice(), dimension);
+        }
+        if let Cells::Triangles(triangles) = &mut mirrored.cells {
+            triangles.iter_mut().for_each(|triangle| triangle.swap(1, 2));
+        }
+        mirrored.training = self.training_shapes().map(|shapes| {
+            let shapes = shapes.clone().mirrored(dimension);
+            Arc::new(if self.training_shapes().is_some_and(|own| own.shares(&self.basis)) {
+                shapes.with_directions(Arc::clone(&mirrored.basis))
+            } else {
+                shapes
+            })
+        });
+        mirrored
+    }
+
     /// The model of the first `modes` modes (all of them when there are fewer).
     #[must_use]
     pub fn truncated(&self, modes: usize) -> Self {
@@ -591,6 +617,11 @@ impl LinearModel {
         });
         moved
     }
+}
+
+/// Changes the sign of x of interleaved points or directions.
+pub(super) fn reflect(points: &mut [f64], dimension: usize) {
+    points.iter_mut().step_by(dimension).for_each(|x| *x = -*x);
 }
 
 /// √ of the sum of every point's squares.

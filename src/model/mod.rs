@@ -30,6 +30,7 @@ pub use normals::vertex_normals;
 pub use points::evenly_spread;
 pub(crate) use population::into_principal_components;
 pub use population::{generalised_procrustes, model_of_population, principal_components};
+pub(crate) use procrustes::Moment;
 pub use procrustes::{Alignment, Similarity, align_to, procrustes};
 pub use side::{Side, Sides};
 pub(crate) use specimens::look;

@@ -161,7 +161,15 @@ pub fn procrustes(
             }
         }
     }
-    let svd = thin_svd(&moment);
+    let (scale, rotation) = turn_and_scale(&moment, spread, alignment);
+    let translation = DVector::from_vec(to) - &rotation * DVector::from_vec(from) * scale;
+    Similarity { scale, rotation, translation }
+}
+
+/// s and R from M = Σ (a_v − ā)(b_v − b̄)ᵀ and Σ‖b_v − b̄‖².
+fn turn_and_scale(moment: &DMatrix<f64>, spread: f64, alignment: Alignment) -> (f64, DMatrix<f64>) {
+    let dimension = moment.nrows();
+    let svd = thin_svd(moment);
     let (left, right) = (complete(svd.left), svd.right);
     let handedness = (&left * right.transpose()).determinant().signum();
     let mut signs = DVector::from_element(dimension, 1.0);
@@ -172,8 +180,62 @@ pub fn procrustes(
     } else {
         1.0
     };
-    let translation = DVector::from_vec(to) - &rotation * DVector::from_vec(from) * scale;
-    Similarity { scale, rotation, translation }
+    (scale, rotation)
+}
+
+/// What Procrustes analysis needs of points a_v and of points b_v about their centroid: it is linear in the a_v, so that
+/// the moment of a sum of shapes is the sum of their moments.
+#[derive(Debug, Clone)]
+pub(crate) struct Moment {
+    matrix: DMatrix<f64>,
+    sum: DVector<f64>,
+    spread: f64,
+    points: f64,
+}
+
+impl Moment {
+    /// Of interleaved points a and b, the latter about their centroid.
+    pub(crate) fn of(target: &[f64], centred: &[f64], dimension: usize) -> Self {
+        let mut matrix = DMatrix::zeros(dimension, dimension);
+        let mut sum = DVector::zeros(dimension);
+        for (a, b) in target.chunks_exact(dimension).zip(centred.chunks_exact(dimension)) {
+            for row in 0..dimension {
+                sum[row] += a[row];
+                for column in 0..dimension {
+                    matrix[(row, column)] += a[row] * b[column];
+                }
+            }
+        }
+        let spread = centred.iter().map(|value| value * value).sum();
+        Self { matrix, sum, spread, points: (target.len() / dimension) as f64 }
+    }
+
+    /// Adds a multiple of other points a.
+    pub(crate) fn add(&mut self, factor: f64, other: &Self) {
+        self.matrix += factor * &other.matrix;
+        self.sum.axpy(factor, &other.sum, 1.0);
+    }
+
+    /// Σ a_v b_vᵀ.
+    pub(crate) fn matrix(&self) -> &DMatrix<f64> {
+        &self.matrix
+    }
+
+    /// Σ a_v.
+    pub(crate) fn sum(&self) -> &DVector<f64> {
+        &self.sum
+    }
+
+    /// ā.
+    pub(crate) fn centre(&self) -> DVector<f64> {
+        &self.sum / self.points
+    }
+
+    /// The transformation that brings the b_v nearest to the a_v.
+    pub(crate) fn similarity(&self, alignment: Alignment) -> Similarity {
+        let (scale, rotation) = turn_and_scale(&self.matrix, self.spread, alignment);
+        Similarity { scale, rotation, translation: self.centre() }
+    }
 }
 
 /// Fills columns that are zero (points on a line or plane) with unit vectors orthogonal to the rest.

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
+use super::linear_model::reflect;
 use super::{Alignment, Kind, LinearModel};
 use crate::linalg::{cross, product};
 
@@ -109,6 +110,14 @@ impl TrainingShapes {
         self
     }
 
+    pub(super) fn mirrored(mut self, dimension: usize) -> Self {
+        reflect(self.mean.as_mut_slice(), dimension);
+        for mut direction in Arc::make_mut(&mut self.directions).column_iter_mut() {
+            reflect(direction.as_mut_slice(), dimension);
+        }
+        self
+    }
+
     pub(super) fn scaled(&self, factor: f64) -> Self {
         let (mean, coefficients) = (&self.mean * factor, &self.coefficients * factor);
         Self { mean, coefficients, ..self.clone() }
@@ -194,7 +203,7 @@ impl LinearModel {
     }
 
     /// Whether no mode translates or rotates the mean: shapes that were moved onto their mean leave no such variation.
-    fn is_aligned(&self) -> bool {
+    pub(crate) fn is_aligned(&self) -> bool {
         /// Of the variance; programs that align to a reference leave a little.
         const LEAST: f64 = 1e-3;
         if self.kind() != Kind::Shape {

@@ -8,10 +8,11 @@
 //!    map into the full mesh, or pairs from a file. Registering two different meshes would be one more
 //!    variant of that type, and nothing else would change.
 //! 2. **unit** – a unit declared where the file states none, and B scaled into the unit of A;
-//! 3. **rebase** – the modes of one model put on the mean of the other;
-//! 4. **alignment** of B to A ([`Alignment`]);
-//! 5. **modes** – the first k, or as many as hold a share of the variance;
-//! 6. **subsample** – fewer points, evenly spread over the mean of A, for a run in less time.
+//! 3. **mirror** – the mirror image of B instead of B: a right side compared with a left one;
+//! 4. **rebase** – the modes of one model put on the mean of the other;
+//! 5. **alignment** of B to A ([`Alignment`]);
+//! 6. **modes** – the first k, or as many as hold a share of the variance;
+//! 7. **subsample** – fewer points, evenly spread over the mean of A, for a run in less time.
 //!
 //! **Limits.** Restricting and subsampling make the thin SVD anew, so that coefficients before and after
 //! do not correspond one to one.
@@ -36,6 +37,9 @@ pub struct Preparation {
     pub b: SidePreparation,
     /// Whether B is scaled into the unit of A.
     pub convert: bool,
+    /// Whether B is mirrored: x of every point and mode changes its sign. Alignment then brings it to A.
+    #[serde(default)]
+    pub mirror: bool,
     /// Which points are compared; all of them, in order, when left out.
     pub points: Option<PointSelection>,
     /// Compare at most so many points.
@@ -350,6 +354,9 @@ impl Preparation {
         b = b.clone().with_unit(self.b.unit.unwrap_or(b.unit()));
         if factor != 1.0 {
             b = b.scaled(factor).with_unit(a.unit());
+        }
+        if self.mirror {
+            b = b.mirrored();
         }
         if self.a.rebase {
             a = rebased(&a, &b);

@@ -3,6 +3,8 @@
 //! **Limits.** Both models must have the same points in the same order once they are prepared
 //! ([`Preparation`]). Different meshes need a correspondence first, which is part of that.
 
+use core::f64::consts::PI;
+
 use super::error::PairError;
 use super::preparation::{Preparation, PreparedModels};
 use super::{Joint, ResidualOperator};
@@ -60,8 +62,9 @@ impl Pair {
         let stated = stated.iter().sum::<f64>() / stated.len().max(1) as f64;
         let square = self.cut_variance / (2.0 * self.a.point_count() as f64)
             + stated * self.a.dimension() as f64;
-        // E‖·‖ over root mean square, of isotropic vectors in the plane and in space.
-        let ratio = if self.a.dimension() == 2 { 0.886 } else { 0.921 };
+        // E‖·‖ over root mean square, of isotropic vectors in the plane and in space: √π/2 and √(8/3π).
+        let ratio =
+            if self.a.dimension() == 2 { PI.sqrt() / 2.0 } else { (8.0 / (3.0 * PI)).sqrt() };
         (square > 0.0).then(|| ratio * square.sqrt())
     }
 

@@ -79,7 +79,12 @@ struct Tail {
 impl Tail {
     /// Of relative log weights.
     fn of(logs: &[f64]) -> Option<Self> {
+        /// Weights that differ by less are equal but for rounding: their tail says nothing.
+        const ROUNDING: f64 = 1e-9;
         let count = logs.len() as f64;
+        if logs.iter().all(|log| log.abs() <= ROUNDING) {
+            return None;
+        }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 ≤ M ≤ N")]
         let size = (count / 5.0).min(3.0 * count.sqrt()).ceil() as usize;
         if size < LEAST_TAIL || size >= logs.len() {

@@ -80,8 +80,8 @@ pub struct Rejection {
     wanted: usize,
     most_proposals: u64,
     block: usize,
-    /// Σw and Σw².
-    sums: (f64, f64),
+    /// Of w.
+    running: Running,
     /// (w, E t/t) of the first proposals.
     proposals: Vec<(f64, f64)>,
     draws: Draws,
@@ -111,7 +111,7 @@ impl Rejection {
             wanted,
             most_proposals,
             block: 0,
-            sums: (0.0, 0.0),
+            running: Running::default(),
             proposals: Vec::new(),
             draws,
         }
@@ -142,8 +142,7 @@ impl Rejection {
         {
             // g ≤ t up to the rounding of either.
             let accepted = if share < *bound { share / bound } else { 1.0 };
-            self.sums.0 += accepted;
-            self.sums.1 += accepted * accepted;
+            self.running.add(accepted);
             if self.proposals.len() < REMEMBERED {
                 self.proposals.push((accepted, self.envelope.mean() / bound));
             }
@@ -179,7 +178,7 @@ impl Rejection {
 
     /// E g with its standard error; zeros before there are proposals.
     pub fn probability(&self) -> (f64, f64) {
-        let (mean, error) = mean_and_error(self.draws.proposed as f64, self.sums);
+        let (mean, error) = self.running.mean_and_error();
         (mean * self.envelope.mean(), error * self.envelope.mean())
     }
 
@@ -199,11 +198,11 @@ impl Rejection {
         let smaller = ratios.clone().filter(|(tilted, prior)| tilted < prior);
         // −∂ overlap/∂ log E_t w.
         let slope = smaller.map(|(tilted, _)| tilted).sum::<f64>() / count;
-        let sums = ratios.fold((0.0, 0.0), |(sum, squares), (tilted, prior)| {
-            let value = tilted.min(prior) - slope * (tilted - 1.0);
-            (sum + value, squares + value * value)
-        });
-        mean_and_error(count, sums)
+        let mut running = Running::default();
+        for (tilted, prior) in ratios {
+            running.add(tilted.min(prior) - slope * (tilted - 1.0));
+        }
+        running.mean_and_error()
     }
 
     /// What was accepted, as one chain of independent draws.
@@ -212,15 +211,31 @@ impl Rejection {
     }
 }
 
-/// Mean of independent values with its standard error, from their number, sum and sum of squares; zeros
-/// for fewer than two.
-fn mean_and_error(count: f64, (sum, squares): (f64, f64)) -> (f64, f64) {
-    if count < 2.0 {
-        return (0.0, 0.0);
+/// Mean and squared deviations of independent values as they come: near 1 with all but a few digits in common they would
+/// be lost in E w² − (E w)² (Welford, "Note on a method for calculating corrected sums of squares and products",
+/// Technometrics 4, 1962).
+#[derive(Debug, Clone, Copy, Default)]
+struct Running {
+    count: f64,
+    mean: f64,
+    squares: f64,
+}
+
+impl Running {
+    fn add(&mut self, value: f64) {
+        self.count += 1.0;
+        let before = value - self.mean;
+        self.mean += before / self.count;
+        self.squares += before * (value - self.mean);
     }
-    let mean = sum / count;
-    let variance = (squares / count - mean * mean).max(0.0) * count / (count - 1.0);
-    (mean, (variance / count).sqrt())
+
+    /// The mean with its standard error; zeros for fewer than two.
+    fn mean_and_error(&self) -> (f64, f64) {
+        if self.count < 2.0 {
+            return (0.0, 0.0);
+        }
+        (self.mean, (self.squares / (self.count - 1.0) / self.count).sqrt())
+    }
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use wasm_bindgen::prelude::*;
 
 use super::{Engine, blobs, parsed, plain, thrown};
 use crate::files::{self, RunFile, Sources};
+use crate::formats::Reading;
 use crate::model::Side;
 
 /// Which model the page means.
@@ -46,7 +47,7 @@ impl Engine {
     }
 
     /// Generalization and specificity of a model, by shapes that test it (`[{ name, blob }]`) or by those
-    /// that it was made of (`training`).
+    /// that it was made of (`training`); `placement` says how test shapes are placed.
     ///
     /// # Errors
     /// `{ code, message, hint }` when the shapes cannot be read or are not like those of the model.
@@ -56,10 +57,12 @@ impl Engine {
         model: u32,
         #[wasm_bindgen(unchecked_param_type = "DroppedFile[]")] shapes: &Array,
         training: bool,
+        #[wasm_bindgen(unchecked_param_type = "Placement")] placement: JsValue,
     ) -> Result<JsValue, JsValue> {
+        let placement = serde_wasm_bindgen::from_value(placement).unwrap_or_default();
         let model = self.model(model)?;
         let inputs = blobs::inputs(shapes, None)?;
-        let evaluation = files::evaluate(model, &inputs, training);
+        let evaluation = files::evaluate(model, &inputs, training, placement, &Reading::default());
         blobs::release();
         evaluation.map(|evaluation| plain(&evaluation)).map_err(thrown)
     }

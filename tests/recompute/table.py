@@ -10,10 +10,6 @@ STORED = 2e-5  # of draws that are stored in single precision
 # Fields whose numbers are wrong or worse than stated, reported and not yet corrected. One that is corrected may stay here
 # until it is taken out: agreeing is never a fault.
 KNOWN = {
-    "intersection.disagreement.grassmann": "about the mean of A as origin, where d_G elsewhere is about that of the coordinates",
-    "reach.meeting": "its solver stops too early: up to 2 % above the least distance",
-    "intersection.tolerance.meeting": "its solver stops too early: up to 2 % above the least distance",
-    "sigma from the meeting": "its solver stops too early: up to 2 % above the least distance",
 }
 
 

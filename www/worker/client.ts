@@ -288,8 +288,9 @@ export class EngineClient {
     model: Handle,
     files: DroppedFile[],
     training: boolean,
+    placement: Placement,
   ): Promise<Evaluation> {
-    const request = { t: "evaluate", model, files, training } as const;
+    const request = { t: "evaluate", model, files, training, placement } as const;
     return (await this.#ask(signal, request, "evaluated")).evaluation;
   }
 

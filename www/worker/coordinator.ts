@@ -197,8 +197,9 @@ export class Coordinator {
         return { t: "related", id, relation: engine.relate(a, b, settings) };
       }
       case "evaluate": {
-        const { model, files, training } = message;
-        return { t: "evaluated", id, evaluation: engine.evaluate(model, files, training) };
+        const { model, files, training, placement } = message;
+        const evaluation = engine.evaluate(model, files, training, placement);
+        return { t: "evaluated", id, evaluation };
       }
       case "readRun":
         return { t: "run", id, run: engine.readRun(message.text) };

@@ -119,6 +119,8 @@ export type Preparation = {
   b: SidePreparation,
   /** Whether B is scaled into the unit of A. */
   convert: boolean,
+  /** Whether B is mirrored: x of every point and mode changes its sign. Alignment then brings it to A. */
+  mirror: boolean,
   /** Which points are compared; all of them, in order, when left out. */
   points: PointSelection | null,
   /** Compare at most so many points. */
@@ -374,6 +376,8 @@ export type MeanDistance = {
   rigid: number | null,
   /** With B moved and brought to the size of A. */
   similarity: number | null,
+  /** With the mirror image of B (of the mirrored B, B itself) moved rigidly. */
+  mirrored: number | null,
 };
 
 /** One step that can be taken, or taken back. */
@@ -442,6 +446,9 @@ export type RelationReport = {
 /** Whether the shapes are test shapes or training shapes. */
 export type Method = "test" | "leave-one-out" | "folds";
 
+/** How test shapes are placed. */
+export type Placement = "given" | "mean" | "fit";
+
 /** Generalization and specificity, for the first so many modes. */
 export type Evaluation = {
   /** Number of shapes. */
@@ -450,6 +457,8 @@ export type Evaluation = {
   method: Method,
   /** How many models were built for the cross-validation. */
   folds: number,
+  /** How test shapes were placed before they were projected; those that are left out lie on the mean of the others. */
+  placement: Placement,
   /** Numbers of modes. */
   modes: Array<number>,
   /** Mean distance of the shapes from their projection. */

@@ -10,7 +10,7 @@ use shapevenn::pair::Pair;
 use shapevenn::report::{EvidenceReport, Hypothesis, StatisticName};
 use shapevenn::settings::Settings;
 
-use crate::numbers::plain;
+use crate::numbers::{beside, plain};
 use crate::{Failure, prepare, print_shapes, sources, to_json};
 
 #[derive(Debug, Args)]
@@ -96,7 +96,7 @@ pub(crate) fn print_in_words(found: &EvidenceReport, unit: &str) {
     if let Some(means) = means {
         println!(
             "The means are {} {unit} apart in root mean square; those of two random groups {} ± {} {unit}.",
-            plain(means.observed),
+            beside(means.observed, means.chance.mean),
             plain(means.chance.mean),
             plain(means.chance.standard_deviation)
         );
@@ -132,7 +132,7 @@ fn print_hypothesis(name: &str, hypothesis: &Hypothesis) {
         println!(
             "    {:18} {:>10}  {:>8} ± {:>8}  {:.4} ± {:.4}  {:.4}",
             one.name.in_json(),
-            plain(one.observed),
+            beside(one.observed, one.chance.mean),
             plain(one.chance.mean),
             plain(one.chance.standard_deviation),
             one.p,

@@ -16,7 +16,7 @@ const OF_ONE: [(&str, Written); 3] =
     [("unit", Written::Word), ("modes", Written::Count), ("variance", Written::Percent)];
 
 /// Keys of what is done to both models.
-const OF_BOTH: [&str; 4] = ["rebase", "convert", "points", "subsample"];
+const OF_BOTH: [&str; 5] = ["rebase", "convert", "mirror", "points", "subsample"];
 
 /// The pair that a link means which names none, and the σ of its stored comparison.
 const FIRST: (&str, f64) = ("heads-sex", 1.0);
@@ -124,6 +124,7 @@ impl Link {
             "a": side('a')?,
             "b": side('b')?,
             "convert": self.get("convert") == Some("yes"),
+            "mirror": self.get("mirror") == Some("yes"),
             "points": points,
             "subsample": subsample,
         }))

@@ -26,7 +26,7 @@ use std::time::Instant;
 use clap::{Args, Parser, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use link::Link;
-use numbers::plain;
+use numbers::{beside, nats, plain};
 use setting_options::SettingOptions;
 use shapevenn::comparison::{Comparison, Stage};
 use shapevenn::error::ComparisonError;
@@ -255,7 +255,7 @@ fn info(named: &[String], reading: &reading::OfOne, json: bool) -> Result<(), Fa
         for step in &model.applied {
             println!("  note: {}", step.sentence);
         }
-        reading::print_findings("--read", &model.findings);
+        reading::print_findings("  ", "--read", &model.findings);
     }
     failed.map_or(Ok(()), Err)
 }
@@ -474,6 +474,8 @@ fn write_all(
 }
 
 fn print_in_words(report: &Report) {
+    /// Less variance than this in the modes that are kept is said.
+    const ALL_BUT_A_LITTLE: f64 = 0.995;
     let unit = report.models.a.unit.symbol();
     let share = |value: f64| 100.0 * value;
     println!("A  {} ({} modes)", report.models.a.name, report.models.a.modes);
@@ -498,11 +500,17 @@ fn print_in_words(report: &Report) {
     );
     print_distances(report);
     let both = &report.intersection;
+    let kept = if both.variance_kept < ALL_BUT_A_LITTLE {
+        format!(" with {:.1} % of its variance", share(both.variance_kept))
+    } else {
+        String::new()
+    };
     println!(
-        "A∩B  {} modes; its shapes lie {} ± {} {unit} from both models.",
+        "A∩B  {} {}{kept}; its shapes lie {} ± {} {unit} from both models.",
         both.modes,
-        plain(both.mean_distance.mean),
-        plain(both.mean_distance.sd)
+        if both.modes == 1 { "mode" } else { "modes" },
+        beside(both.mean_distance.mean, report.models.a.size),
+        beside(both.mean_distance.sd, report.models.a.size)
     );
     for (name, part) in
         [("A\\B", &report.differences.a_without_b), ("B\\A", &report.differences.b_without_a)]
@@ -546,7 +554,8 @@ fn print_shapes(name: &str, model: &ModelReport) {
     for step in &model.applied {
         println!("{name}  {}", step.sentence);
     }
-    reading::print_findings(if name == "A" { "--read-a" } else { "--read-b" }, &model.findings);
+    let option = if name == "A" { "--read-a" } else { "--read-b" };
+    reading::print_findings(&format!("{name}  "), option, &model.findings);
     if let Some(shapes) = model.shapes.as_ref().filter(|shapes| shapes.name.is_some()) {
         println!("{name}  {}", shapes.sentence());
     }
@@ -608,10 +617,10 @@ fn print_distances(report: &Report) {
     let unit = report.models.a.unit.symbol();
     if let Some(divergence) = &report.overlap.kullback_leibler {
         println!(
-            "Bhattacharyya {:.2}, KL(A‖B) {:.2}, KL(B‖A) {:.2} nats, with noise of {} {unit}.",
-            report.overlap.bhattacharyya,
-            divergence.a_from_b,
-            divergence.b_from_a,
+            "Bhattacharyya {}, KL(A‖B) {}, KL(B‖A) {} nats, with noise of {} {unit}.",
+            nats(report.overlap.bhattacharyya),
+            nats(divergence.a_from_b),
+            nats(divergence.b_from_a),
             plain(report.overlap.bhattacharyya_noise)
         );
     }

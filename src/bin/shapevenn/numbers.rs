@@ -16,9 +16,28 @@ pub(crate) fn plain(value: f64) -> String {
     }
 }
 
+/// The same, but 0 for what is rounding beside numbers of this scale.
+pub(crate) fn beside(value: f64, scale: f64) -> String {
+    const ROUNDING: f64 = 1e-9;
+    if value.abs() <= ROUNDING * scale.abs() { "0".to_owned() } else { plain(value) }
+}
+
+/// A divergence in nats: two decimals from 1 on, four digits below, 0 where it is rounding.
+pub(crate) fn nats(value: f64) -> String {
+    if value.abs() >= 1.0 { format!("{value:.2}") } else { beside(value, 1.0) }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::plain;
+    use super::{beside, nats, plain};
+
+    #[test]
+    fn rounding_is_shown_as_nothing() {
+        assert_eq!(beside(6.9e-15, 1.7), "0", "beside what chance makes");
+        assert_eq!(beside(6.9e-15, 1e-14), "6.900e-15", "of its own scale");
+        assert_eq!(nats(-1e-12), "0", "never -0.00");
+        assert_eq!([nats(0.0123), nats(12.345)], ["0.01230", "12.35"], "digits");
+    }
 
     #[test]
     fn numbers_keep_their_digits_at_any_scale() {

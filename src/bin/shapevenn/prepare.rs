@@ -32,6 +32,9 @@ pub(crate) struct Arguments {
     /// Scale B into the unit of A
     #[arg(long)]
     convert_units: bool,
+    /// Compare the mirror image of B, as of a right side with a left one; combine with --align
+    #[arg(long)]
+    mirror: bool,
     /// Put the modes of this model on the mean of the other: a or b
     #[arg(long, value_name = "MODEL", value_parser = ["a", "b"])]
     rebase: Option<String>,
@@ -120,6 +123,7 @@ impl Arguments {
             a: side(self.unit_a, "a"),
             b: side(self.unit_b, "b"),
             convert: self.convert_units,
+            mirror: self.mirror,
             points,
             subsample: self.subsample,
         })

@@ -64,9 +64,9 @@ pub(crate) fn parsed(text: &str) -> Result<Reading, Failure> {
 }
 
 /// Prints what a person should look at, with the words that choose otherwise.
-pub(crate) fn print_findings(option: &str, findings: &[Finding]) {
+pub(crate) fn print_findings(before: &str, option: &str, findings: &[Finding]) {
     for finding in findings {
-        println!("  {} {}", if finding.doubt { "!" } else { "note:" }, finding.message);
+        println!("{before}{} {}", if finding.doubt { "!" } else { "note:" }, finding.message);
         for choice in &finding.choices {
             println!("      {option} \"{}\"   {}", choice.reading, choice.label);
         }

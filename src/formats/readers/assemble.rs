@@ -99,7 +99,8 @@ pub(crate) fn assemble(ingredients: Ingredients) -> Result<Assembled, Fault> {
         reading,
     } = ingredients;
     let mut notes = Vec::new();
-    let Mean { values: mut mean_values, stated, by_points, interleaved } = mean_vector(mean, &mut notes)?;
+    let Mean { values: mut mean_values, stated, by_points, interleaved } =
+        mean_vector(mean, &mut notes)?;
     let basis_sides = basis.array.shape.clone();
     let mut scaled = columns(basis, mean_values.len())?;
     let mut findings = Vec::new();

@@ -1,7 +1,7 @@
 /** Asks the engine for generalization and specificity of a model, as Davies defines them, with given shapes. */
 import { type Signal, signal } from "@preact/signals";
 import { EngineFailure, sentenceOf } from "../../worker/engine-errors";
-import type { DroppedFile, Evaluation, Side } from "../../worker/protocol";
+import type { DroppedFile, Evaluation, Placement, Side } from "../../worker/protocol";
 import { engineClient } from "../state/engine";
 import { slotKey, slots, spoken } from "../state/state";
 import { evaluationSentence } from "./measured";
@@ -18,6 +18,8 @@ export const evaluated: Record<Side, Signal<Evaluated | null>> = {
   a: signal(null),
   b: signal(null),
 };
+/** How test shapes are placed before they are projected. */
+export const placement = signal<Placement>("fit");
 export const evaluating: Record<Side, Signal<boolean>> = { a: signal(false), b: signal(false) };
 
 /** The training shapes of a model, where the page still has them. */
@@ -37,7 +39,13 @@ export async function evaluate(side: Side, files: DroppedFile[], training: boole
   spoken.value = `Testing model ${name}.`;
   try {
     const { signal: kept } = new AbortController();
-    const evaluation = await engineClient().evaluate(kept, slot.model, files, training);
+    const evaluation = await engineClient().evaluate(
+      kept,
+      slot.model,
+      files,
+      training,
+      placement.value,
+    );
     evaluated[side].value = { ...about, evaluation, problem: null };
     spoken.value = evaluationSentence(evaluation, name, about.unit);
   } catch (thrown) {

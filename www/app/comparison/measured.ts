@@ -1,5 +1,5 @@
 /** Sentences and tables about the measures of a pair: angles, compactness, splitting, generalization. Pure. */
-import type { Evaluation, Report } from "../../worker/protocol";
+import type { Evaluation, Placement, Report } from "../../worker/protocol";
 import type { Nouns } from "../state/demos";
 import { count, degrees, length, number, percent } from "../text/format";
 import { type Phrase, reported } from "../text/phrase";
@@ -75,9 +75,16 @@ export const SPLITTING_SENTENCES =
   "Linear splitting (Hall, Marshall & Martin 2000) treats a model as a mixture of A∩B, with its weight, and a Gaussian remainder: mean and covariance of the remainder then follow without draws. " +
   "The model is not such a mixture. In directions where A∩B has more variance than the mixture allows, the remainder gets negative variance, which no distribution has; the larger the negative share, the less the remainder describes shapes.";
 
+/** How test shapes are placed, in words. */
+export const PLACEMENTS: Record<Placement, string> = {
+  fit: "moved along with the fit",
+  mean: "moved onto the mean",
+  given: "placed as they are given",
+};
+
 const METHODS: Record<Evaluation["method"], (evaluation: Evaluation) => string> = {
-  test: ({ shapes }) =>
-    `${count(shapes)} test ${shapes === 1 ? "shape" : "shapes"} that the model was not computed from.`,
+  test: ({ shapes, placement }) =>
+    `${count(shapes)} test ${shapes === 1 ? "shape" : "shapes"} that the model was not computed from, ${PLACEMENTS[placement]}.`,
   "leave-one-out": ({ shapes }) =>
     `The ${count(shapes)} training shapes: each is left out in turn and the model computed from the others.`,
   folds: ({ shapes, folds }) =>

@@ -84,6 +84,11 @@ export const GROUPS: Group[] = [
     rows: [
       { label: "Modes", metrics: ["intersection.modes"], show: (value) => count(value) },
       {
+        label: "Variance in these modes",
+        metrics: ["intersection.varianceKept"],
+        show: (value) => percent(value),
+      },
+      {
         label: "Distance to the other model",
         metrics: ["intersection.meanDistance.mean"],
         show: inUnit,

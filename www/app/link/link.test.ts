@@ -50,6 +50,7 @@ test("what is written is read back, for every field", () => {
         a: { unit: "mm" as const, modes: 12, variance: null, rebase: false },
         b: { unit: "µm" as const, modes: null, variance: 0.95, rebase: true },
         convert: true,
+        mirror: true,
         points: { by: "region" as const, ranges: "0-99,120,130-140" },
         subsample: 2000,
       },

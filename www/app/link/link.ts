@@ -59,7 +59,7 @@ export const LINK_VERSION = 1;
 /** The keys of a link that are settings of the run. */
 export const SETTING_KEYS = [
   ...FIELDS.map(({ key }) => key),
-  ..."unit-a unit-b modes-a modes-b variance-a variance-b rebase convert points subsample".split(
+  ..."unit-a unit-b modes-a modes-b variance-a variance-b rebase convert mirror points subsample".split(
     " ",
   ),
 ];
@@ -177,6 +177,7 @@ function preparationPairs(prepare: Preparation): [string, string | number][] {
   const rebased = (["a", "b"] as const).filter((side) => prepare[side].rebase).join("");
   if (rebased !== "") pairs.push(["rebase", rebased]);
   if (prepare.convert) pairs.push(["convert", "yes"]);
+  if (prepare.mirror) pairs.push(["mirror", "yes"]);
   const { points, subsample } = prepare;
   if (points?.by === "map") pairs.push(["points", "map"]);
   if (points?.by === "region" && fitsLink(points)) pairs.push(["points", points.ranges]);
@@ -288,6 +289,7 @@ function readPreparation(given: URLSearchParams): Preparation {
     a: side("a"),
     b: side("b"),
     convert: given.get("convert") === "yes",
+    mirror: given.get("mirror") === "yes",
     points:
       points === "map" ? { by: "map" } : ranges === "invalid" ? null : { by: "region", ranges },
     subsample: count("subsample", SUBSAMPLE),

@@ -67,12 +67,13 @@ export function commandOf(settings: Settings, models: Sides<CommandModel>): Comm
 
 /** Flags for the preparation of the models; settings without a flag go to `missing`. */
 function preparation({ prepare }: Settings, missing: string[]): string[] {
-  const { a, b, convert, points, subsample } = prepare;
+  const { a, b, convert, mirror, points, subsample } = prepare;
   const words: string[] = [];
   const eitherSide = (say: (side: SidePreparation) => boolean) => say(a) || say(b);
   if (a.unit !== null) words.push("--unit-a", a.unit);
   if (b.unit !== null) words.push("--unit-b", b.unit);
   if (convert) words.push("--convert-units");
+  if (mirror) words.push("--mirror");
   if (eitherSide(({ modes }) => modes !== null)) missing.push("a number of modes for one model");
   if (a.variance !== null && a.variance === b.variance) {
     words.push("--variance", String(a.variance));

@@ -15,6 +15,7 @@ export const UNPREPARED: Preparation = {
   a: AS_IT_IS,
   b: AS_IT_IS,
   convert: false,
+  mirror: false,
   points: null,
   subsample: null,
 };
@@ -50,6 +51,7 @@ export function withoutSides(prepare: Preparation, sides: Record<"a" | "b", bool
     a: sides.a ? AS_IT_IS : prepare.a,
     b: sides.b ? AS_IT_IS : prepare.b,
     convert: false,
+    mirror: false,
     points: null,
   };
 }
@@ -84,6 +86,7 @@ export function preparationWords(prepare: Preparation): string[] {
     if (rebase) words.push(`modes of ${name} on the mean of ${other}`);
   }
   if (prepare.convert) words.push("B converted to A’s unit");
+  if (prepare.mirror) words.push("B mirrored");
   if (prepare.points) words.push(pointsText(prepare.points));
   if (prepare.subsample !== null) words.push(`at most ${count(prepare.subsample)} points`);
   return words;

@@ -4,14 +4,16 @@ import {
   evaluate,
   evaluated,
   evaluating,
+  placement,
   trainingFiles,
 } from "../../comparison/evaluating";
-import { evaluationSentence, methodSentence } from "../../comparison/measured";
+import { evaluationSentence, methodSentence, PLACEMENTS } from "../../comparison/measured";
 import { SIDES, slotKey, slots } from "../../state/state";
 import { number } from "../../text/format";
 import { type Curve, CurveChart } from "../../ui/Curves";
 import { DataTable } from "../../ui/DataTable";
 import { FileButton } from "../../ui/FileButton";
+import { Select } from "../../ui/Select";
 
 /** Computes generalization and specificity of each model, with test shapes or with its training shapes. */
 export function Evaluations() {
@@ -24,6 +26,17 @@ export function Evaluations() {
         (Davies), and both need shapes: meshes or landmarks with the model’s points in the same
         order.
       </p>
+      <Select
+        label="How test shapes are placed"
+        value={placement.value}
+        options={(["fit", "mean", "given"] as const).map((one) => [
+          one,
+          `Test shapes are ${PLACEMENTS[one]}`,
+        ])}
+        onChoose={(one) => {
+          placement.value = one;
+        }}
+      />
       <div class="charts">
         {SIDES.map((side) => (
           <OfSide key={side} side={side} />
