@@ -4,6 +4,7 @@ use core::fmt;
 
 use crate::pair::PairError;
 use crate::settings::SettingsError;
+use crate::text::three_digits;
 
 /// Why a comparison cannot start or go on.
 #[derive(Debug, Clone, PartialEq)]
@@ -93,7 +94,8 @@ impl fmt::Display for ComparisonError {
             Self::Pair(error) => error.fmt(f),
             Self::Fit { side, sigma } => write!(
                 f,
-                "The numbers of model {side} overflow at σ = {sigma}: no intersection can be fitted."
+                "The numbers of model {side} overflow at σ = {}: no intersection can be fitted.",
+                three_digits(*sigma)
             ),
             Self::FlatIntersection => write!(
                 f,

@@ -133,7 +133,7 @@ fn of_pair(pair: &Pair, settings: &Settings) -> Relation {
         angles_degrees: overlap.principal_angles_degrees,
         mean_to_mean: overlap.mean_to_mean,
         bhattacharyya: Some(overlap.bhattacharyya).filter(|&value| value < f64::MAX),
-        noise,
+        noise: overlap.bhattacharyya_noise,
     }
 }
 
@@ -187,7 +187,11 @@ pub(crate) fn meeting_of(pair: &Pair) -> Option<Meeting> {
         .filter(|meeting| meeting.distance > (ROUNDING * pair.scale()).max(pair.rounding()))
 }
 
-/// What the report says of two models' spaces and variances.
+/// Noise of a smaller share of the largest standard deviation is lost in the rounding errors of the variances.
+const LEAST_NOISE: f64 = 1e-6;
+
+/// What the report says of two models' spaces and variances. Divergences are taken with noise that is at least
+/// [`LEAST_NOISE`] of the spread of the wider model, and the report says with which.
 pub(crate) fn overlap(
     pair: &Pair,
     operators: Sides<&ResidualOperator>,
@@ -199,6 +203,8 @@ pub(crate) fn overlap(
         (1.0 - operator.gram().trace() / model.total_variance()).clamp(0.0, 1.0)
     };
     let priors = Sides::each(|side| joint.prior(side));
+    let spread = a.standard_deviations().amax().max(b.standard_deviations().amax());
+    let noise = noise.max(LEAST_NOISE * spread);
     let divergence = |from: Side| {
         kullback_leibler(&priors[from], &priors[from.other()], noise).unwrap_or(f64::MAX)
     };

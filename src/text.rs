@@ -32,7 +32,7 @@ fn with_digits(value: f64, significant: f64) -> String {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 6")]
         let digits = digits as usize;
         format!("{value:.digits$}")
-    } else if digits < 0.0 {
+    } else if (-8.0..0.0).contains(&digits) {
         format!("{value:.0}")
     } else {
         format!("{value:.1e}")
@@ -56,7 +56,8 @@ mod tests {
             assert_eq!(thousands(number), text, "{number}");
         }
         assert_eq!([0.0, 12.3, 0.0149, 0.96].map(one_digit), ["0", "12", "0.01", "1.0"]);
-        let values = [0.0, 123.456, 12.345, 0.012_345, -1234.5, 1.24e-9];
-        assert_eq!(values.map(three_digits), ["0", "123", "12.3", "0.0123", "-1234", "1.2e-9"]);
+        let values = [0.0, 123.456, 12.345, 0.012_345, -1234.5, 1.24e-9, 1.24e30];
+        let expected = ["0", "123", "12.3", "0.0123", "-1234", "1.2e-9", "1.2e30"];
+        assert_eq!(values.map(three_digits), expected);
     }
 }

@@ -1013,3 +1013,45 @@ fn a_link_that_cannot_be_read_is_refused_in_words() {
     let both = shapevenn(&["compare", "--link", "v=1", "--sigma", "1"]);
     assert_eq!(both.status.code(), Some(2), "a link decides all settings");
 }
+
+#[test]
+fn texts_of_files_reach_a_terminal_without_control_characters() {
+    let folder = folder("control-characters");
+    let hostile = "\u{1b}[2J\u{9b}2Jσ\u{7}\n\u{202e}";
+    let write = |name: &str, bytes: Vec<u8>| {
+        let path = folder.join(name).to_string_lossy().into_owned();
+        std::fs::write(&path, bytes).unwrap();
+        path
+    };
+    let only_text = |bytes: &[u8]| {
+        let text = text(bytes);
+        let obeyed = |letter: char| letter.is_control() && letter != '\n' || letter == '\u{202e}';
+        assert!(!text.contains(obeyed), "{text:?}");
+        text
+    };
+    // The name of an array, in an error.
+    let array = formats::Array { shape: vec![2], data: Data::F64(vec![1.0, 2.0]) };
+    let named = write("arrays.npz", formats::write_arrays(&[(hostile, array)]));
+    let output = shapevenn(&["info", &named]);
+    assert_eq!(output.status.code(), Some(2));
+    let complaint = only_text(&output.stderr);
+    let shown = r"\u001b[2J\u009b2Jσ\u0007\u000a\u202e";
+    assert!(complaint.contains(shown), "{complaint}");
+    // A name in a JSON document, in an error.
+    let json = serde_json::json!({ hostile: { "mean": 1 }, "other": 2 });
+    let named = write("members.json", json.to_string().into_bytes());
+    let complaint = only_text(&shapevenn(&["info", &named]).stderr);
+    assert!(complaint.contains(shown), "{complaint}");
+    // The name of a model, in a report.
+    let model = shapevenn::files::open_demo("planes-a", None).unwrap().model.with_name(hostile);
+    let named = write("model.json", formats::write_json(&model).unwrap());
+    for arguments in [vec!["info", &named], vec!["compare", &named, &named, "--draws", "200"]] {
+        let output = shapevenn(&arguments);
+        let words = only_text(&output.stdout);
+        assert!(words.contains(shown), "{words}");
+    }
+    // JSON means the same as without escapes.
+    let output = shapevenn(&["info", &named, "--json"]);
+    let models: Vec<ModelReport> = serde_json::from_str(&only_text(&output.stdout)).unwrap();
+    assert_eq!(models[0].name, hostile);
+}

@@ -5,6 +5,7 @@
 mod common;
 
 mod answer;
+mod attacks;
 mod cli;
 mod closed_forms;
 mod conditions;

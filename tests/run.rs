@@ -178,6 +178,14 @@ fn settings_out_of_range_are_refused_with_the_range() {
             Settings { sigma: Some(f64::INFINITY), ..few() },
             "σ is inf; a positive number was expected.",
         ),
+        (
+            Settings { sigma: Some(1e200), ..few() },
+            "σ is 1e200; a number from 1e-40 to 1e40 was expected.",
+        ),
+        (
+            Settings { noise: Some(1e-300), ..few() },
+            "“noise” is 1e-300; a number from 1e-40 to 1e40 was expected.",
+        ),
         (Settings { chains: 1, ..few() }, "“chains” is 1; 2 to 1024 was expected."),
         (Settings { draws: 50, ..few() }, "“draws” is 50; 64 to 10000000 was expected."),
         (Settings { thin: 0, ..few() }, "“thin” is 0; 1 to 100000 was expected."),

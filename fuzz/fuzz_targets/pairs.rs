@@ -1,7 +1,5 @@
 #![no_main]
 use libfuzzer_sys::fuzz_target;
-use shapevenn::pair::PointSelection;
+use shapevenn_fuzz::read_pairs;
 
-fuzz_target!(|data: &[u8]| {
-    let _ = PointSelection::parse(&String::from_utf8_lossy(data));
-});
+fuzz_target!(|data: &[u8]| read_pairs(data));

@@ -3,11 +3,82 @@
 //! A reader is reached only when a file is recognised as its own. So every target forces what its
 //! format is recognised by onto the bytes, and leaves the rest to the fuzzer. Valid files keep their
 //! meaning, so fixtures serve as seeds.
+//!
+//! What is opened is watched: besides panics, more than [`LONGEST`] and more memory than [`MOST_TIMES`] the bytes of the
+//! files and a constant ([`ALWAYS`], [`ALWAYS_UNPACKED`]) are failures. A file that takes more than any before it is reported
+//! on standard error, which `scripts/fuzz.mjs` reads.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
+
+use peak_alloc::PeakAlloc;
 use shapevenn::formats::{self, Input, Options};
+use shapevenn::pair::PointSelection;
+
+#[global_allocator]
+static MEMORY: PeakAlloc = PeakAlloc;
+
+/// The longest that files of 100 kB may take.
+const LONGEST: Duration = Duration::from_secs(2);
+
+/// Memory that files may take, as a multiple of their bytes, besides a constant.
+const MOST_TIMES: usize = 4;
+
+/// What any file may take: indices and values are larger than the bytes that ask for them.
+const ALWAYS: usize = 16 << 20;
+
+/// The same of compressed files, any of which may unpack to 16 MiB; each byte may become a number in double precision.
+const ALWAYS_UNPACKED: usize = ALWAYS + 8 * (16 << 20);
+
+/// Opens files of these bytes, and fails where that takes too long or too much memory. What takes too long is opened twice
+/// more, and the least counts: the machine may have been at something else.
+fn watched(files: &[&[u8]], work: impl Fn()) {
+    static SLOWEST: AtomicU64 = AtomicU64::new(0);
+    static LARGEST: AtomicU64 = AtomicU64::new(0);
+    let bytes: usize = files.iter().map(|file| file.len()).sum();
+    let always =
+        if files.iter().any(|file| is_compressed(file)) { ALWAYS_UNPACKED } else { ALWAYS };
+    let before = MEMORY.current_usage();
+    MEMORY.reset_peak_usage();
+    let timed = || {
+        let begun = Instant::now();
+        work();
+        begun.elapsed()
+    };
+    let mut took = timed();
+    for _ in 0..2 {
+        if took > LONGEST {
+            took = took.min(timed());
+        }
+    }
+    let memory = MEMORY.peak_usage().saturating_sub(before);
+    let beyond = memory.saturating_sub(MOST_TIMES * bytes);
+    let record = |most: &AtomicU64, value: u64| most.fetch_max(value, Ordering::Relaxed) < value;
+    let slower = record(&SLOWEST, took.as_millis() as u64);
+    if record(&LARGEST, beyond as u64 / 100_000) || slower {
+        eprintln!(
+            "measured: slowest {} ms, memory {:.1} MB beyond {MOST_TIMES} times the file",
+            SLOWEST.load(Ordering::Relaxed),
+            LARGEST.load(Ordering::Relaxed) as f64 / 10.0
+        );
+    }
+    assert!(took <= LONGEST, "{bytes} bytes took {took:?}");
+    assert!(beyond <= always, "{bytes} bytes took {memory} bytes of memory");
+}
+
+/// Whether a file may hold compressed bytes: HDF5 and ZIP may begin behind others.
+fn is_compressed(file: &[u8]) -> bool {
+    const SIGNATURES: [&[u8]; 4] = [b"PK", b"HDF", b"MATLAB", b"comp"];
+    let begins = |at: usize| SIGNATURES.iter().any(|signature| file[at..].starts_with(signature));
+    file.starts_with(b"\x1f\x8b") || (0..file.len()).any(begins)
+}
 
 /// Opens a file and, if it can be read, its first parts.
 pub fn open(bytes: Vec<u8>) {
+    watched(&[&bytes], || open_parts(&bytes));
+}
+
+fn open_parts(bytes: &[u8]) {
     let input = [Input::of_bytes("file", bytes)];
     let Ok(opened) = formats::open(&input, &Options::default()) else { return };
     for part in opened.parts.into_iter().take(3) {
@@ -24,15 +95,24 @@ pub fn open_shapes(bytes: Vec<u8>) {
         *byte ^= 1;
     }
     let files = [bytes.clone(), bytes.clone(), third];
-    let name = |(index, bytes)| Input::of_bytes(format!("set/{index}"), bytes);
-    let inputs: Vec<Input> = files.into_iter().enumerate().map(name).collect();
-    let _ = formats::groups(&inputs);
-    let _ = formats::open(&inputs, &Options::default());
+    watched(&files.each_ref().map(Vec::as_slice), || {
+        let name = |(index, bytes): (usize, &Vec<u8>)| {
+            Input::of_bytes(format!("set/{index}"), bytes.as_slice())
+        };
+        let inputs: Vec<Input> = files.iter().enumerate().map(name).collect();
+        let _ = formats::groups(&inputs);
+        let _ = formats::open(&inputs, &Options::default());
+    });
     open(bytes);
 }
 
 /// Opens up to four files dropped together, of lengths that the first bytes say.
 pub fn open_group(data: &[u8]) {
+    // Compressed members may begin anywhere.
+    watched(&[data, b"PK"], || open_files(data));
+}
+
+fn open_files(data: &[u8]) {
     const NAMES: [[&str; 4]; 4] = [
         ["analysis.json", "mean.pts", "a.ply", "b.ply"],
         ["Exp_Pca.bin", "std_exp.txt", "readme.txt", "x"],
@@ -109,7 +189,10 @@ pub fn mat73(data: &[u8]) -> Vec<u8> {
 /// parts them.
 pub fn open_beside_mean(data: &[u8]) {
     let end = data.iter().position(|byte| *byte == b'=').unwrap_or(data.len());
-    let (modes, variances) = data.split_at(end);
+    watched(&[data], || open_tables(data.split_at(end)));
+}
+
+fn open_tables((modes, variances): (&[u8], &[u8])) {
     let inputs = [
         Input::of_bytes("x_mean.obj", b"v 0 0 0\nv 1 0 0\n".as_slice()),
         Input::of_bytes("x_pc_9_modes.csv", points(modes)),
@@ -117,6 +200,13 @@ pub fn open_beside_mean(data: &[u8]) {
     ];
     let _ = formats::groups(&inputs);
     let _ = formats::open(&inputs, &Options::default());
+}
+
+/// Reads a list of points or pairs.
+pub fn read_pairs(data: &[u8]) {
+    watched(&[data], || {
+        let _ = PointSelection::parse(&String::from_utf8_lossy(data));
+    });
 }
 
 /// A pickle of any protocol.

@@ -111,7 +111,11 @@ impl fmt::Display for LessonError {
             Self::NotOpen => write!(f, "No models are open in this lesson."),
             Self::Pair(error) => error.fmt(f),
             Self::Fit { side, sigma } => {
-                write!(f, "The Gaussian fit of side {side} overflows at σ = {sigma}.")
+                write!(
+                    f,
+                    "The Gaussian fit of side {side} overflows at σ = {}.",
+                    crate::text::three_digits(*sigma)
+                )
             }
             Self::Flat => {
                 write!(f, "The pooled draws do not vary, so that no model can be made of them.")

@@ -13,6 +13,13 @@ use crate::linalg::{gram, into_thin_svd};
 /// divides by the standard deviation.
 const SMALLEST_RELATIVE_DEVIATION: f64 = 1e-6;
 
+/// Largest coordinate of a mean or of a scaled mode. Meshes, draws and pictures hold lengths in single precision, which ends
+/// at 3·10³⁸, and the eighth power of this is still a number in double precision.
+pub(crate) const LARGEST_LENGTH: f64 = 1e30;
+
+/// A model none of whose modes moves a coordinate by as much has none that counts, for the same reasons.
+pub(crate) const SMALLEST_LENGTH: f64 = 1e-30;
+
 /// What the numbers of a model mean.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
@@ -144,6 +151,13 @@ pub enum ModelError {
     },
     /// All modes have zero variance, or there are none.
     NoVariance,
+    /// Lengths of no thing that is measured: as a rule numbers in another type or byte order than was read.
+    Magnitude {
+        /// "mean", "modes" or "points".
+        place: &'static str,
+        /// The largest length found.
+        found: f64,
+    },
     /// Cells point to vertices that do not exist.
     Cells {
         /// Indices that are too large.
@@ -167,6 +181,7 @@ impl ModelError {
             Self::BasisRows { .. } => "basis-shape",
             Self::NotFinite { .. } => "not-finite",
             Self::NoVariance => "no-variance",
+            Self::Magnitude { .. } => "magnitude",
             Self::Cells { .. } => "cells",
             Self::TooFewShapes { .. } => "too-few-shapes",
         }
@@ -183,6 +198,9 @@ impl ModelError {
                 "Remove the NaN or infinite values and export the model again."
             }
             Self::NoVariance => "Load a model with at least one mode of positive variance.",
+            Self::Magnitude { .. } => {
+                "Check the type and byte order of the numbers in the file; if they are right, export the model in a larger or smaller unit."
+            }
             Self::Cells { .. } => {
                 "Check whether the faces count from 1, or belong to another mesh."
             }
@@ -208,6 +226,10 @@ impl fmt::Display for ModelError {
                 write!(f, "{count} values in the {place} are not finite.")
             }
             Self::NoVariance => write!(f, "The model has no mode with positive variance."),
+            Self::Magnitude { place, found } => write!(
+                f,
+                "The largest length in the {place} is {found:.2e}; lengths from {SMALLEST_LENGTH:e} to {LARGEST_LENGTH:e} are read."
+            ),
             Self::Cells { count, points } => {
                 write!(f, "{count} face corners point beyond the last of the {points} points.")
             }
@@ -219,6 +241,23 @@ impl fmt::Display for ModelError {
 }
 
 impl core::error::Error for ModelError {}
+
+/// Refuses lengths that are too large, and those of which none is as large as `least`, to compute with their powers. Zeros
+/// are as good as other lengths.
+///
+/// # Errors
+/// [`ModelError::Magnitude`] of `place`.
+pub(crate) fn check_magnitude(
+    place: &'static str,
+    values: &[f64],
+    least: f64,
+) -> Result<(), ModelError> {
+    let found = values.iter().fold(0.0_f64, |largest, value| largest.max(value.abs()));
+    if found == 0.0 || (least..=LARGEST_LENGTH).contains(&found) {
+        return Ok(());
+    }
+    Err(ModelError::Magnitude { place, found })
+}
 
 /// A linear statistical shape (or colour) model, x = x̄ + U α with α ~ N(0, I).
 #[derive(Debug, Clone, PartialEq)]
@@ -279,6 +318,9 @@ impl LinearModel {
                 return Err(ModelError::NotFinite { place, count });
             }
         }
+        // A mean may be zero but for rounding errors.
+        check_magnitude("mean", mean.as_slice(), 0.0)?;
+        check_magnitude("modes", scaled_basis.as_slice(), SMALLEST_LENGTH)?;
         if scaled_basis.iter().all(|&value| value == 0.0) {
             return Err(ModelError::NoVariance);
         }
@@ -291,6 +333,9 @@ impl LinearModel {
         let svd = into_thin_svd(scaled_basis, &gram);
         let floor = SMALLEST_RELATIVE_DEVIATION * svd.values[0];
         let kept = svd.values.iter().take_while(|&&value| value >= floor).count();
+        if kept == 0 {
+            return Err(ModelError::NoVariance);
+        }
         let dropped = svd.values.len() - kept;
         let mut columns = DMatrix::from_fn(kept, svd.right.nrows(), |mode, column| {
             svd.values[mode] * svd.right[(column, mode)]
@@ -415,10 +460,11 @@ impl LinearModel {
         self.noise_variance
     }
 
-    /// The same model with another ρ².
+    /// The same model with another ρ². What is no variance of lengths that can be is not known.
     #[must_use]
     pub fn with_noise_variance(self, noise_variance: f64) -> Self {
-        Self { noise_variance, ..self }
+        let known = (SMALLEST_LENGTH..=LARGEST_LENGTH).contains(&noise_variance.sqrt());
+        Self { noise_variance: if known { noise_variance } else { 0.0 }, ..self }
     }
 
     /// Rounding errors of its coordinates, as a share of its size: what single precision leaves of a model that was
@@ -476,10 +522,10 @@ impl LinearModel {
         mirrored
     }
 
-    /// The model of the first `modes` modes (all of them when there are fewer).
+    /// The model of the first `modes` modes, one at least (all of them when there are fewer).
     #[must_use]
     pub fn truncated(&self, modes: usize) -> Self {
-        let kept = modes.clamp(1, self.mode_count());
+        let kept = modes.max(1).min(self.mode_count());
         if kept == self.mode_count() {
             return self.clone();
         }

@@ -16,7 +16,9 @@
 //! **Accuracy.** Products in `f32`; norms over 256 points and gradients over 32 in `f32`, the rest in
 //! `f64`. The residual at the centre is computed in `f64` first, so that draws of a narrow posterior
 //! lose nothing to cancellation when c is its mean. Points where r_v = 0 add nothing to the gradient, and
-//! those below 10⁻¹⁸ hardly anything.
+//! those below 10⁻¹⁸ of the largest hardly anything. Squares of lengths beyond 10¹⁹, or below 10⁻¹⁹, have no place in
+//! `f32`: steps and residuals are multiplied by the power of two that brings the largest residual near 1, which is exact,
+//! and the norms are divided by it.
 
 use pulp::{Simd, WithSimd};
 
@@ -39,17 +41,22 @@ pub struct DistanceKernel {
     points: usize,
     modes: usize,
     rows: Vec<f32>,
+    /// The power of two by which steps and residuals are multiplied.
+    factor: f64,
 }
 
 impl DistanceKernel {
     /// From the residual operator R, row-major (d·n × q).
     pub fn new(dimension: usize, modes: usize, residual: &[f64]) -> Self {
-        Self::of_rows(dimension, modes, residual.iter().map(|&value| f32::of(value)).collect())
+        let largest = residual.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let rows = residual.iter().map(|&value| f32::of(value)).collect();
+        Self::of_rows(dimension, modes, rows, largest)
     }
 
-    /// From the same in single precision.
-    pub(crate) fn of_rows(dimension: usize, modes: usize, rows: Vec<f32>) -> Self {
-        Self { dimension, points: rows.len() / (dimension * modes), modes, rows }
+    /// From the same in single precision, with the largest number in R and in the residuals that will be there.
+    pub(crate) fn of_rows(dimension: usize, modes: usize, rows: Vec<f32>, largest: f64) -> Self {
+        let points = rows.len() / (dimension * modes);
+        Self { dimension, points, modes, rows, factor: inverse_power_of_two(largest) }
     }
 
     /// Number of coefficients q.
@@ -97,7 +104,7 @@ impl DistanceKernel {
                 offset,
                 gradients,
                 stride,
-                lanes: pack(steps, self.modes, stride),
+                lanes: pack(steps, self.modes, stride, self.factor),
             };
             let mut total = Part::new(&group);
             if many {
@@ -106,7 +113,8 @@ impl DistanceKernel {
                 let parts = parallel::map(blocks, |block| simd::dispatch(Block(&group, block)));
                 parts.iter().for_each(|part| total.add(part));
             }
-            total.scaled(steps.len() / self.modes, stride, 1.0 / self.points as f64)
+            let scales = [1.0 / (self.points as f64 * self.factor), 1.0 / self.points as f64];
+            total.scaled(steps.len() / self.modes, stride, scales)
         };
         let found: Vec<_> = if many {
             parallel::map(groups.len(), |index| evaluated(&groups[index]))
@@ -130,12 +138,23 @@ impl WithSimd for Width {
     }
 }
 
-/// Coefficient k of all proposals side by side (q × stride); lanes without a proposal stay zero.
-fn pack(steps: &[f64], modes: usize, stride: usize) -> Aligned<f32> {
+/// The power of two that brings a number to the size of 1, as far as steps have place beside it in single precision; 1 for
+/// zero.
+fn inverse_power_of_two(number: f64) -> f64 {
+    const LARGEST_EXPONENT: f64 = 100.0;
+    if number <= 0.0 || !number.is_finite() {
+        return 1.0;
+    }
+    let exponent = -libm::floor(libm::log2(number));
+    libm::exp2(exponent.clamp(-LARGEST_EXPONENT, LARGEST_EXPONENT))
+}
+
+/// Coefficient k of all proposals side by side (q × stride), times `factor`; lanes without a proposal stay zero.
+fn pack(steps: &[f64], modes: usize, stride: usize, factor: f64) -> Aligned<f32> {
     let mut lanes = Aligned::new(modes * stride);
     for (lane, step) in steps.chunks_exact(modes).enumerate() {
         for (mode, &value) in step.iter().enumerate() {
-            lanes[mode * stride + lane] = f32::of(value);
+            lanes[mode * stride + lane] = f32::of(value * factor);
         }
     }
     lanes
@@ -170,14 +189,15 @@ impl Part {
         }
     }
 
-    /// The first `count` distances and gradients, proposal by proposal.
-    fn scaled(self, count: usize, stride: usize, scale: f64) -> (Vec<f64>, Vec<f64>) {
+    /// The first `count` distances and gradients, proposal by proposal, times what they are to be multiplied by.
+    fn scaled(self, count: usize, stride: usize, scales: [f64; 2]) -> (Vec<f64>, Vec<f64>) {
+        let [of_norms, of_gradients] = scales;
         let modes = self.gradients.len() / stride;
         let gradients = (0..count)
             .flat_map(|lane| (0..modes).map(move |mode| (lane, mode)))
-            .map(|(lane, mode)| self.gradients[mode * stride + lane] * scale)
+            .map(|(lane, mode)| self.gradients[mode * stride + lane] * of_gradients)
             .collect();
-        (self.norms[..count].iter().map(|norm| norm * scale).collect(), gradients)
+        (self.norms[..count].iter().map(|norm| norm * of_norms).collect(), gradients)
     }
 }
 
@@ -256,9 +276,10 @@ impl<S: Simd, const V: usize> Pass<S, V> {
     ) {
         let DistanceKernel { modes, ref rows, .. } = *group.kernel;
         let offset = &group.offset[vertex * D..vertex * D + R];
+        let factor = f32::of(group.kernel.factor);
         let mut start = [[simd.splat_f32s(0.0); V]; R];
         for row in 0..R {
-            start[row] = [simd.splat_f32s(offset[row]); V];
+            start[row] = [simd.splat_f32s(offset[row] * factor); V];
         }
         let part = (&rows[vertex * D * modes..(vertex * D + R) * modes], modes);
         let residual = f32::rows::<S, R, V>(simd, start, part, (&group.lanes, group.stride), modes);
@@ -301,13 +322,14 @@ mod tests {
         for steps in steps.chunks(VECTORS * width * kernel.modes) {
             let count = steps.len() / kernel.modes;
             let stride = if count > width { VECTORS * width } else { width };
-            let lanes = pack(steps, kernel.modes, stride);
+            let lanes = pack(steps, kernel.modes, stride, kernel.factor);
             let group = Group { kernel, offset, gradients: true, stride, lanes };
             let mut total = Part::new(&group);
             for block in 0..kernel.points.div_ceil(BLOCK) {
                 total.add(&simd.vectorize(Block(&group, block)));
             }
-            let (norms, gradients) = total.scaled(count, stride, 1.0 / kernel.points as f64);
+            let scales = [1.0 / (kernel.points as f64 * kernel.factor), 1.0 / kernel.points as f64];
+            let (norms, gradients) = total.scaled(count, stride, scales);
             let modes = kernel.modes;
             for (lane, norm) in norms.iter().enumerate() {
                 bits.push(norm.to_bits());

@@ -173,7 +173,9 @@ impl PointSelection {
     /// [`SelectionError::Text`] and [`SelectionError::Empty`].
     pub fn parse(text: &str) -> Result<Self, SelectionError> {
         const LONGEST_SHOWN: usize = 40;
+        // Ranges of A stay ranges: written out, a few letters would be millions of points.
         let (mut a, mut b) = (Vec::new(), Vec::new());
+        let mut count = 0_usize;
         for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
             let line = line.split('#').next().unwrap_or_default().trim();
             if line.is_empty() {
@@ -184,9 +186,12 @@ impl PointSelection {
                 found: line.chars().take(LONGEST_SHOWN).collect(),
             };
             if line.contains('-') || line.matches(',').count() > 1 {
-                a.extend(points_of_ranges(line).map_err(|_| wrong())?);
+                for (first, last) in parsed_ranges(line).map_err(|_| wrong())? {
+                    count = count.saturating_add((last - first) as usize + 1);
+                    a.push((first, last));
+                }
                 // A few letters a line can ask for millions of points, again and again.
-                if a.len() > MOST_POINTS {
+                if count > MOST_POINTS {
                     return Err(wrong());
                 }
                 continue;
@@ -196,62 +201,70 @@ impl PointSelection {
                 .filter(|word| !word.is_empty())
                 .map(str::parse)
                 .collect();
-            match numbers.map_err(|_| wrong())?.as_slice() {
-                [first] => a.push(*first),
-                [first, second] => {
-                    a.push(*first);
-                    b.push(*second);
-                }
-                _ => return Err(wrong()),
-            }
+            let numbers = numbers.map_err(|_| wrong())?;
+            let (&[first] | &[first, _]) = numbers.as_slice() else { return Err(wrong()) };
+            count += 1;
+            a.push((first, first));
+            b.extend(numbers.get(1));
         }
         if a.is_empty() {
             return Err(SelectionError::Empty);
         }
         if b.is_empty() {
-            a.sort_unstable();
-            a.dedup();
-            return Ok(Self::Region { ranges: ranges_of_points(&a) });
+            return Ok(Self::Region { ranges: text_of_ranges(&merged(a)) });
         }
-        if a.len() != b.len() {
-            return Err(SelectionError::Lengths { a: a.len(), b: b.len() });
+        if count != b.len() {
+            return Err(SelectionError::Lengths { a: count, b: b.len() });
         }
-        Ok(Self::List { a, b })
+        Ok(Self::List { a: a.into_iter().flat_map(|(first, last)| first..=last).collect(), b })
     }
 }
 
 /// More points than any mesh of the field has; a bound for what a short text can ask for.
 const MOST_POINTS: usize = 10_000_000;
 
-/// "0-99,120": the points, ascending.
-fn points_of_ranges(ranges: &str) -> Result<Vec<u32>, SelectionError> {
-    let mut points = Vec::new();
-    for range in ranges.split([',', ' ', ';']).filter(|range| !range.is_empty()) {
+/// "0-99,120": first and last of each range, in order of the text.
+fn parsed_ranges(text: &str) -> Result<Vec<(u32, u32)>, SelectionError> {
+    let mut ranges = Vec::new();
+    for range in text.split([',', ' ', ';']).filter(|range| !range.is_empty()) {
         let wrong = || SelectionError::Text { line: 0, found: range.chars().take(40).collect() };
         let number = |text: &str| text.trim().parse::<u32>().map_err(|_| wrong());
         let (first, last) = match range.split_once('-') {
             Some((first, last)) => (number(first)?, number(last)?),
             None => (number(range)?, number(range)?),
         };
-        if first > last || points.len().saturating_add((last - first) as usize) >= MOST_POINTS {
+        if first > last || (last - first) as usize >= MOST_POINTS {
             return Err(wrong());
         }
-        points.extend(first..=last);
+        ranges.push((first, last));
     }
-    points.sort_unstable();
-    points.dedup();
-    if points.is_empty() { Err(SelectionError::Empty) } else { Ok(points) }
+    if ranges.is_empty() { Err(SelectionError::Empty) } else { Ok(ranges) }
 }
 
-/// The ranges that ascending points make.
-fn ranges_of_points(points: &[u32]) -> String {
-    let mut ranges: Vec<(u32, u32)> = Vec::new();
-    for &point in points {
-        match ranges.last_mut() {
-            Some((_, last)) if *last + 1 == point => *last = point,
-            _ => ranges.push((point, point)),
+/// The same points in ascending ranges that are apart.
+fn merged(mut ranges: Vec<(u32, u32)>) -> Vec<(u32, u32)> {
+    ranges.sort_unstable();
+    let mut apart: Vec<(u32, u32)> = Vec::new();
+    for (first, last) in ranges {
+        match apart.last_mut() {
+            Some((_, end)) if first <= end.saturating_add(1) => *end = last.max(*end),
+            _ => apart.push((first, last)),
         }
     }
+    apart
+}
+
+/// "0-99,120": the points, ascending.
+fn points_of_ranges(text: &str) -> Result<Vec<u32>, SelectionError> {
+    let ranges = merged(parsed_ranges(text)?);
+    let count: usize = ranges.iter().map(|(first, last)| (last - first) as usize + 1).sum();
+    if count > MOST_POINTS {
+        return Err(SelectionError::Text { line: 0, found: text.chars().take(40).collect() });
+    }
+    Ok(ranges.into_iter().flat_map(|(first, last)| first..=last).collect())
+}
+
+fn text_of_ranges(ranges: &[(u32, u32)]) -> String {
     let written = |&(first, last): &(u32, u32)| {
         if first == last { first.to_string() } else { format!("{first}-{last}") }
     };

@@ -60,9 +60,11 @@ impl ResidualOperator {
             row /= *deviation;
         }
         let projected_mean = mean_coordinates.component_div(to.standard_deviations());
+        let largest_residual = operator.largest.max(offset.amax());
+        let (dimension, modes) = (from.dimension(), from.mode_count());
         Self {
-            dimension: from.dimension(),
-            modes: from.mode_count(),
+            dimension,
+            modes,
             projection_gram: projection.tr_mul(&projection),
             projection_shift: projection.tr_mul(&projected_mean),
             projection_constant: projected_mean.norm_squared(),
@@ -70,8 +72,8 @@ impl ResidualOperator {
             gram: operator.gram,
             gram_shift: operator.gram_shift,
             gram_constant: offset.norm_squared(),
-            largest_residual: operator.largest.max(offset.amax()),
-            kernel: DistanceKernel::of_rows(from.dimension(), from.mode_count(), operator.single),
+            largest_residual,
+            kernel: DistanceKernel::of_rows(dimension, modes, operator.single, largest_residual),
             offset: offset.as_slice().to_vec(),
             double: operator.double,
         }

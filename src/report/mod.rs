@@ -624,7 +624,7 @@ pub struct Overlap {
     /// Bhattacharyya distance after adding noise of standard deviation `bhattacharyya_noise` to
     /// every coordinate; it diverges as the noise goes to 0.
     pub bhattacharyya: f64,
-    /// The noise: σ of the comparison.
+    /// The noise: σ of the comparison, or a millionth of the largest standard deviation where σ is less.
     pub bhattacharyya_noise: f64,
     /// Kullback–Leibler divergences with the same noise, which diverge like it.
     #[serde(default)]

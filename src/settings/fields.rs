@@ -5,7 +5,7 @@
 
 use serde::Serialize;
 
-use super::{Settings, SettingsError};
+use super::{Settings, SettingsError, expected_length, is_length};
 
 /// Draws that every chain has at least.
 pub const LEAST_DRAWS_OF_A_CHAIN: usize = 8;
@@ -262,9 +262,8 @@ impl Field {
             CountOrAll { least, most, get } => {
                 get(settings).map_or(Ok(()), |found| count(found, least, most))
             }
-            Positive { get } => get(settings).map_or(Ok(()), |found| {
-                number(found, found.is_finite() && found > 0.0, "a positive number")
-            }),
+            Positive { get } => get(settings)
+                .map_or(Ok(()), |found| number(found, is_length(found), expected_length(found))),
             Share { get } => {
                 let found = get(settings);
                 number(found, (0.0..1.0).contains(&found), "0 or more, and less than 1,")

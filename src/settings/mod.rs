@@ -302,9 +302,11 @@ impl SettingsError {
 impl fmt::Display for SettingsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Sigma { found } => write!(f, "σ is {found}; a positive number was expected."),
+            Self::Sigma { found } => {
+                write!(f, "σ is {}; {} was expected.", text(*found), expected_length(*found))
+            }
             Self::Number { setting, expected, found } => {
-                write!(f, "“{setting}” is {found}; {expected} was expected.")
+                write!(f, "“{setting}” is {}; {expected} was expected.", text(*found))
             }
             Self::Count { setting, least, most, found } => {
                 write!(f, "“{setting}” is {found}; {least} to {most} was expected.")
@@ -315,16 +317,35 @@ impl fmt::Display for SettingsError {
 
 impl core::error::Error for SettingsError {}
 
+/// Whether a number can be a tolerance or threshold: lengths from 10⁻³⁰ to 10³⁰ are read, and beyond this the squares of
+/// the ratios to them are no numbers any more.
+pub fn is_length(number: f64) -> bool {
+    (1e-40..=1e40).contains(&number)
+}
+
+/// What was expected instead of a number that is no length.
+pub(super) fn expected_length(found: f64) -> &'static str {
+    if found > 0.0 && found.is_finite() {
+        "a number from 1e-40 to 1e40"
+    } else {
+        "a positive number"
+    }
+}
+
+/// A number that was given, with a power of ten where it would have many digits.
+fn text(number: f64) -> String {
+    let short = number == 0.0 || (1e-6..1e9).contains(&number.abs()) || !number.is_finite();
+    if short { number.to_string() } else { format!("{number:e}") }
+}
+
 impl Settings {
     /// Checks every value.
     ///
     /// # Errors
     /// The first setting that is out of its range.
     pub fn check(&self) -> Result<(), SettingsError> {
-        if let Some(sigma) = self.sigma
-            && !(sigma.is_finite() && sigma > 0.0)
-        {
-            return Err(SettingsError::Sigma { found: sigma });
+        if let Some(found) = self.sigma.filter(|sigma| !is_length(*sigma)) {
+            return Err(SettingsError::Sigma { found });
         }
         FIELDS
             .iter()

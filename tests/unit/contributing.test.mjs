@@ -37,6 +37,7 @@ const TRIED = {
   "npm run test:browser -- WORD": byTest,
   "npm run test:long": notHere,
   "npm run audit": "tests/unit/audit.test.mjs has its answers",
+  "npm run fuzz": notHere,
   "npm run fuzz -- eos scm": notHere,
   "npm run fuzz -- TARGET -- -runs=1000000": notHere,
   "npm run bench": notHere,

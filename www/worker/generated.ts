@@ -996,7 +996,7 @@ export type Overlap = {
    * every coordinate; it diverges as the noise goes to 0.
    */
   bhattacharyya: number,
-  /** The noise: σ of the comparison. */
+  /** The noise: σ of the comparison, or a millionth of the largest standard deviation where σ is less. */
   bhattacharyyaNoise: number,
   /** Kullback–Leibler divergences with the same noise, which diverge like it. */
   kullbackLeibler: KullbackLeibler | null,

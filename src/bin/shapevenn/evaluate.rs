@@ -57,7 +57,7 @@ pub(crate) fn evaluate(arguments: &Arguments) -> Result<(), Failure> {
     let found =
         files::evaluate(&model, &shapes, arguments.training, arguments.align.into(), &reading)?;
     if arguments.json {
-        println!("{}", to_json(&found)?);
+        document!(to_json(&found)?);
         return Ok(());
     }
     print_in_words(&found, model.model.unit().symbol(), model.model.size());

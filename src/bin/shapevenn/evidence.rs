@@ -76,9 +76,10 @@ pub(crate) fn evidence(arguments: &Arguments) -> Result<(), Failure> {
     bar.finish_and_clear();
     let found = run.report().ok_or_else(|| Failure::System("no evidence".to_owned()))?;
     if arguments.json {
-        println!("{}", to_json(&found)?);
+        document!(to_json(&found)?);
     } else {
-        println!("A  {}\nB  {}", a.report.name, b.report.name);
+        println!("A  {}", a.report.name);
+        println!("B  {}", b.report.name);
         print_shapes("A", &a.report);
         print_shapes("B", &b.report);
         let unit = pair.a().unit().symbol();

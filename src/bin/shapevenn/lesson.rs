@@ -30,7 +30,7 @@ pub(crate) fn lesson(arguments: &Arguments) -> Result<(), Failure> {
     let (scene, others) = Scene::of_link(link.pairs())?;
     let numbers = scene.numbers()?;
     if arguments.json {
-        println!("{}", to_json(&numbers)?);
+        document!(to_json(&numbers)?);
         return Ok(());
     }
     let document =

@@ -3,6 +3,9 @@
 //! Exit status 0: done. 2: a bad input, with the error on standard error. 1: anything else.
 #![allow(clippy::print_stdout, reason = "a command prints its result")]
 
+#[macro_use]
+mod terminal;
+
 mod document;
 mod evaluate;
 mod evidence;
@@ -36,7 +39,7 @@ use shapevenn::formats::Reading;
 use shapevenn::model::LinearModel;
 use shapevenn::pair::{MeanSquare, Quantiles};
 use shapevenn::report::{ModelReport, Report, Seconds};
-use shapevenn::settings::{SIGMA_SINCE, Settings, SettingsError, SigmaSource};
+use shapevenn::settings::{SIGMA_SINCE, Settings, SettingsError, SigmaSource, is_length};
 
 /// Which shapes can two statistical shape models both make, and which can only one of them make?
 #[derive(Debug, Parser)]
@@ -168,7 +171,13 @@ impl Failure {
     /// Says it on standard error.
     fn print(&self) {
         match self {
-            Self::Input { message, hint } => eprintln!("shapevenn: {message}\n  {hint}"),
+            Self::Input { message, hint } => {
+                eprintln!("shapevenn: {message}");
+                // What follows the first line is to be copied, without an indent.
+                for (index, line) in hint.lines().enumerate() {
+                    eprintln!("{}{line}", if index == 0 { "  " } else { "" });
+                }
+            }
             Self::System(message) => eprintln!("shapevenn: {message}"),
         }
     }
@@ -233,7 +242,7 @@ fn info(named: &[String], reading: &reading::OfOne, json: bool) -> Result<(), Fa
         }
     }
     if json {
-        println!("{}", to_json(&descriptions)?);
+        document!(to_json(&descriptions)?);
         return failed.map_or(Ok(()), Err);
     }
     for model in &descriptions {
@@ -270,7 +279,7 @@ fn inspect(
     let [a, b] = shapes.open(named, &prepare.reading.readings()?)?;
     let found = shapevenn::inspect::inspect(&a.model, &b.model, &settings);
     if json {
-        println!("{}", to_json(&found)?);
+        document!(to_json(&found)?);
         return Ok(());
     }
     print_shapes("A", &a.report);
@@ -355,7 +364,7 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
         warn_of_older_sigma(&Link::parse(link), &report);
     }
     if arguments.json {
-        println!("{}", files::json(&report));
+        document!(files::json(&report));
     } else {
         print_in_words(&report);
     }
@@ -384,7 +393,7 @@ fn sweep(
     json: bool,
 ) -> Result<(), Failure> {
     const POINTS: i32 = 17;
-    if let Some(&found) = sigmas.iter().find(|sigma| !(sigma.is_finite() && **sigma > 0.0)) {
+    if let Some(&found) = sigmas.iter().find(|sigma| !is_length(**sigma)) {
         return Err(Error::from(ComparisonError::from(SettingsError::Sigma { found })).into());
     }
     let settings = prepare.settings(Settings::default())?;
@@ -400,7 +409,7 @@ fn sweep(
     let sigmas = if sigmas.is_empty() { around.collect() } else { sigmas };
     let points = run.sweep(&sigmas);
     if json {
-        println!("{}", to_json(&points)?);
+        document!(to_json(&points)?);
         return Ok(());
     }
     println!("recommended σ = {}", plain(sigma));

@@ -127,16 +127,19 @@ pub(crate) fn matrix(arguments: &Arguments) -> Result<(), Failure> {
         }
     }
     if arguments.json {
-        println!("{}", to_json(&found)?);
+        document!(to_json(&found)?);
         return Ok(());
     }
-    println!("Share of the row's variance that the column can make, in %:\n");
-    println!("{}", found.table(Matrix::share, |share| format!("{:.1}", 100.0 * share)));
-    println!("Affine Grassmann distance, in radians:\n");
-    println!("{}", found.table(Matrix::grassmann, |distance| format!("{distance:.4}")));
+    println!("Share of the row's variance that the column can make, in %:");
+    println!();
+    document!(found.table(Matrix::share, |share| format!("{:.1}", 100.0 * share)));
+    println!("Affine Grassmann distance, in radians:");
+    println!();
+    document!(found.table(Matrix::grassmann, |distance| format!("{distance:.4}")));
     if found.relations.iter().any(|cell| cell.evidence.is_some()) {
-        println!("Smallest adjusted p of one population, by relabelling the training shapes:\n");
-        println!("{}", found.table(Matrix::smallest_p, |p| format!("{p:.3}")));
+        println!("Smallest adjusted p of one population, by relabelling the training shapes:");
+        println!();
+        document!(found.table(Matrix::smallest_p, |p| format!("{p:.3}")));
     }
     for Cell { a, b, relation, .. } in &found.relations {
         if let Some(problem) = &relation.problem {

@@ -1,10 +1,13 @@
 //! Writes lengths and other numbers that have no fixed scale: as many digits in metres as in micrometres.
 
-/// Four decimals from 1 on, four significant digits below, a power of ten below a hundred-thousandth.
+/// Four decimals from 1 on, four significant digits below, a power of ten below a hundred-thousandth and from 10⁹ on.
 pub(crate) fn plain(value: f64) -> String {
     let size = value.abs();
     if size == 0.0 || !value.is_finite() {
         return format!("{value}");
+    }
+    if size >= 1e9 {
+        return format!("{value:.3e}");
     }
     if size >= 1.0 {
         return format!("{value:.4}");
@@ -50,6 +53,8 @@ mod tests {
             (-0.000_012_345_6, "-0.00001235"),
             (1.234_56e-7, "1.235e-7"),
             (123_456.0, "123456.0000"),
+            (-1.234_56e9, "-1.235e9"),
+            (1e30, "1.000e30"),
         ] {
             assert_eq!(plain(number), text, "{number}");
         }

@@ -65,7 +65,7 @@ pub(crate) fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
         let (table1, table2, sigma) =
             (table1(arguments, &screen)?, table2(arguments, &screen)?, sigma(arguments, &screen)?);
         screen.line.finish_and_clear();
-        print!("{}", document::whole(&table1, &table2, &sigma, &machine));
+        document!(document::whole(&table1, &table2, &sigma, &machine).trim_end());
         return Ok(());
     };
     let (json, words) = match experiment {
@@ -91,7 +91,7 @@ pub(crate) fn reproduce(arguments: &Arguments) -> Result<(), Failure> {
         }
     };
     screen.line.finish_and_clear();
-    println!("{}", if arguments.json { json } else { words });
+    document!(if arguments.json { json } else { words });
     Ok(())
 }
 

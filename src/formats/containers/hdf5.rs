@@ -6,14 +6,18 @@
 //! multiple. After reading, the number of values must be the product of the sizes (half precision would otherwise come
 //! back empty).
 //!
+//! Groups may hold one another, and themselves, under thousands of names, so that a short file has paths without end:
+//! what is read of it, again and again, is counted, and ends at a multiple of its size ([`Stored`]).
+//!
 //! **Limits.** The chunk layout of version 5 (HDF5 2.0, h5py with `libver='latest'`), SZIP and soft
 //! links are not read; the first two give [`Fault::Layout`] and [`Fault::Filter`].
 
 use hdf5_pure::{
-    AttrValue, DType, Dataset, Datatype, DatatypeByteOrder, Error, File, FormatError as Low,
+    AttrValue, DType, Dataset, Datatype, DatatypeByteOrder, Error, File, FormatError as Low, Group,
     Layout, Source, VlenStringReadOptions,
 };
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::formats::containers::arrays::{Array, Data, count_of, half_to_single, trimmed};
 use crate::formats::containers::tree::Tree;
@@ -22,6 +26,9 @@ use crate::formats::input::{Input, Storage, largest_array};
 
 /// Longest text read from an attribute or a dataset, in bytes.
 const LONGEST_TEXT: usize = 1 << 20;
+
+/// Why a file is read no further.
+const TOO_OFTEN: &str = "its groups hold one another, nested too deeply";
 
 /// An open file.
 #[derive(Debug)]
@@ -32,19 +39,44 @@ pub(crate) struct Hdf5 {
 
 /// The bytes of an [`Input`], as the HDF5 reader wants them: only what is asked for is read.
 #[derive(Debug)]
-struct Stored(Arc<dyn Storage>);
+struct Stored {
+    storage: Arc<dyn Storage>,
+    /// Reads that are left, each of a kilobyte at most.
+    left: AtomicU64,
+}
+
+impl Stored {
+    fn new(storage: Arc<dyn Storage>) -> Self {
+        /// A file of any size may be read so many times, which takes less than a second.
+        const ALWAYS: u64 = 400_000;
+        // And once more for each of its bytes, as in a file that is all names of small groups.
+        let left = AtomicU64::new(ALWAYS + storage.len());
+        Self { storage, left }
+    }
+
+    /// Counts a read of so many bytes.
+    fn count(&self, bytes: usize) -> Result<(), Low> {
+        let reads = 1 + bytes as u64 / 1024;
+        let took = |left: u64| left.checked_sub(reads);
+        match self.left.fetch_update(Ordering::Relaxed, Ordering::Relaxed, took) {
+            Ok(_) => Ok(()),
+            Err(_) => Err(Low::Source(TOO_OFTEN.to_owned())),
+        }
+    }
+}
 
 impl Source for Stored {
     fn len(&self) -> u64 {
-        self.0.len()
+        self.storage.len()
     }
 
     fn read_at(&self, offset: u64, buffer: &mut [u8]) -> Result<(), Low> {
         let count = buffer.len();
+        self.count(count)?;
         let end = usize::try_from(offset).ok().and_then(|offset| offset.checked_add(count));
         let length = usize::try_from(self.len()).unwrap_or(usize::MAX);
         match end {
-            Some(end) if end <= length => self.0.read_at(offset, buffer).map_err(Low::Source),
+            Some(end) if end <= length => self.storage.read_at(offset, buffer).map_err(Low::Source),
             _ => Err(Low::UnexpectedEof { expected: end.unwrap_or(usize::MAX), available: length }),
         }
     }
@@ -54,7 +86,7 @@ impl Hdf5 {
     /// Opens a file; its arrays are read when they are asked for.
     pub(crate) fn open(input: &Input) -> Result<Self, Fault> {
         let length = usize::try_from(input.len()).unwrap_or(usize::MAX);
-        match File::from_source(Stored(input.storage())) {
+        match File::from_source(Stored::new(input.storage())) {
             Ok(file) => Ok(Self { file, length }),
             Err(error) => Err(match fault_of(&error, "The file", length) {
                 Fault::Truncated { needed, present, .. } => {
@@ -164,12 +196,13 @@ impl Hdf5 {
         /// Groups looked into: a group may contain itself, many times over.
         const MOST_GROUPS: usize = 200;
         let (mut found, mut groups) = (Vec::new(), MOST_GROUPS);
-        self.collect("", 0, most, &mut groups, &mut found);
+        self.collect(&self.file.root(), "", 0, most, &mut groups, &mut found);
         found
     }
 
     fn collect(
         &self,
+        group: &Group,
         path: &str,
         depth: usize,
         most: usize,
@@ -181,23 +214,25 @@ impl Hdf5 {
             return;
         }
         *groups -= 1;
-        let group = if path.is_empty() { Ok(self.file.root()) } else { self.file.group(path) };
-        let Ok(group) = group else { return };
         let inside =
             |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}/{name}") };
-        let mut datasets = group.datasets().unwrap_or_default();
-        datasets.sort();
-        for name in datasets {
+        // Opened one by one, each would be looked for in all of the group.
+        let mut datasets: Vec<(String, Dataset)> =
+            group.iter_datasets().map(Iterator::collect).unwrap_or_default();
+        datasets.sort_by(|(one, _), (other, _)| one.cmp(other));
+        for (name, dataset) in datasets {
             if found.len() >= most {
                 return;
             }
             let full = inside(&name);
-            let shape = self.file.dataset(&full).and_then(|dataset| dataset.shape());
-            let shape = shape.map_err(|error| fault_of(&error, &full, self.length));
+            let shape = dataset.shape().map_err(|error| fault_of(&error, &full, self.length));
             found.push((full, shape));
         }
-        for name in self.groups(path) {
-            self.collect(&inside(&name), depth + 1, most, groups, found);
+        let mut inner: Vec<(String, Group)> =
+            group.iter_groups().map(Iterator::collect).unwrap_or_default();
+        inner.sort_by(|(one, _), (other, _)| one.cmp(other));
+        for (name, group) in inner {
+            self.collect(&group, &inside(&name), depth + 1, most, groups, found);
         }
     }
 }
@@ -292,6 +327,9 @@ fn fault_of(error: &Error, what: &str, length: usize) -> Fault {
             layout("a virtual dataset, which points to other files")
         }
         Error::Format(Low::UnsupportedExternalStorage) => layout("numbers in another file"),
+        Error::Format(Low::Source(reason)) if reason == TOO_OFTEN => {
+            Fault::Damaged { what: "The file".to_owned(), reason: reason.clone() }
+        }
         // Links by name have no address, which reads as one beyond all files.
         Error::Format(Low::UnexpectedEof { expected: usize::MAX, .. }) => {
             let reason = "it is a soft link, or its address leads nowhere".to_owned();

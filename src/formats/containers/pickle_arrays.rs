@@ -13,10 +13,11 @@
 //!
 //! All else is reported by the name of its class: sparse matrices (`J_regressor`), tensors.
 //!
-//! **Limits.** Arrays of Python objects and records are not read; lists up to three deep.
+//! **Limits.** Arrays of Python objects and records are not read; lists up to three deep. Objects may be in one another,
+//! or in themselves: eight are followed, and of dictionaries each once, so that the work is that of the file's size.
 
 use std::borrow::Cow;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::formats::containers::NamedArrays;
 use crate::formats::containers::arrays::{Array, Data, count_of, trimmed};
@@ -51,6 +52,9 @@ pub(crate) struct Objects<'a> {
     container: &'static str,
     limit: u64,
 }
+
+/// What objects are that are followed no further.
+const TOO_DEEP: &str = "objects nested too deeply";
 
 /// How an object of a pickle is read.
 enum Found {
@@ -97,12 +101,14 @@ impl<'a> Objects<'a> {
             Found::Picked { shape, .. } => return Err(Fault::OneArray { shape }),
             _ => {}
         }
-        objects.collect(objects.root, "", 0);
+        objects.collect(objects.root, "", 0, &mut BTreeSet::new());
         Ok(objects)
     }
 
-    /// Notes the names in a dictionary, or in the state of an object at the top.
-    fn collect(&mut self, id: Id, prefix: &str, depth: usize) {
+    /// Notes the names in a dictionary, or in the state of an object at the top. A dictionary that was `seen` under another
+    /// name is not looked into again: a short pickle can hold one a million times over.
+    fn collect(&mut self, id: Id, prefix: &str, depth: usize, seen: &mut BTreeSet<Id>) {
+        seen.insert(id);
         let mut entries = Vec::new();
         match self.heap.get(id) {
             Value::Dict(items) => entries.clone_from(items),
@@ -125,8 +131,8 @@ impl<'a> Objects<'a> {
                 Value::Call { items, .. } => !items.is_empty(),
                 _ => false,
             };
-            if is_dict && depth < DEEPEST_NAMES {
-                self.collect(value, &format!("{full}."), depth + 1);
+            if is_dict && depth < DEEPEST_NAMES && !seen.contains(&value) {
+                self.collect(value, &format!("{full}."), depth + 1, seen);
             } else {
                 self.names.insert(full, value);
             }
@@ -155,8 +161,13 @@ impl<'a> Objects<'a> {
     }
 
     /// What an object is.
-    fn find(&self, mut id: Id) -> Found {
-        for _ in 0..DEEPEST_OBJECTS {
+    fn find(&self, id: Id) -> Found {
+        self.find_within(id, 0)
+    }
+
+    /// The same of an object inside `depth` others.
+    fn find_within(&self, mut id: Id, depth: usize) -> Found {
+        for depth in depth..DEEPEST_OBJECTS {
             match self.heap.get(id) {
                 Value::None => return Found::Other("Python's None"),
                 Value::Bytes(span) | Value::Text(span) => return Found::Text(*span),
@@ -178,7 +189,7 @@ impl<'a> Objects<'a> {
                             None => return Found::Class(class),
                         },
                         "chumpy.reordering.Select" => {
-                            return self.selection(*state).unwrap_or(Found::Class(class));
+                            return self.selection(*state, depth).unwrap_or(Found::Class(class));
                         }
                         _ => {
                             return self
@@ -189,7 +200,7 @@ impl<'a> Objects<'a> {
                 }
             }
         }
-        Found::Other("objects too deep in one another")
+        Found::Other(TOO_DEEP)
     }
 
     /// The class of an object or the function of a call, with its module.
@@ -243,13 +254,14 @@ impl<'a> Objects<'a> {
         Some(Found::Array { header, data: self.span(data)? })
     }
 
-    /// The elements of an array that `Select` picks.
-    fn selection(&self, state: Option<Id>) -> Option<Found> {
+    /// The elements of an array that `Select` picks, itself inside `depth` objects.
+    fn selection(&self, state: Option<Id>, depth: usize) -> Option<Found> {
         let (from, places) = (self.entry(state, "a")?, self.entry(state, "idxs")?);
         let shape = match self.entry(state, "preferred_shape").and_then(|id| self.sides(id)) {
             Some(shape) => shape,
-            None => match self.find(places) {
+            None => match self.find_within(places, depth + 1) {
                 Found::Array { header, .. } => header.shape,
+                Found::Other(TOO_DEEP) => return Some(Found::Other(TOO_DEEP)),
                 _ => return None,
             },
         };
@@ -445,11 +457,12 @@ impl<'a> Objects<'a> {
             Found::Numbers { shape } => self.read_lists(what, id, &shape),
             Found::Text(span) => Ok(Array::text(self.text_of(span))),
             Found::Picked { .. } if depth == DEEPEST_OBJECTS => {
-                Err(damaged("it is picked from an array that is picked from an array"))
+                Err(damaged("it is picked from arrays nested too deeply"))
             }
             Found::Picked { from, places, shape } => {
                 let from = self.read_object(what, from, depth + 1)?;
-                let places = self.read_object(what, places, depth + 1)?.to_integers();
+                // Places are written out; were they picked too, the work would double with each level.
+                let places = self.read_object(what, places, DEEPEST_OBJECTS)?.to_integers();
                 let shape: Vec<usize> =
                     shape.iter().filter_map(|&side| usize::try_from(side).ok()).collect();
                 let places = places.unwrap_or_default();

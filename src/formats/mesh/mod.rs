@@ -26,7 +26,7 @@ mod vtp_numbers;
 use super::error::Fault;
 use crate::formats::input::sniffing::Content;
 use crate::formats::reading::FirstColumn;
-use crate::model::Cells;
+use crate::model::{Cells, SMALLEST_LENGTH, check_magnitude};
 
 /// Points and cells.
 #[derive(Debug, Clone, PartialEq)]
@@ -95,19 +95,13 @@ impl Mesh {
     }
 }
 
-/// Refuses coordinates that are no numbers, or too large to be squared and added.
+/// Refuses coordinates that are no numbers, or too large or small to be squared and added.
 pub(super) fn check_coordinates(points: &[f64]) -> Result<(), Fault> {
-    const LARGEST: f64 = 1e38;
     let count = points.iter().filter(|value| !value.is_finite()).count();
     if count > 0 {
         return Err(Fault::NotFinite { what: "the list of points".to_owned(), count });
     }
-    match points.iter().find(|value| value.abs() > LARGEST) {
-        Some(value) => {
-            Err(damaged("The list of points", format!("{value:.1e} is too large for a coordinate")))
-        }
-        None => Ok(()),
-    }
+    check_magnitude("list of points", points, SMALLEST_LENGTH).map_err(Fault::Model)
 }
 
 /// All corners, one after the other.
@@ -361,6 +355,8 @@ mod tests {
     fn coordinates_must_be_numbers_that_can_be_squared() {
         assert!(check_coordinates(&[0.0, -1e30]).is_ok(), "numbers");
         assert!(check_coordinates(&[f64::NAN]).is_err(), "no number");
-        assert!(check_coordinates(&[1e200]).is_err(), "no coordinate");
+        assert!(check_coordinates(&[1.0, 1e200]).is_err(), "no coordinate");
+        assert!(check_coordinates(&[0.0, 1e-200]).is_err(), "their differences are zero");
+        assert!(check_coordinates(&[0.0, 0.0]).is_ok(), "zeros");
     }
 }
