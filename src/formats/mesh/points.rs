@@ -10,7 +10,6 @@ use crate::model::Cells;
 
 /// Reads a list of points.
 pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut points = Vec::new();
     let mut dimension = None;
     let mut announced = None;
