@@ -26,11 +26,13 @@ export function linkSentences(
   link: LinkState,
 ): { code: "link-faults" | "link-repairs"; message: string } | null {
   const { faults, repairs, unclearModels } = readKeys(text);
-  const lines = faults.map((fault) => `${fault.sentence} ${consequence(fault, link)}`.trim());
-  if (unclearModels !== null) lines.push(unclearModels);
-  if (unclearModels !== null || faults.some(({ key }) => MODEL_KEYS.has(key))) {
-    const last = lines.length - 1;
-    lines[last] = `${lines[last]} ${shownInstead(link)}`;
+  const ofModels = faults.filter(({ key }) => MODEL_KEYS.has(key));
+  const models = [...ofModels.map(({ sentence }) => sentence), unclearModels ?? ""]
+    .join(" ")
+    .trim();
+  const lines = models === "" ? [] : [`${models} ${shownInstead(link)}`];
+  for (const fault of faults) {
+    if (!ofModels.includes(fault)) lines.push(`${fault.sentence} ${consequence(fault, link)}`);
   }
   const code = lines.length > 0 ? "link-faults" : "link-repairs";
   if (repairs.length > 0) lines.push(`The link was corrected: ${repairs.join(" ")}`);
@@ -39,7 +41,6 @@ export function linkSentences(
 
 /** What the page does where a key cannot be used. */
 function consequence({ key, nearest }: LinkFault, link: LinkState): string {
-  if (MODEL_KEYS.has(key)) return "";
   if (nearest) return "The nearest value is used instead.";
   const field = FIELDS.find((one) => one.key === key);
   if (field && link.page === "compare") {

@@ -19,7 +19,7 @@ import { watchPair } from "../models/pair";
 import { watchMaps } from "../stage/maps";
 import { watchPairs } from "../stage/pairs";
 import { FIRST_DEMO } from "../state/demos";
-import { engineClient } from "../state/engine";
+import { engineClient, report } from "../state/engine";
 import { settingsKey } from "../state/settings";
 import {
   begun,
@@ -53,10 +53,13 @@ export function boot(): void {
   watchDocument();
   watchEngine();
   if (link.page === "compare") {
-    void bootComparison(link).then(() => {
-      keepLink(waits, isAwaited);
-      return restoreModelList(modelListOf(link));
-    });
+    bootComparison(link)
+      .then(() => {
+        keepLink(waits, isAwaited);
+        return restoreModelList(modelListOf(link));
+      })
+      // As where no worker can be started: nothing is waited for without a word.
+      .catch((thrown) => report("page", thrown));
     return;
   }
   keepLink(waits, isAwaited);
