@@ -27,8 +27,9 @@ use crate::pair::{MeanSquare, PlausibleDistance, Quantiles, ReachOfSide};
 use crate::relate::RelationReport;
 use crate::report::*;
 use crate::settings::{
-    FIELDS, Field, FieldValue, FitChoice, LEAST_DRAWS_OF_A_CHAIN, Plausibility, Pooling,
-    SIGMA_SINCE, Sampler, Settings, SigmaSource,
+    FIELDS, Field, FieldValue, FitChoice, HASH_DIGITS, LEAST_DRAWS_OF_A_CHAIN, LinkKey, LinkPart,
+    LinkValue, PAIRS, Plausibility, Pooling, SIGMA_SINCE, Sampler, Settings, SigmaSource,
+    link_keys,
 };
 
 /// Declarations in the order in which they are asked for.
@@ -117,6 +118,7 @@ fn declarations() -> String {
         // Settings.
         Sampler, FitMethod, FitChoice, Pooling, Plausibility, DifferenceDefinition,
         SidePreparation, PointSelection, Preparation, Settings, FieldValue, Field,
+        LinkValue, LinkPart, LinkKey,
         // Models.
         Group, Origin, Spread, ShapesRole, KnownShapes, ModelReport, OpenedModel, Geometry,
         Agreement, UnitFound, MeanDistance, Remedy, Inspection, RelationReport,
@@ -144,7 +146,7 @@ fn declarations() -> String {
     all.text
 }
 
-/// The table of settings, their defaults, the budget of each sampler, and the versions that links name.
+/// The table of settings, their defaults, the budget of each sampler, the keys of links, and the versions that they name.
 fn settings() -> String {
     let budget = |sampler: Sampler| {
         let settings = serde_json::to_value(Settings::of(sampler)).unwrap();
@@ -156,6 +158,8 @@ fn settings() -> String {
         Sampler::ALL.into_iter().map(|(sampler, name)| (name, budget(sampler))).collect();
     let table = json!({
         "fields": FIELDS,
+        "linkKeys": link_keys(),
+        "hashDigits": HASH_DIGITS,
         "defaults": Settings::default(),
         "budgets": budgets,
         "leastDrawsOfAChain": LEAST_DRAWS_OF_A_CHAIN,
@@ -180,6 +184,15 @@ fn what_the_page_has_from_the_engine_is_current() {
             "{file} is not what the engine makes: SHAPEVENN_WRITE=1 npm run test:rust -- typescript"
         );
     }
+}
+
+#[test]
+fn the_pairs_of_links_are_the_models_that_come_with_the_page() {
+    let mut named: Vec<&str> = PAIRS.iter().flat_map(|(_, a, b)| [*a, *b]).collect();
+    let mut known = crate::demos::names();
+    named.sort_unstable();
+    known.sort_unstable();
+    assert_eq!(named, known);
 }
 
 #[test]

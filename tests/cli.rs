@@ -880,8 +880,8 @@ fn a_link_means_the_comparison_that_its_settings_mean() {
     let arguments: Vec<&str> = arguments.split_whitespace().collect();
     let by_link = printed(&["compare", "--link", link, "--json"]);
     assert_eq!(timeless(&by_link), timeless(&printed(&arguments)), "by link and by arguments");
-    // What is “all” or “auto” in a link is left out of a command, and the first of two values counts.
-    let auto = "v=1&engine=0.2&demo=planes&sigma=auto&modes=all&draws=400&draws=800";
+    // What is “all” or “auto” in a link is left out of a command.
+    let auto = "v=1&engine=0.2&demo=planes&sigma=auto&modes=all&draws=400&draws=400";
     let plain = ["compare", "demo:planes-a", "demo:planes-b", "--draws", "400", "--json"];
     let by_link = printed(&["compare", "--link", auto, "--json"]);
     assert_eq!(timeless(&by_link), timeless(&printed(&plain)), "auto");
@@ -975,7 +975,12 @@ fn what_a_link_names_is_never_replaced_by_something_else() {
         "{said}"
     );
     let said = refused(&["compare", "demo:planes-a", "demo:planes-b", "--link", "v=1&hash-b=xyz"]);
-    assert!(said.contains("“hash-b=xyz” of the link cannot be read"), "{said}");
+    assert!(
+        said.contains(
+            "“hash-b=xyz” of the link cannot be used; expected: 8 to 32 hexadecimal digits."
+        ),
+        "{said}"
+    );
     // The right ones, by the digits of their fingerprints.
     let report = printed(&["compare", "demo:planes-a", "demo:planes-b", "--draws", "64", "--json"]);
     let report: Value = serde_json::from_str(&report).unwrap();
@@ -991,16 +996,23 @@ fn what_a_link_names_is_never_replaced_by_something_else() {
 #[test]
 fn a_link_that_cannot_be_read_is_refused_in_words() {
     let cases = [
-        ("v=1&demo=moon", "the pair “moon”"),
+        ("v=1&demo=moon", "the example “moon”, which there is not; expected: one of heads-sex,"),
         (
             "v=1&demo=planes&chains=many",
-            "“chains=many” of the link cannot be read; a count was expected",
+            "“chains=many” of the link cannot be used; expected: a whole number from 2 to 1,024.",
         ),
         (
             "v=1&demo=planes&sigma=dark",
-            "“sigma=dark” of the link cannot be read; a number was expected",
+            "“sigma=dark” of the link cannot be used; expected: a positive number, or auto.",
         ),
-        ("v=1&demo=planes&sampler=magic", "unknown variant `magic`"),
+        ("v=1&demo=planes&sigma=1,000", "“sigma=1,000” of the link cannot be used"),
+        ("v=1&demo=planes&sampler=magic", "expected: one of auto, variational"),
+        ("v=1&demo=planes&points=a-b", "expected: numbers of points such as 0-99,120, or map."),
+        ("v=1&demo=planes&draws=16&chains=25", "from 200 to 10,000,000, eight for each chain."),
+        ("v=1&demo=planes&draws=400&draws=800", "“draws” twice, as “400” and as “800”"),
+        ("v=1&demo=planes&sgima=0.5", "the key “sgima”, which there is not."),
+        ("v=1&demo=planes&view=xray", "expected: one of contrast, pairs, mean, samples, sd."),
+        ("v=1&demo=planes&a=demo:stars-1-a&b=demo:stars-1-b", "an example or two models."),
         ("v=1&page=learn&scene=step", "The link is to the page “learn”"),
     ];
     for (link, expected) in cases {
@@ -1010,6 +1022,9 @@ fn a_link_that_cannot_be_read_is_refused_in_words() {
         assert!(complaint.contains(expected), "{link}: {complaint}");
         assert!(complaint.lines().count() >= 2, "{link}: says what to do: {complaint}");
     }
+    let said = shapevenn(&["compare", "--link", "v=1&demo=planes&seed=-1&sigma=abc"]);
+    let said = text(&said.stderr);
+    assert!(said.contains("seed=-1") && said.contains("sigma=abc"), "all at once: {said}");
     let both = shapevenn(&["compare", "--link", "v=1", "--sigma", "1"]);
     assert_eq!(both.status.code(), Some(2), "a link decides all settings");
 }
@@ -1054,4 +1069,86 @@ fn texts_of_files_reach_a_terminal_without_control_characters() {
     let output = shapevenn(&["info", &named, "--json"]);
     let models: Vec<ModelReport> = serde_json::from_str(&only_text(&output.stdout)).unwrap();
     assert_eq!(models[0].name, hostile);
+}
+
+#[test]
+fn slips_of_a_link_are_corrected_and_said() {
+    let plain = "demo=stars-2&sigma=0.01&draws=64&perms=0";
+    let report = |link: &str| {
+        let output = shapevenn(&["compare", "--link", link, "--json"]);
+        assert_eq!(output.status.code(), Some(0), "{link}: {}", text(&output.stderr));
+        (text(&output.stdout), text(&output.stderr))
+    };
+    let (expected, silent) = report(&format!("v=1&engine=0.2&{plain}"));
+    assert_eq!(silent, "", "nothing is wrong with this one");
+    for (link, said) in [
+        (
+            "https://a.example/#v=1&amp;demo=stars-2&amp;sigma=0.01&amp;draws=64&amp;perms=0",
+            "“&amp;” is read as “&”.",
+        ),
+        ("#v=1%26demo=stars-2%26sigma=0.01%26draws=64%26perms=0", "“%26” is read as “&”."),
+        ("https://a.example/%23demo=stars-2&sigma=0.01&draws=64&perms=0", "“%23” is read as “#”."),
+        (
+            "<#demo=stars-2&draws=64&perms=0&sigma=0.01>).",
+            "“sigma=0.01>).” is read as “sigma=0.01”.",
+        ),
+        ("#DEMO=Stars-2&Sigma=0,01&draws=64&perms=0", "“sigma=0,01” is read as “sigma=0.01”."),
+    ] {
+        let (found, stderr) = report(link);
+        assert_eq!(timeless(&found), timeless(&expected), "{link}");
+        assert!(stderr.contains(said), "{link}: {stderr}");
+    }
+}
+
+#[test]
+fn two_numbers_of_a_region_are_two_points_and_never_a_pair() {
+    let (a, b) = ("demo:stars-2-a", "demo:stars-2-b");
+    let selected = |arguments: &[&str]| {
+        let all = [&["compare", a, b, "--draws", "64", "--permutations", "0", "--json"], arguments]
+            .concat();
+        let report: Value = serde_json::from_str(&printed(&all)).unwrap();
+        report["settings"]["prepare"]["points"].clone()
+    };
+    let region = serde_json::json!({ "by": "region", "ranges": "3,7" });
+    assert_eq!(selected(&["--region", "3,7"]), region, "typed");
+    let folder = std::env::temp_dir().join(format!("shapevenn-points-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let file = folder.join("points.txt");
+    std::fs::write(&file, "\u{feff}3 7\n").unwrap();
+    let file = file.to_str().unwrap();
+    assert_eq!(selected(&["--region", file]), region, "in a file");
+    std::fs::write(file, "0 1\n1,0\n2 2\n3 3\n4 4\n5 5\n6 6\n7 7\n").unwrap();
+    let pairs = serde_json::json!({ "by": "list", "a": [0, 1, 2, 3, 4, 5, 6, 7], "b": [1, 0, 2, 3, 4, 5, 6, 7] });
+    assert_eq!(selected(&["--pairs", file]), pairs, "as pairs");
+    std::fs::write(file, "3\n7\n").unwrap();
+    let refused = shapevenn(&["compare", a, b, "--pairs", file]);
+    assert_eq!(refused.status.code(), Some(2), "no pairs");
+    assert!(
+        text(&refused.stderr).contains("a point of A and a point of B were expected"),
+        "{refused:?}"
+    );
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn numbers_of_options_are_written_as_in_links() {
+    let sigma = |text: &str| {
+        let arguments = [
+            "compare",
+            "demo:planes-a",
+            "demo:planes-b",
+            "--draws",
+            "64",
+            "--json",
+            "--sigma",
+            text,
+        ];
+        let output = shapevenn(&arguments);
+        let report: Value = serde_json::from_slice(&output.stdout).unwrap_or_default();
+        (output.status.code(), report["settings"]["sigma"].as_f64())
+    };
+    assert_eq!(sigma("0,25"), (Some(0), Some(0.25)), "a decimal comma");
+    for text in ["1,000", "abc", "inf", "nan", ""] {
+        assert_eq!(sigma(text).0, Some(2), "{text}");
+    }
 }

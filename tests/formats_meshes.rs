@@ -422,3 +422,78 @@ proptest! {
         }
     }
 }
+
+/// One shape in each format that begins with text.
+fn texts(shift: f64) -> Vec<(&'static str, Vec<u8>)> {
+    let points = [[0.0, 0.0, 0.0], [1.0, 0.0, shift], [0.0, 1.0 + shift, 0.0], [1.0, 1.0, 1.0]];
+    let rows = |before: &str, between: &str| -> String {
+        let row =
+            |point: &[f64; 3]| format!("{before}{}\n", point.map(|x| x.to_string()).join(between));
+        points.iter().map(row).collect()
+    };
+    let faces = [[0, 1, 2], [1, 3, 2]];
+    let listed = |before: &str, from: usize| -> String {
+        let face = |face: &[usize; 3]| {
+            format!("{before}{}\n", face.map(|at| (at + from).to_string()).join(" "))
+        };
+        faces.iter().map(face).collect()
+    };
+    let header = |kind: &str| {
+        format!(
+            "ply\nformat {kind} 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n\
+             element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+        )
+    };
+    let mut binary = header("binary_little_endian").into_bytes();
+    binary.extend(points.iter().flatten().flat_map(|value| value.to_le_bytes()));
+    for face in faces {
+        binary.push(3);
+        binary.extend(face.iter().flat_map(|&at| i32::try_from(at).unwrap().to_le_bytes()));
+    }
+    let corner = |at: usize| format!("vertex {}\n", points[at].map(|x| x.to_string()).join(" "));
+    let facet = |face: [usize; 3]| {
+        let corners: String = face.into_iter().map(corner).collect();
+        format!("facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n")
+    };
+    let facets: String = faces.into_iter().map(facet).collect();
+    vec![
+        ("ply", (header("ascii") + &rows("", " ") + &listed("3 ", 0)).into_bytes()),
+        ("ply", binary),
+        ("obj", (rows("v ", " ") + &listed("f ", 1)).into_bytes()),
+        ("stl", format!("solid s\n{facets}endsolid s\n").into_bytes()),
+        (
+            "vtk",
+            format!(
+                "# vtk DataFile Version 3.0\ns\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n{}POLYGONS 2 8\n{}",
+                rows("", " "),
+                listed("3 ", 0)
+            )
+            .into_bytes(),
+        ),
+        ("csv", ("x,y,z\n".to_owned() + &rows("", ",")).into_bytes()),
+        ("particles", rows("", " ").into_bytes()),
+        ("tps", format!("LM3=4\n{}ID=1\n", rows("", " ")).into_bytes()),
+    ]
+}
+
+#[test]
+fn a_byte_order_mark_before_text_changes_nothing_in_any_format() {
+    let shifts = [0.0, 0.1, -0.2, 0.35];
+    let count = texts(0.0).len();
+    for format in 0..count {
+        let model = |mark: &[u8]| {
+            let file = |(index, shift): (usize, f64)| {
+                let (ending, text) = texts(shift).swap_remove(format);
+                Input::of_bytes(format!("s{index}.{ending}"), [mark, &text].concat())
+            };
+            let inputs: Vec<Input> = shifts.into_iter().enumerate().map(file).collect();
+            let name = inputs[0].name.clone();
+            let opened = formats::open(&inputs, &Options::default());
+            opened.unwrap_or_else(|error| panic!("{name}: {error}")).part.model
+        };
+        let (plain, marked) = (model(b""), model(b"\xef\xbb\xbf"));
+        assert_eq!(plain.mean(), marked.mean(), "format {format}");
+        assert_eq!(plain.cells(), marked.cells(), "format {format}");
+        assert_eq!(plain.point_count(), 4, "format {format}");
+    }
+}

@@ -7,7 +7,7 @@ use super::error::{Fault, FormatError};
 use super::input::Input;
 use super::input::compressed::{self, DEEPEST};
 use super::input::paths::in_order;
-use super::input::sniffing::{Content, sniff};
+use super::input::sniffing::{self, Content, sniff};
 use super::mesh;
 use super::opened::{Opened, Options};
 use super::readers::{
@@ -123,8 +123,8 @@ fn with_faces(mut opened: Opened, input: &Input) -> Opened {
         return opened;
     }
     let mesh = compressed::unpacked(input).and_then(|input| {
-        let content = sniff(&input)?;
-        mesh::read(content, &input.bytes()?).map_err(|fault| fault.of(&input.name))
+        let (content, bytes) = sniffing::read(&input)?;
+        mesh::read(content, &bytes).map_err(|fault| fault.of(&input.name))
     });
     let points = part.model.point_count();
     let note = match mesh {

@@ -92,6 +92,25 @@ pub enum SelectionError {
         /// What was found.
         found: String,
     },
+    /// A line that is no pair.
+    Pair {
+        /// Line in the file, from 1.
+        line: usize,
+        /// What was found.
+        found: String,
+    },
+    /// A line that is no pair among lines that are pairs.
+    Mixed {
+        /// Line in the file, from 1.
+        line: usize,
+        /// What was found.
+        found: String,
+    },
+    /// More points than any mesh has.
+    TooMany {
+        /// How many.
+        count: usize,
+    },
     /// No points at all.
     Empty,
     /// A point number beyond the mesh.
@@ -128,6 +147,13 @@ impl SelectionError {
             Self::Text { .. } => {
                 "Write one point number a line, two for a pair (A, then B), counted from 0; ranges as 0-99."
             }
+            Self::Pair { .. } => {
+                "Write a point of A and a point of B on each line, counted from 0."
+            }
+            Self::Mixed { .. } => {
+                "Write two numbers on every line for pairs (A, then B), or one on every line for a region."
+            }
+            Self::TooMany { .. } => "Check the ranges.",
             Self::Empty => "Choose some points, or compare all of them.",
             Self::Beyond { .. } => {
                 "Check that the numbers count from 0 and belong to these two meshes."
@@ -146,8 +172,25 @@ impl fmt::Display for SelectionError {
                 write!(f, "“{found}” was found; a list of point numbers was expected.")
             }
             Self::Text { line, found } => {
-                write!(f, "Line {line} reads “{found}”; one or two point numbers were expected.")
+                write!(
+                    f,
+                    "Line {line} reads “{found}”; point numbers or ranges such as 0-99 were expected."
+                )
             }
+            Self::Pair { line, found } => write!(
+                f,
+                "Line {line} reads “{found}”; a point of A and a point of B were expected."
+            ),
+            Self::Mixed { line, found } => write!(
+                f,
+                "Line {line} reads “{found}”; a pair of points was expected, as on other lines."
+            ),
+            Self::TooMany { count } => write!(
+                f,
+                "{} points are chosen; at most {} were expected.",
+                thousands(*count),
+                thousands(MOST_POINTS as usize)
+            ),
             Self::Empty => write!(f, "No points are chosen."),
             Self::Beyond { model, point, points } => write!(
                 f,
@@ -167,108 +210,134 @@ impl fmt::Display for SelectionError {
 }
 
 impl PointSelection {
-    /// Reads a vertex list or a file of pairs: one or two whole numbers a line, ranges, `#` comments.
+    /// Reads a region: point numbers and ranges between commas, semicolons, blanks and lines; `#` begins a comment.
     ///
     /// # Errors
     /// [`SelectionError::Text`] and [`SelectionError::Empty`].
-    pub fn parse(text: &str) -> Result<Self, SelectionError> {
-        const LONGEST_SHOWN: usize = 40;
-        // Ranges of A stay ranges: written out, a few letters would be millions of points.
+    pub fn region(text: &str) -> Result<Self, SelectionError> {
+        Ok(Self::Region { ranges: written(&ranges_in(text)?) })
+    }
+
+    /// Reads pairs: a point of A and a point of B on each line.
+    ///
+    /// # Errors
+    /// [`SelectionError::Pair`] and [`SelectionError::Empty`].
+    pub fn pairs(text: &str) -> Result<Self, SelectionError> {
         let (mut a, mut b) = (Vec::new(), Vec::new());
-        let mut count = 0_usize;
-        for (index, line) in text.trim_start_matches('\u{feff}').lines().enumerate() {
-            let line = line.split('#').next().unwrap_or_default().trim();
-            if line.is_empty() {
-                continue;
-            }
-            let wrong = || SelectionError::Text {
-                line: index + 1,
-                found: line.chars().take(LONGEST_SHOWN).collect(),
+        for (line, content) in lines(text) {
+            let Some([first, second]) = pair_in(content) else {
+                return Err(SelectionError::Pair { line, found: shown(content) });
             };
-            if line.contains('-') || line.matches(',').count() > 1 {
-                for (first, last) in parsed_ranges(line).map_err(|_| wrong())? {
-                    count = count.saturating_add((last - first) as usize + 1);
-                    a.push((first, last));
-                }
-                // A few letters a line can ask for millions of points, again and again.
-                if count > MOST_POINTS {
-                    return Err(wrong());
-                }
-                continue;
-            }
-            let numbers: Result<Vec<u32>, _> = line
-                .split([' ', '\t', ',', ';'])
-                .filter(|word| !word.is_empty())
-                .map(str::parse)
-                .collect();
-            let numbers = numbers.map_err(|_| wrong())?;
-            let (&[first] | &[first, _]) = numbers.as_slice() else { return Err(wrong()) };
-            count += 1;
-            a.push((first, first));
-            b.extend(numbers.get(1));
+            a.push(first);
+            b.push(second);
         }
-        if a.is_empty() {
-            return Err(SelectionError::Empty);
+        if a.is_empty() { Err(SelectionError::Empty) } else { Ok(Self::List { a, b }) }
+    }
+
+    /// Reads a file that is a region or a list of pairs: pairs where every line is two numbers.
+    ///
+    /// # Errors
+    /// [`SelectionError`].
+    pub fn parse(text: &str) -> Result<Self, SelectionError> {
+        let count = lines(text).count();
+        let paired = lines(text).filter(|(_, content)| pair_in(content).is_some()).count();
+        if count > 0 && paired == count {
+            return Self::pairs(text);
         }
-        if b.is_empty() {
-            return Ok(Self::Region { ranges: text_of_ranges(&merged(a)) });
+        if paired > 0 {
+            // One line alone says nothing of the others: which of the two is meant cannot be known.
+            let (line, content) =
+                lines(text).find(|(_, content)| pair_in(content).is_none()).unwrap_or((0, ""));
+            let found = shown(content);
+            return Err(SelectionError::Mixed { line, found });
         }
-        if count != b.len() {
-            return Err(SelectionError::Lengths { a: count, b: b.len() });
+        // Three columns are no points of two models.
+        let is_row = |content: &str| {
+            content.split_whitespace().count() > 2 && !content.contains([',', ';', '-', '–'])
+        };
+        if let Some((line, content)) = lines(text).find(|(_, content)| is_row(content)) {
+            return Err(SelectionError::Text { line, found: shown(content) });
         }
-        Ok(Self::List { a: a.into_iter().flat_map(|(first, last)| first..=last).collect(), b })
+        Self::region(text)
     }
 }
 
 /// More points than any mesh of the field has; a bound for what a short text can ask for.
-const MOST_POINTS: usize = 10_000_000;
+const MOST_POINTS: u32 = 10_000_000;
 
-/// "0-99,120": first and last of each range, in order of the text.
-fn parsed_ranges(text: &str) -> Result<Vec<(u32, u32)>, SelectionError> {
-    let mut ranges = Vec::new();
-    for range in text.split([',', ' ', ';']).filter(|range| !range.is_empty()) {
-        let wrong = || SelectionError::Text { line: 0, found: range.chars().take(40).collect() };
-        let number = |text: &str| text.trim().parse::<u32>().map_err(|_| wrong());
-        let (first, last) = match range.split_once('-') {
-            Some((first, last)) => (number(first)?, number(last)?),
-            None => (number(range)?, number(range)?),
-        };
-        if first > last || (last - first) as usize >= MOST_POINTS {
-            return Err(wrong());
-        }
-        ranges.push((first, last));
-    }
-    if ranges.is_empty() { Err(SelectionError::Empty) } else { Ok(ranges) }
+/// Digits of a point number.
+const MOST_DIGITS: usize = 9;
+
+/// What stands between numbers.
+fn is_between(letter: char) -> bool {
+    letter.is_whitespace() || matches!(letter, ',' | ';')
 }
 
-/// The same points in ascending ranges that are apart.
-fn merged(mut ranges: Vec<(u32, u32)>) -> Vec<(u32, u32)> {
-    ranges.sort_unstable();
-    let mut apart: Vec<(u32, u32)> = Vec::new();
-    for (first, last) in ranges {
-        match apart.last_mut() {
-            Some((_, end)) if first <= end.saturating_add(1) => *end = last.max(*end),
-            _ => apart.push((first, last)),
-        }
-    }
-    apart
+/// The lines that say something, by their numbers from 1, without comments.
+fn lines(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let lines = text.trim_start_matches('\u{feff}').lines().enumerate();
+    lines
+        .map(|(index, line)| (index + 1, line.split('#').next().unwrap_or_default().trim()))
+        .filter(|(_, line)| !line.is_empty())
 }
 
-/// "0-99,120": the points, ascending.
-fn points_of_ranges(text: &str) -> Result<Vec<u32>, SelectionError> {
-    let ranges = merged(parsed_ranges(text)?);
-    let count: usize = ranges.iter().map(|(first, last)| (last - first) as usize + 1).sum();
+fn shown(content: &str) -> String {
+    const LONGEST_SHOWN: usize = 40;
+    content.chars().take(LONGEST_SHOWN).collect()
+}
+
+fn point(text: &str) -> Option<u32> {
+    let digits = !text.is_empty() && text.len() <= MOST_DIGITS;
+    (digits && text.bytes().all(|byte| byte.is_ascii_digit())).then(|| text.parse().ok()).flatten()
+}
+
+/// The two numbers of a line that has two and no more.
+fn pair_in(content: &str) -> Option<[u32; 2]> {
+    let mut words = content.split(is_between).filter(|word| !word.is_empty());
+    let pair = [point(words.next()?)?, point(words.next()?)?];
+    words.next().is_none().then_some(pair)
+}
+
+/// "0-99,120": first and last point of each range, ascending and apart.
+fn ranges_in(text: &str) -> Result<Vec<(u32, u32)>, SelectionError> {
+    let only = text.lines().count() < 2;
+    let mut found = Vec::new();
+    for (line, content) in lines(text) {
+        for range in content.split(is_between).filter(|range| !range.is_empty()) {
+            // Word processors make a dash of a hyphen.
+            let (first, last) = range.split_once(['-', '–']).unwrap_or((range, range));
+            match (point(first), point(last)) {
+                (Some(first), Some(last)) if first <= last => found.push((first, last)),
+                _ => {
+                    let line = if only { 0 } else { line };
+                    return Err(SelectionError::Text { line, found: shown(range) });
+                }
+            }
+        }
+    }
+    found.sort_unstable();
+    let mut ranges: Vec<(u32, u32)> = Vec::new();
+    for (first, last) in found {
+        match ranges.last_mut() {
+            Some((_, end)) if first <= *end + 1 => *end = last.max(*end),
+            _ => ranges.push((first, last)),
+        }
+    }
+    if ranges.is_empty() {
+        return Err(SelectionError::Empty);
+    }
+    let count = ranges.iter().fold(0_u32, |sum, (first, last)| sum + (last - first + 1));
     if count > MOST_POINTS {
-        return Err(SelectionError::Text { line: 0, found: text.chars().take(40).collect() });
+        return Err(SelectionError::TooMany { count: count as usize });
     }
-    Ok(ranges.into_iter().flat_map(|(first, last)| first..=last).collect())
+    Ok(ranges)
 }
 
-fn text_of_ranges(ranges: &[(u32, u32)]) -> String {
-    let written = |&(first, last): &(u32, u32)| {
+fn written(ranges: &[(u32, u32)]) -> String {
+    let range = |&(first, last): &(u32, u32)| {
         if first == last { first.to_string() } else { format!("{first}-{last}") }
     };
-    ranges.iter().map(written).collect::<Vec<_>>().join(",")
+    ranges.iter().map(range).collect::<Vec<_>>().join(",")
 }
 
 /// Two prepared models.
@@ -293,7 +362,8 @@ impl Preparation {
         let Some(selection) = &self.points else { return Ok(None) };
         let lists = match selection {
             PointSelection::Region { ranges } => {
-                let points = points_of_ranges(ranges)?;
+                let points: Vec<u32> =
+                    ranges_in(ranges)?.into_iter().flat_map(|(first, last)| first..=last).collect();
                 [points.clone(), points]
             }
             PointSelection::List { a, b } if a.len() != b.len() => {
@@ -468,19 +538,42 @@ mod tests {
         let error = PointSelection::parse("1 2 3").unwrap_err();
         assert_eq!(
             error.to_string(),
-            "Line 1 reads “1 2 3”; one or two point numbers were expected.",
+            "Line 1 reads “1 2 3”; point numbers or ranges such as 0-99 were expected.",
             "three numbers"
         );
         assert_eq!(PointSelection::parse("\n#\n"), Err(SelectionError::Empty), "nothing");
-        let lengths = SelectionError::Lengths { a: 2, b: 1 };
-        assert_eq!(PointSelection::parse("1 2\n3\n"), Err(lengths), "half a pair");
+        let half = SelectionError::Mixed { line: 2, found: "3".to_owned() };
+        assert_eq!(PointSelection::parse("1 2\n3\n"), Err(half), "half a pair");
         assert!(PointSelection::parse("0-4000000000").is_err(), "more than any mesh has");
         // Found by fuzzing: every line was bounded, all of them together were not.
-        let again = PointSelection::parse(&"0-5999999\n".repeat(100_000)).unwrap_err();
+        let again = PointSelection::parse(&"0-5999999\n".repeat(100_000));
         assert_eq!(
-            again.to_string(),
-            "Line 2 reads “0-5999999”; one or two point numbers were expected.",
-            "more than any mesh has, line after line"
+            again,
+            region("0-5999999"),
+            "the same points again and again are no more of them"
         );
+        let error = PointSelection::parse("0-5999999\n6000001-12000001").unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "12,000,001 points are chosen; at most 10,000,000 were expected.",
+            "more than any mesh has, range after range"
+        );
+    }
+
+    #[test]
+    fn what_is_asked_for_as_a_region_is_one_and_pairs_are_pairs() {
+        let region = |ranges: &str| Ok(PointSelection::Region { ranges: ranges.to_owned() });
+        // Two numbers in one line are a pair in a file of pairs, and two points of a region.
+        assert_eq!(PointSelection::region("3,40"), region("3,40"), "two points");
+        assert_eq!(PointSelection::region("1 2 3\n7"), region("1-3,7"), "in a row");
+        let pair = PointSelection::List { a: vec![3], b: vec![40] };
+        assert_eq!(PointSelection::pairs("3,40"), Ok(pair), "a pair");
+        let error = PointSelection::pairs("3,40\n7").unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "Line 2 reads “7”; a point of A and a point of B were expected.",
+            "one number"
+        );
+        assert!(PointSelection::pairs("0-9").is_err(), "a range is no pair");
     }
 }

@@ -1,7 +1,9 @@
 //! Settings of a run: everything that, with the two models, decides every draw.
 
 mod fields;
+mod links;
 mod sigma;
+mod values;
 
 use core::fmt;
 
@@ -11,7 +13,9 @@ use crate::model::{Alignment, Side};
 use crate::pair::{DifferenceDefinition, Preparation};
 
 pub use fields::{FIELDS, Field, FieldValue, LEAST_DRAWS_OF_A_CHAIN};
+pub use links::{LinkKey, LinkPart, PAIRS, ReadLink, link_keys};
 pub use sigma::{SIGMA_SINCE, Sigma, SigmaSource};
+pub use values::{HASH_DIGITS, LinkValue, count, decimal_number, number, seed, share};
 
 /// How the intersection is sampled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]

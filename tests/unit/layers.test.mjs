@@ -33,7 +33,18 @@ const RUST = {
     ...["roofline", "typescript", "wasm", "bin"],
   ],
   "src/formats": [
-    ...["reading", "error", "opened", "input", "containers", "mesh", "readers", "several", "write", "open"],
+    ...[
+      "reading",
+      "error",
+      "opened",
+      "input",
+      "containers",
+      "mesh",
+      "readers",
+      "several",
+      "write",
+      "open",
+    ],
   ],
 };
 

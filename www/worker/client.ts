@@ -27,6 +27,7 @@ import type {
   OpenedModel,
   Pairing,
   PairPlots,
+  Placement,
   PointSelection,
   Preview,
   Progress,

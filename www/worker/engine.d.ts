@@ -19,7 +19,7 @@ export class Engine {
      * # Errors
      * `{ code, message, hint }` when they cannot be read or do not fit; the model then stays as it was.
      */
-    addShapes(model: number, files: DroppedFile[], name: string, scale: boolean): OpenedModel;
+    addShapes(model: number, files: DroppedFile[], name: string, reading: string): OpenedModel;
     /**
      * Does about `evaluations` evaluations of the distance and says how far the run is.
      *
@@ -79,12 +79,12 @@ export class Engine {
     ellipsoids(vertex: number): Partial<Record<Region, Ellipsoid>>;
     /**
      * Generalization and specificity of a model, by shapes that test it (`[{ name, blob }]`) or by those
-     * that it was made of (`training`).
+     * that it was made of (`training`); `placement` says how test shapes are placed.
      *
      * # Errors
      * `{ code, message, hint }` when the shapes cannot be read or are not like those of the model.
      */
-    evaluate(model: number, shapes: DroppedFile[], training: boolean): Evaluation;
+    evaluate(model: number, shapes: DroppedFile[], training: boolean, placement: Placement): Evaluation;
     /**
      * The shape at slider values along the axes: `{ shape, coefficients, norm, plausibility, nearest }`. With
      * `follow`, `nearest` has the nearest shapes `{ a, b }`, each `{ shape, residuals, distance, norm,
@@ -169,7 +169,7 @@ export class Engine {
      * # Errors
      * `{ code, message, hint }`.
      */
-    open(files: DroppedFile[], part: string | null | undefined, scale: boolean, on_read: (bytes: number, of: number) => void): OpenedModel;
+    open(files: DroppedFile[], part: string | null | undefined, reading: string, on_read: (bytes: number, of: number) => void): OpenedModel;
     /**
      * The shape of a side ("a", "b") at a place in the order of distances, 0 to 1, and the nearest of the other model.
      *

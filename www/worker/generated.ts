@@ -220,6 +220,82 @@ export type Field = {
   alwaysInLinks: boolean,
 };
 
+/** What a value may be. */
+export type LinkValue = {
+  "kind": "choice",
+  /** The names. */
+  of: Array<string>,
+} | {
+  "kind": "count",
+  /** Smallest. */
+  least: number,
+  /** Largest. */
+  most: number,
+} | {
+  "kind": "countOrAll",
+  /** Smallest. */
+  least: number,
+  /** Largest. */
+  most: number,
+} | {
+  "kind": "positive"
+} | {
+  "kind": "share"
+} | {
+  "kind": "shareOfVariance"
+} | {
+  "kind": "seed"
+} | {
+  "kind": "within",
+  /** Smallest. */
+  least: number,
+  /** Largest. */
+  most: number,
+} | {
+  "kind": "list",
+  /** Smallest. */
+  least: number,
+  /** Largest. */
+  most: number,
+} | {
+  "kind": "range"
+} | {
+  "kind": "camera"
+} | {
+  "kind": "points"
+} | {
+  "kind": "hash"
+} | {
+  "kind": "version"
+} | {
+  "kind": "address",
+  /** Models that come with the page, named `demo:NAME`. */
+  demos: Array<string>,
+} | {
+  "kind": "models",
+  /** Their names. */
+  of: Array<string>,
+} | {
+  "kind": "explorer"
+} | {
+  "kind": "text"
+};
+
+/** What a key of a link decides. */
+export type LinkPart = "page" | "models" | "settings" | "view" | "lesson";
+
+/** A key of a link. */
+export type LinkKey = {
+  /** The key. */
+  key: string,
+  /** What it decides. */
+  part: LinkPart,
+  /** What its value may be. */
+  value: LinkValue,
+  /** The same in words. */
+  expected: string,
+};
+
 /** Files that make one model. */
 export type Group = {
   /** What to call it: the file's name, or the folder's. */

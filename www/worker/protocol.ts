@@ -8,6 +8,7 @@ import type {
   Axes,
   AxesKind,
   ChainPlots,
+  Choice,
   DifferenceShapes,
   Download,
   Ellipsoid,
@@ -19,12 +20,11 @@ import type {
   LessonAsk,
   MapName,
   Nearest,
-  Choice,
   Notice,
-  Placement,
   OpenedModel,
   Pairing,
   PairPlots,
+  Placement,
   PointSelection,
   Preparation,
   Preview,
@@ -154,7 +154,14 @@ export type ToEngine =
   /** Of any two models that are open. */
   | { t: "relate"; id: number; a: Handle; b: Handle; settings: Partial<Settings> }
   /** Shapes to test a model with, or those that it was made of. */
-  | { t: "evaluate"; id: number; model: Handle; files: DroppedFile[]; training: boolean; placement: Placement }
+  | {
+      t: "evaluate";
+      id: number;
+      model: Handle;
+      files: DroppedFile[];
+      training: boolean;
+      placement: Placement;
+    }
   /** The text of a run file, or of a report. */
   | { t: "readRun"; id: number; text: string }
   | { t: "runFile"; id: number; sources: Sides<string | null> }

@@ -26,7 +26,8 @@ impl From<LessonError> for Failure {
 }
 
 pub(crate) fn lesson(arguments: &Arguments) -> Result<(), Failure> {
-    let link = Link::parse(&arguments.link);
+    let link = Link::read_lesson(&arguments.link);
+    link.refuse_faults()?;
     let (scene, others) = Scene::of_link(link.pairs())?;
     let numbers = scene.numbers()?;
     if arguments.json {

@@ -1,13 +1,16 @@
 //! Links of the page, and the comparison that one is about (`compare --link`).
 //!
-//! The grammar is that of docs/links.md. Where the page falls back to the default, because a value cannot be
-//! read, the command line refuses: whoever types a command sees what was wrong with it.
+//! The grammar is that of docs/links.md, read by [`ReadLink`]. What the page names beside what it opens instead, because it
+//! cannot be read, the command line refuses: nobody looks at what a command opens.
 
 use serde_json::{Map, Value, json};
 use shapevenn::formats::Reading;
-use shapevenn::settings::{FIELDS, FieldValue, SIGMA_SINCE, Settings};
-
+use shapevenn::pair::PointSelection;
 use shapevenn::report::ModelReport;
+use shapevenn::settings::{
+    self, FIELDS, FieldValue, HASH_DIGITS, LinkPart, PAIRS, ReadLink, SIGMA_SINCE, Settings,
+    link_keys,
+};
 
 use crate::{Failure, reading};
 
@@ -15,14 +18,8 @@ use crate::{Failure, reading};
 const OF_ONE: [(&str, Written); 3] =
     [("unit", Written::Word), ("modes", Written::Count), ("variance", Written::Percent)];
 
-/// Keys of what is done to both models.
-const OF_BOTH: [&str; 5] = ["rebase", "convert", "mirror", "points", "subsample"];
-
 /// The pair that a link means which names none, and the σ of its stored comparison.
 const FIRST: (&str, f64) = ("heads-sex", 1.0);
-
-/// Digits of a fingerprint that a link is compared with.
-const HASH_DIGITS: usize = 16;
 
 /// How a value is written in a link.
 #[derive(Debug, Clone, Copy)]
@@ -46,23 +43,51 @@ impl From<FieldValue> for Written {
 
 /// Keys and values of a link.
 #[derive(Debug, Clone)]
-pub(crate) struct Link(Vec<(String, String)>);
+pub(crate) struct Link(ReadLink);
 
 impl Link {
-    /// From a whole address or its fragment, with or without “#”.
-    pub(crate) fn parse(text: &str) -> Self {
-        let fragment = text.split_once('#').map_or(text, |(_, fragment)| fragment);
-        Self(form_urlencoded::parse(fragment.as_bytes()).into_owned().collect())
+    /// From a whole address or its fragment, with or without “#”. Says on standard error what was corrected.
+    pub(crate) fn read(text: &str) -> Self {
+        Self::say(ReadLink::of(text))
+    }
+
+    /// The same of a scene of the lessons.
+    pub(crate) fn read_lesson(text: &str) -> Self {
+        Self::say(ReadLink::of_lesson(text))
+    }
+
+    fn say(read: ReadLink) -> Self {
+        for repair in &read.repairs {
+            eprintln!("shapevenn: {repair}");
+        }
+        Self(read)
+    }
+
+    #[cfg(test)]
+    fn parse(text: &str) -> Self {
+        Self(ReadLink::of(text))
     }
 
     /// All of them, in order.
     pub(crate) fn pairs(&self) -> &[(String, String)] {
-        &self.0
+        &self.0.pairs
     }
 
-    /// The first value of a key, as the page reads it.
+    /// Refuses a link of which something cannot be read.
+    pub(crate) fn refuse_faults(&self) -> Result<(), Failure> {
+        if self.0.faults.is_empty() {
+            return Ok(());
+        }
+        Err(Failure::Input {
+            message: self.0.faults.join("\n  "),
+            hint: "Correct the link, or leave this out of it; docs/links.md lists the keys and what each may be."
+                .to_owned(),
+        })
+    }
+
+    /// The value of a key.
     pub(crate) fn get(&self, key: &str) -> Option<&str> {
-        self.0.iter().find(|(name, _)| name == key).map(|(_, value)| value.as_str())
+        self.0.get(key)
     }
 
     /// What the page is for: a comparison when it is not said.
@@ -85,49 +110,43 @@ impl Link {
             // “all” and “auto” are what is left out.
             let given = self.get(field.key).filter(|text| !matches!(*text, "all" | "auto" | ""));
             if let Some(text) = given {
-                let value = value(field.key, text, field.value.into())?;
-                found.insert(field.name.to_owned(), value);
+                found.insert(field.name.to_owned(), value(text, field.value.into()));
             }
         }
         if self.is_stored() {
             found.insert("sigma".to_owned(), json!(FIRST.1));
         }
-        found.insert("prepare".to_owned(), self.preparation()?);
+        found.insert("prepare".to_owned(), self.preparation());
         Settings::parse(Value::Object(found)).map_err(|error| Failure::Input {
             message: format!("The link cannot be read: {error}."),
             hint: "docs/links.md lists the keys of a link and what each may be.".to_owned(),
         })
     }
 
-    fn preparation(&self) -> Result<Value, Failure> {
+    fn preparation(&self) -> Value {
         let rebased = self.get("rebase").unwrap_or_default();
-        let side = |side: char| -> Result<Value, Failure> {
+        let side = |side: char| {
             let mut found = Map::new();
             for (name, written) in OF_ONE {
-                let key = format!("{name}-{side}");
-                if let Some(text) = self.get(&key) {
-                    found.insert(name.to_owned(), value(&key, text, written)?);
+                if let Some(text) = self.get(&format!("{name}-{side}")) {
+                    found.insert(name.to_owned(), value(text, written));
                 }
             }
             found.insert("rebase".to_owned(), json!(rebased.contains(side)));
-            Ok(Value::Object(found))
+            Value::Object(found)
         };
-        let points = self.get("points").map(|points| match points {
-            "map" => json!({ "by": "map" }),
-            ranges => json!({ "by": "region", "ranges": ranges }),
+        let points = self.get("points").and_then(|points| match points {
+            "map" => Some(PointSelection::Map),
+            ranges => PointSelection::region(ranges).ok(),
         });
-        let subsample = self
-            .get("subsample")
-            .map(|text| value("subsample", text, Written::Count))
-            .transpose()?;
-        Ok(json!({
-            "a": side('a')?,
-            "b": side('b')?,
+        json!({
+            "a": side('a'),
+            "b": side('b'),
             "convert": self.get("convert") == Some("yes"),
             "mirror": self.get("mirror") == Some("yes"),
             "points": points,
-            "subsample": subsample,
-        }))
+            "subsample": self.get("subsample").map(|text| value(text, Written::Count)),
+        })
     }
 
     /// Whether it asks for the comparison that is stored with the page.
@@ -138,11 +157,10 @@ impl Link {
 
     /// Whether it says nothing of settings, which is how the stored comparison is asked for.
     fn is_silent(&self) -> bool {
-        let of_one =
-            OF_ONE.iter().flat_map(|(name, _)| ["-a", "-b"].map(|end| format!("{name}{end}")));
-        let of_both = OF_BOTH.iter().map(|key| (*key).to_owned());
-        let mut keys = FIELDS.iter().map(|field| field.key.to_owned()).chain(of_one).chain(of_both);
-        keys.all(|key| self.get(&key).is_none())
+        link_keys()
+            .iter()
+            .filter(|known| known.part == LinkPart::Settings)
+            .all(|known| self.get(known.key).is_none())
     }
 
     fn demo(&self) -> &str {
@@ -191,13 +209,20 @@ impl Link {
                 }
             };
             source.clone_into(&mut found[place]);
-            if let Some(part) = self.get(&format!("part-{side}")) {
+            let part = self.get(&format!("part-{side}")).filter(|part| !part.is_empty());
+            if let Some(part) = part {
                 found[place].push('#');
                 found[place].push_str(part);
             }
         }
         if missing.is_empty() {
-            return Ok(found);
+            return match &self.0.unclear_models {
+                Some(message) if given == [None, None] => Err(Failure::Input {
+                    message: message.clone(),
+                    hint: "Leave one of them out of the link.".to_owned(),
+                }),
+                _ => Ok(found),
+            };
         }
         Err(Failure::Input {
             message: format!(
@@ -213,16 +238,6 @@ impl Link {
         for (side, model) in ['a', 'b'].into_iter().zip(models) {
             let key = format!("hash-{side}");
             let Some(expected) = self.get(&key).map(str::to_lowercase) else { continue };
-            let digits = (8..=32).contains(&expected.len())
-                && expected.bytes().all(|digit| digit.is_ascii_hexdigit());
-            if !digits {
-                return Err(Failure::Input {
-                    message: format!(
-                        "“{key}={expected}” of the link cannot be read; 8 to 32 hexadecimal digits were expected."
-                    ),
-                    hint: "Copy the link again, or leave this key out of it.".to_owned(),
-                });
-            }
             let found = model.fingerprint.as_deref().unwrap_or_default();
             let compared = expected.len().min(HASH_DIGITS);
             if !found.starts_with(&expected[..compared]) {
@@ -258,45 +273,27 @@ fn version(text: &str) -> Option<(u32, u32)> {
     Some((parts.next()??, parts.next()??))
 }
 
-/// One value, as a report has it.
-fn value(key: &str, text: &str, written: Written) -> Result<Value, Failure> {
-    let refused = |expected: &str| Failure::Input {
-        message: format!("“{key}={text}” of the link cannot be read; {expected} was expected."),
-        hint: "docs/links.md lists the keys of a link and what each may be.".to_owned(),
-    };
-    let number = || text.parse::<f64>().ok().filter(|value| value.is_finite());
+/// One value, as a report has it; what cannot be read was refused before.
+fn value(text: &str, written: Written) -> Value {
     match written {
-        Written::Word => Ok(json!(text)),
-        Written::Count => {
-            text.parse::<u64>().map(|count| json!(count)).map_err(|_| refused("a count"))
-        }
-        Written::Number => number().map(|value| json!(value)).ok_or_else(|| refused("a number")),
-        Written::Percent => {
-            let share = number().ok_or_else(|| refused("a number of per cent"))? / 100.0;
-            // With the digits that the page keeps.
-            let short: f64 = format!("{share:.11e}").parse().unwrap_or(share);
-            Ok(json!(short))
-        }
+        Written::Word => json!(text),
+        Written::Count => json!(settings::count(text, 0, usize::MAX)),
+        Written::Number => json!(settings::number(text)),
+        Written::Percent => json!(settings::share(text)),
     }
 }
 
 /// The two models of a pair that comes with the page.
 fn demo_models(pair: &str) -> Result<[String; 2], Failure> {
-    let [a, b] = match pair {
-        "heads-sex" => ["heads-male", "heads-female"].map(str::to_owned),
-        "heads-expression" => ["heads-identity", "heads-expression"].map(str::to_owned),
-        "wings" => ["wings-aedes", "wings-culex"].map(str::to_owned),
-        _ => ["a", "b"].map(|side| format!("{pair}-{side}")),
-    };
-    let known = shapevenn::demos::names();
-    if !(known.contains(&a) && known.contains(&b)) {
+    let known = PAIRS.iter().find(|(name, ..)| *name == pair);
+    let Some((_, a, b)) = known else {
         return Err(Failure::Input {
-            message: format!("The link asks for the pair “{pair}”, which does not come with this version."),
-            hint: "Pairs are heads-sex, heads-expression, wings, stars-1 to stars-6 and planes; or name the files: \
-                   shapevenn compare A B --link LINK."
-                .to_owned(),
+            message: format!(
+                "The link asks for the pair “{pair}”, which does not come with this version."
+            ),
+            hint: format!("Pairs are {}.", PAIRS.map(|(name, ..)| name).join(", ")),
         });
-    }
+    };
     Ok([a, b].map(|name| format!("demo:{name}")))
 }
 
@@ -306,14 +303,14 @@ mod tests {
 
     #[test]
     fn an_address_and_its_fragment_are_the_same_link() {
-        let fragment = "v=1&a=https://example.org/x%20y.h5&modes=3&modes=4";
+        let fragment = "v=1&a=https://example.org/x%20y.h5&b=models/z.h5&modes=3&modes=4";
         for text in
             [fragment, &format!("#{fragment}"), &format!("https://a.org/?serial#{fragment}")]
         {
             let link = Link::parse(text);
             assert_eq!(link.get("a"), Some("https://example.org/x y.h5"), "{text}");
             assert_eq!(link.get("modes"), Some("3"), "the first of two: {text}");
-            assert_eq!(link.pairs().len(), 4, "{text}");
+            assert!(link.refuse_faults().is_err(), "and the other is not passed over: {text}");
             assert_eq!(link.page(), "compare", "{text}");
         }
     }
@@ -356,6 +353,25 @@ mod tests {
             "v=1",
         ] {
             assert!(!older(text), "{text}");
+        }
+    }
+
+    #[test]
+    fn settings_are_read_as_the_page_reads_them() {
+        let all = include_str!("../../../tests/fixtures/grammar.json");
+        let all: Value = serde_json::from_str(all).unwrap();
+        for case in all["settings"].as_array().unwrap() {
+            let link = Link::parse(case["link"].as_str().unwrap());
+            assert!(link.refuse_faults().is_ok(), "{case}");
+            let found = serde_json::to_value(link.settings().unwrap()).unwrap();
+            for (name, expected) in case["settings"].as_object().unwrap() {
+                let value = found.get(name).unwrap_or(&found["prepare"][name]);
+                let same = match (value.as_f64(), expected.as_f64()) {
+                    (Some(one), Some(other)) => one.to_bits() == other.to_bits(),
+                    _ => value == expected,
+                };
+                assert!(same, "{name} is {value}: {case}");
+            }
         }
     }
 

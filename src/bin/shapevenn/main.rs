@@ -96,7 +96,7 @@ enum Command {
         /// Second model
         b: String,
         /// Tolerances to look at; from a hundredth of the recommended one to a hundredfold when left out
-        #[arg(long, value_delimiter = ',')]
+        #[arg(long, value_delimiter = ',', value_parser = prepare::number)]
         sigma: Vec<f64>,
         #[command(flatten)]
         prepare: prepare::Arguments,
@@ -315,7 +315,8 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
         Some(path) => Some((rerun::read(path)?, path)),
         None => None,
     };
-    let (named, settings) = match (&again, &arguments.link) {
+    let link = arguments.link.as_deref().map(Link::read);
+    let (named, settings) = match (&again, &link) {
         (Some((run, path)), _) => (rerun::models(run, path, given)?, run.settings.clone()),
         (None, Some(link)) => linked(link, given)?,
         (None, None) => {
@@ -323,17 +324,17 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
         }
     };
     let given = arguments.prepare.reading.readings()?;
-    let readings = match (&again, &arguments.link) {
+    let readings = match (&again, &link) {
         _ if given.iter().any(|reading| !reading.is_default()) => given,
         (Some((run, _)), _) => rerun::readings(run)?,
-        (None, Some(link)) => Link::parse(link).readings()?,
+        (None, Some(link)) => link.readings()?,
         (None, None) => given,
     };
     let [a, b] = arguments.shapes.open([&named[0], &named[1]], &readings)?;
     if let Some((run, _)) = &again {
         run.check(&a.report, &b.report)?;
-    } else if let Some(link) = &arguments.link {
-        Link::parse(link).check([&a.report, &b.report])?;
+    } else if let Some(link) = &link {
+        link.check([&a.report, &b.report])?;
     }
     let mut seconds = Seconds { load: begun.elapsed().as_secs_f64(), ..Seconds::default() };
     let described = [a.report, b.report];
@@ -360,8 +361,8 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
     if let Some(folder) = &arguments.out {
         write_all(&run, seconds, folder, rerun::sources_of(&named))?;
     }
-    if let Some(link) = &arguments.link {
-        warn_of_older_sigma(&Link::parse(link), &report);
+    if let Some(link) = &link {
+        warn_of_older_sigma(link, &report);
     }
     if arguments.json {
         document!(files::json(&report));
@@ -372,8 +373,8 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
 }
 
 /// What a link compares, and how.
-fn linked(text: &str, given: [Option<&str>; 2]) -> Result<([String; 2], Settings), Failure> {
-    let link = Link::parse(text);
+fn linked(link: &Link, given: [Option<&str>; 2]) -> Result<([String; 2], Settings), Failure> {
+    link.refuse_faults()?;
     if link.page() != "compare" {
         return Err(Failure::Input {
             message: format!(
@@ -688,7 +689,10 @@ mod tests {
         let same = |text: &str, value: Value| (text.to_owned(), text.to_owned(), value);
         match field.value {
             FieldValue::Choice { of } => same(of[1], json!(of[1])),
-            FieldValue::Count { .. } | FieldValue::CountOrAll { .. } => same("1500", json!(1500)),
+            FieldValue::Count { most, .. } | FieldValue::CountOrAll { most, .. } => {
+                let other = most.min(1500);
+                same(&other.to_string(), json!(other))
+            }
             FieldValue::Positive { .. } => same("0.25", json!(0.25)),
             FieldValue::Share { .. } => ("95".to_owned(), "0.95".to_owned(), json!(0.95)),
             FieldValue::Seed => same("7", json!("7")),
@@ -699,7 +703,7 @@ mod tests {
     fn every_setting_is_the_same_in_a_link_on_the_command_line_and_in_a_report() {
         for field in &FIELDS {
             let (linked, typed, expected) = other_than_default(field);
-            let of_link = Link::parse(&format!("demo=planes&{}={linked}", field.key)).settings();
+            let of_link = Link::read(&format!("demo=planes&{}={linked}", field.key)).settings();
             let line = ["shapevenn", "compare", "a", "b", &format!("--{}={typed}", field.option)];
             let Command::Compare(arguments) = Cli::try_parse_from(line).unwrap().command else {
                 panic!("{line:?} is no comparison");

@@ -23,7 +23,7 @@ pub(crate) struct Arguments {
     prepare: prepare::Arguments,
     /// Noise of the Bhattacharyya distance, in the unit of the first of two models; the recommended σ of every
     /// pair when left out
-    #[arg(long)]
+    #[arg(long, value_parser = prepare::number)]
     sigma: Option<f64>,
     /// Print one JSON document
     #[arg(long)]

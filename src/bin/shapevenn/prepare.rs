@@ -6,8 +6,8 @@ use clap::{Args, ValueEnum};
 use shapevenn::error::ComparisonError;
 use shapevenn::files::Error;
 use shapevenn::model::{Alignment, Unit};
-use shapevenn::pair::{PointSelection, Preparation, SidePreparation};
-use shapevenn::settings::Settings;
+use shapevenn::pair::{PointSelection, Preparation, SelectionError, SidePreparation};
+use shapevenn::settings::{self, Settings};
 
 use crate::{Failure, reading};
 
@@ -18,10 +18,10 @@ pub(crate) struct Arguments {
     #[arg(long, value_enum, default_value = "none")]
     pub(crate) align: AlignName,
     /// Use only the first modes of each model
-    #[arg(long)]
+    #[arg(long, value_parser = count)]
     pub(crate) modes: Option<usize>,
     /// Use as many modes of each model as hold this share of its variance
-    #[arg(long, value_name = "SHARE")]
+    #[arg(long, value_name = "SHARE", value_parser = number)]
     variance: Option<f64>,
     /// Declare the unit of A: µm, mm, cm, dm or m
     #[arg(long, value_name = "UNIT", value_parser = unit)]
@@ -38,7 +38,7 @@ pub(crate) struct Arguments {
     /// Put the modes of this model on the mean of the other: a or b
     #[arg(long, value_name = "MODEL", value_parser = ["a", "b"])]
     rebase: Option<String>,
-    /// Compare only some points: a file with one point number a line, or ranges such as 0-99,120
+    /// Compare only some points: their numbers and ranges, such as 0-99,120, or a file of them
     #[arg(long, conflicts_with_all = ["pairs", "crop_map"])]
     region: Option<String>,
     /// Which point is which: a file with a point of A and a point of B on each line
@@ -48,7 +48,7 @@ pub(crate) struct Arguments {
     #[arg(long)]
     crop_map: bool,
     /// Compare at most so many points, evenly spread
-    #[arg(long, value_name = "POINTS")]
+    #[arg(long, value_name = "POINTS", value_parser = count)]
     subsample: Option<usize>,
     /// How the files are read
     #[command(flatten)]
@@ -73,6 +73,19 @@ impl From<AlignName> for Alignment {
             AlignName::Similarity => Self::Similarity,
         }
     }
+}
+
+/// A whole number, as links have it.
+pub(crate) fn count(text: &str) -> Result<usize, String> {
+    settings::count(text.trim(), 0, usize::MAX)
+        .ok_or_else(|| "a whole number was expected".to_owned())
+}
+
+/// A number, as links and fields of the page have it.
+pub(crate) fn number(text: &str) -> Result<f64, String> {
+    settings::decimal_number(text).ok_or_else(|| {
+        "a number such as 0.25 was expected, without separators of thousands".to_owned()
+    })
 }
 
 fn unit(symbol: &str) -> Result<Unit, String> {
@@ -103,19 +116,18 @@ impl Arguments {
                 hint: "Give a text file of point numbers.".to_owned(),
             })
         };
-        let parsed = |text: &str| {
-            PointSelection::parse(text).map_err(|error| {
-                let error = shapevenn::pair::PairError::Selection(error);
-                Failure::from(Error::from(ComparisonError::from(error)))
-            })
+        let refused = |error: SelectionError| {
+            let error = shapevenn::pair::PairError::Selection(error);
+            Failure::from(Error::from(ComparisonError::from(error)))
         };
         let points = if self.crop_map {
             Some(PointSelection::Map)
         } else if let Some(path) = &self.pairs {
-            Some(parsed(&read(path)?)?)
+            Some(PointSelection::pairs(&read(path)?).map_err(refused)?)
         } else if let Some(region) = &self.region {
             let path = std::path::Path::new(region);
-            Some(if path.exists() { parsed(&read(path)?)? } else { parsed(region)? })
+            let text = if path.exists() { read(path)? } else { region.clone() };
+            Some(PointSelection::region(&text).map_err(refused)?)
         } else {
             None
         };

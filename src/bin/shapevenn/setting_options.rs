@@ -1,9 +1,11 @@
 //! The settings of a comparison as options of the command line, one for each row of [`FIELDS`].
 
 use clap::builder::PossibleValuesParser;
-use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, value_parser};
+use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
 use serde_json::{Map, Value, json};
-use shapevenn::settings::{FIELDS, Field, FieldValue, Sampler, Settings};
+use shapevenn::settings::{self, FIELDS, Field, FieldValue, Sampler, Settings};
+
+use crate::prepare::{count, number};
 
 /// Those that other commands have as well, see [`crate::prepare::Arguments`].
 const OF_PREPARATION: [&str; 2] = ["align", "modes"];
@@ -24,6 +26,10 @@ impl SettingOptions {
     }
 }
 
+fn seed(text: &str) -> Result<u64, String> {
+    settings::seed(text.trim()).ok_or_else(|| "a whole number below 2⁶⁴ was expected".to_owned())
+}
+
 fn own() -> impl Iterator<Item = &'static Field> {
     FIELDS.iter().filter(|field| !OF_PREPARATION.contains(&field.name))
 }
@@ -40,12 +46,9 @@ fn argument(field: &Field, standard: &Value) -> Arg {
     let argument = Arg::new(field.option).long(field.option);
     let argument = match field.value {
         FieldValue::Choice { of } => argument.value_parser(PossibleValuesParser::new(of)),
-        FieldValue::Count { .. } | FieldValue::CountOrAll { .. } | FieldValue::Seed => {
-            argument.value_parser(value_parser!(u64))
-        }
-        FieldValue::Positive { .. } | FieldValue::Share { .. } => {
-            argument.value_parser(value_parser!(f64))
-        }
+        FieldValue::Count { .. } | FieldValue::CountOrAll { .. } => argument.value_parser(count),
+        FieldValue::Seed => argument.value_parser(seed),
+        FieldValue::Positive { .. } | FieldValue::Share { .. } => argument.value_parser(number),
     };
     let standard = match standard {
         Value::Null => String::new(),
@@ -91,7 +94,7 @@ impl FromArgMatches for SettingOptions {
                     matches.get_one::<String>(option).map(|name| json!(name))
                 }
                 FieldValue::Count { .. } | FieldValue::CountOrAll { .. } => {
-                    matches.get_one::<u64>(option).map(|count| json!(count))
+                    matches.get_one::<usize>(option).map(|count| json!(count))
                 }
                 FieldValue::Seed => {
                     matches.get_one::<u64>(option).map(|seed| json!(seed.to_string()))

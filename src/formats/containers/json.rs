@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 
 use crate::formats::containers::arrays::{Array, Data};
 use crate::formats::error::Fault;
-use crate::formats::input::Input;
+use crate::formats::input::{Input, sniffing};
 
 /// Bytes read at a time: few at first, since most values are short, then more and more.
 const FIRST_CHUNK: usize = 1 << 12;
@@ -111,10 +111,8 @@ impl<'a> Document<'a> {
 
     /// Indexes the document in a file.
     pub(crate) fn open(input: &'a Input) -> Result<Self, Fault> {
-        let mut reader = Reader::new(input, 0);
-        if reader.peek()? == Some(0xef) {
-            reader.skip_bytes(3);
-        }
+        let start = sniffing::text_start(input).map_err(|error| error.fault)?;
+        let mut reader = Reader::new(input, start);
         let root = reader.index(INDEXED)?;
         match reader.after_blanks()? {
             None => Ok(Self { input, root }),
@@ -219,11 +217,6 @@ impl<'a> Reader<'a> {
         let byte = self.peek()?.ok_or_else(|| self.cut_off())?;
         self.at += 1;
         Ok(byte)
-    }
-
-    /// Skips bytes that are in the buffer.
-    fn skip_bytes(&mut self, count: usize) {
-        self.at = (self.at + count).min(self.buffer.len());
     }
 
     /// The first byte that is no blank.

@@ -4,18 +4,17 @@
 
 use crate::formats::containers::arrays::{Array, Data};
 use crate::formats::error::Fault;
-use crate::formats::input::{Input, compressed};
+use crate::formats::input::{Input, compressed, sniffing};
 
 /// The table in a file, rows × columns; the file may be compressed.
 pub(crate) fn read(input: &Input, what: &str) -> Result<Array, Fault> {
-    let bytes = compressed::unpacked(input).and_then(|input| input.bytes());
+    let bytes = compressed::unpacked(input).and_then(|input| sniffing::text(&input));
     parse(&bytes.map_err(|error| error.fault)?, what)
 }
 
 /// Parses a table.
 pub(crate) fn parse(text: &[u8], what: &str) -> Result<Array, Fault> {
     let damaged = |reason: String| Fault::Damaged { what: what.to_owned(), reason };
-    let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
     let (mut rows, mut columns, mut values) = (0_usize, 0_usize, Vec::new());
     for (index, line) in text.split(|byte| matches!(byte, b'\n' | b'\r')).enumerate() {
         let line = line.trim_ascii();

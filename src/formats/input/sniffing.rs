@@ -60,6 +60,12 @@ pub(crate) enum Content {
 }
 
 impl Content {
+    /// Whether it begins with text, also where binary numbers follow.
+    fn begins_with_text(self) -> bool {
+        let headed = HEADED.iter().chain(&PLAIN);
+        headed.into_iter().any(|(content, _)| *content == self)
+    }
+
     /// Its name in messages.
     pub(crate) fn name(self) -> &'static str {
         match self {
@@ -83,6 +89,41 @@ impl Content {
             Self::Deep3d => "Deep3D expression basis",
         }
     }
+}
+
+/// The byte-order mark that some editors write before text, in UTF-8.
+const MARK: &[u8] = b"\xef\xbb\xbf";
+
+/// What `input` is, with all of its bytes. Text is without a byte-order mark, so that no reader of text has to heed it.
+pub(crate) fn read(input: &Input) -> Result<(Content, Vec<u8>), FormatError> {
+    let content = sniff(input)?;
+    let bytes = input.bytes()?;
+    // The first 80 bytes of a binary STL file may be any.
+    let is_text = content.begins_with_text()
+        && !(content == Content::Stl && is_binary_stl(&bytes, input.len()));
+    Ok((content, if is_text { without_mark(bytes) } else { bytes }))
+}
+
+/// The bytes of a file that is text whatever it holds, without a byte-order mark.
+pub(crate) fn text(input: &Input) -> Result<Vec<u8>, FormatError> {
+    input.bytes().map(without_mark)
+}
+
+/// Where the text of a file begins.
+pub(crate) fn text_start(input: &Input) -> Result<u64, FormatError> {
+    let start = input.start(MARK.len())?;
+    Ok(if start == MARK { MARK.len() as u64 } else { 0 })
+}
+
+fn without_mark(mut bytes: Vec<u8>) -> Vec<u8> {
+    if bytes.starts_with(MARK) {
+        bytes.drain(..MARK.len());
+    }
+    bytes
+}
+
+fn is_binary_stl(start: &[u8], length: u64) -> bool {
+    integer(start, 80).is_some_and(|count| count > 0 && length == 84 + 50 * u64::from(count))
 }
 
 /// What `input` is.
@@ -117,10 +158,7 @@ fn content_of(input: &Input, start: &[u8]) -> Option<Content> {
         return Some(Content::Pickle);
     }
     // Binary STL may start with anything, `solid` too; its size gives it away.
-    if let Some(count) = integer(start, 80)
-        && length == 84 + 50 * u64::from(count)
-        && count > 0
-    {
+    if is_binary_stl(start, length) {
         return Some(Content::Stl);
     }
     if let Some(content) = text_of(start, length) {
@@ -196,6 +234,7 @@ const PLAIN: [Rule; 5] = [
 ];
 
 fn text_of(start: &[u8], length: u64) -> Option<Content> {
+    let start = start.strip_prefix(MARK).unwrap_or(start);
     // The last line may be cut; so may the last character.
     let text = match core::str::from_utf8(start) {
         Ok(text) => text,
@@ -208,7 +247,7 @@ fn text_of(start: &[u8], length: u64) -> Option<Content> {
             core::str::from_utf8(&start[..end]).ok()?
         }
     };
-    let text = text.trim_start_matches('\u{feff}').trim_start();
+    let text = text.trim_start();
     let text = Text { text, goes_on: length > LOOKED_AT as u64 };
     let plain = if start.contains(&0) { &[][..] } else { &PLAIN[..] };
     let found = HEADED.iter().chain(plain).find(|(_, holds)| holds(&text));

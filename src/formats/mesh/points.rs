@@ -17,7 +17,6 @@ const FEWEST_NUMBERED: usize = 3;
 
 /// Reads a list of points; `first` says what its first column is, where that is known.
 pub(in crate::formats) fn read(bytes: &[u8], first: Option<FirstColumn>) -> Result<Mesh, Fault> {
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let mut heading = None;
     let mut announced = None;
     let mut rows: Vec<(usize, Vec<&str>)> = Vec::new();

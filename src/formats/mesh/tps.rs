@@ -32,8 +32,6 @@ pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Vec<Specimen>, Fault> {
     let mut specimens = Vec::new();
     let mut current: Option<Draft> = None;
     for (index, line) in lines(bytes).enumerate() {
-        let line =
-            if index == 0 { line.strip_prefix(b"\xef\xbb\xbf").unwrap_or(line) } else { line };
         if line.is_empty() || line.starts_with(b"#") {
             continue;
         }

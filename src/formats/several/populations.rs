@@ -182,8 +182,7 @@ impl Shapes {
     /// Adds the shape of a file, or all of its shapes.
     pub(crate) fn add_file(&mut self, input: &Input) -> Result<(), FormatError> {
         let input = compressed::unpacked(input)?;
-        let content = crate::formats::input::sniffing::sniff(&input)?;
-        let bytes = input.bytes()?;
+        let (content, bytes) = crate::formats::input::sniffing::read(&input)?;
         let refused = |fault: Fault| fault.of(&input.name);
         self.contents.push(content);
         match content {

@@ -49,6 +49,7 @@ test("a divergence beyond all bounds is not given as a number", () => {
 const EVALUATION: Evaluation = {
   shapes: 12,
   method: "leave-one-out",
+  placement: "mean",
   folds: 12,
   modes: [1, 2],
   generalization: [2, 0.5],

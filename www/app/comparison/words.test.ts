@@ -318,7 +318,7 @@ test("a pair that can be compared is one line", () => {
     compared: 5023,
     triangles: "same",
     units: { a: { stated: "mm", guess: null }, b: { stated: "mm", guess: null } },
-    meanDistance: { before: 1.4, now: 1.4, rigid: 0.9, similarity: null },
+    meanDistance: { before: 1.4, now: 1.4, rigid: 0.9, similarity: null, mirrored: null },
     scale: 1,
     remedies: [],
     applied: [],
@@ -326,7 +326,7 @@ test("a pair that can be compared is one line", () => {
   const line = (change: Partial<Inspection>) => words.pairLine({ ...found, ...change }, "mm");
   assert.equal(line({}), "5023 points in common · same faces · means 1.40\u202fmm apart");
   assert.match(line({ compared: 900 }), /^900 points compared · /);
-  const meanDistance = { before: null, now: null, rigid: null, similarity: null };
+  const meanDistance = { before: null, now: null, rigid: null, similarity: null, mirrored: null };
   const unlike = { points: { a: 5023, b: 900 }, compared: null, meanDistance };
   assert.equal(line({ ...unlike, triangles: "unknown" }), "5023 and 900 points");
   assert.equal(

@@ -1,5 +1,6 @@
 import { embedded } from "../state/state";
 import { isDark } from "../state/theme";
+import { Notices } from "../ui/Notices";
 import { EXHIBIT_GROUPS, type Exhibit, linkTo } from "./exhibits";
 import "./gallery.css";
 
@@ -7,6 +8,7 @@ import "./gallery.css";
 export function Gallery() {
   return (
     <main class="gallery">
+      <Notices place="link" />
       <header>
         <h2>Gallery</h2>
         <p class="gallery-lead">

@@ -2,7 +2,6 @@
 import { batch, computed, effect, type Signal, untracked } from "@preact/signals";
 import type { Side } from "../../worker/protocol";
 import { applyLesson, settledLesson } from "../learn/state";
-import { HASH_DIGITS } from "../models/address/codec";
 import { arrange, giveUpAdding, restoreModelList } from "../models/list/actions";
 import { closeUnused } from "../models/list/handles";
 import { measure } from "../models/list/matrix";
@@ -12,7 +11,9 @@ import { demoSource, first, isOpen, sourceText, wantedOf } from "../models/sourc
 import { findDemo } from "../state/demos";
 import { applyExplorer, lockedHeat, settledExplorer } from "../state/exploring";
 import type { LinkedModels } from "../state/linked-models";
+import { HASH_DIGITS } from "../state/settings";
 import {
+  aboutLink,
   begun,
   camera,
   demo,
@@ -48,6 +49,7 @@ import {
 import { joins, type Snapshot, steps } from "../state/undo";
 import { fitsLink, type LinkState, mayMeanAnotherSigma, readLink, writeLink } from "./link";
 import { mayBeOlder } from "./older";
+import { tellLink } from "./told";
 
 const WRITE_AFTER_MS = 1000;
 
@@ -173,6 +175,15 @@ export function writeAddress(): void {
   history.replaceState(history.state, "", `#${currentLink()}`);
 }
 
+/** The step of the history whose address somebody followed. */
+let followed = 0;
+
+/** Whether the address is that of a link of which something is said, or is still to be said, that was not seen yet. */
+function isKept(): boolean {
+  const told = aboutLink.value || mayBeOlder.value;
+  return told && steps.at === followed;
+}
+
 /**
  * The part of the state whose change is a step of undo: the link without the camera and without settings of links,
  * and what no link can hold.
@@ -188,23 +199,29 @@ const step = computed(() => {
 
 let applied = "";
 
-/** Starts the history; `takes` may take over a link that somebody typed or followed. */
-export function keepLink(takes: (link: LinkState) => boolean): void {
+/**
+ * Starts the history; `takes` may take over a link that somebody typed or followed, `waits` says whether one waits for
+ * files. While something is said of a link its address stays: whoever loads the page anew must be told it again.
+ */
+export function keepLink(takes: (link: LinkState) => boolean, waits: () => boolean): void {
   applied = untracked(() => step.value);
   steps.begin(snapshot());
   let timer: ReturnType<typeof setTimeout> | undefined;
   effect(() => {
     const fragment = `#${currentLink()}`;
     const meaningful = step.value !== applied;
+    const kept = isKept() || (waits() && steps.at === followed);
     clearTimeout(timer);
     if (meaningful) {
       applied = step.value;
       // Saving a step must not trigger another one.
       // In a frame the Back button belongs to the page around it.
       const join = joins() || embedded.peek();
-      untracked(() => (join ? steps.join(snapshot(), fragment) : steps.push(snapshot(), fragment)));
+      const joined = kept ? location.href : fragment;
+      untracked(() => (join ? steps.join(snapshot(), joined) : steps.push(snapshot(), fragment)));
       return;
     }
+    if (kept) return;
     timer = setTimeout(writeAddress, WRITE_AFTER_MS);
   });
   addEventListener("popstate", (event) => void follow(event.state, takes));
@@ -260,8 +277,10 @@ async function follow(state: unknown, takes: (link: LinkState) => boolean): Prom
   const snapshot = steps.arrive(state);
   const link = readLink(location.hash);
   if (snapshot === null) {
+    followed = steps.at;
     linked.value = link;
     embedded.value = link.embed;
+    tellLink(location.hash, link);
     mayBeOlder.value = mayMeanAnotherSigma(location.hash);
   }
   if (link.page !== "compare" || !begun.peek()) {

@@ -1,8 +1,8 @@
 /**
  * Writes the state of the page as a URL fragment and reads it back: plain `key=value` that can be edited by hand.
  *
- * Links of older pages must keep opening: unknown keys are ignored, and missing or unreadable values are replaced by
- * the default.
+ * Links of older pages must keep opening: missing keys have their defaults. What cannot be used has its default, too,
+ * and is named (`reading.ts`).
  */
 import type {
   Field,
@@ -13,7 +13,7 @@ import type {
   SidePreparation,
 } from "../../worker/protocol";
 import { defaultLesson, type LessonState, readLesson, writeLesson } from "../learn/link";
-import { misreadAddresses, readModels, writeModels } from "../models/address/codec";
+import { readModels, writeModels } from "../models/address/codec";
 import { MEASURE_NAMES, type MeasureName } from "../models/list/measures";
 import { type Camera, HOME } from "../state/camera";
 import { DEMO_MODELS, FIRST_DEMO, findDemo } from "../state/demos";
@@ -32,10 +32,12 @@ import {
   DEFAULTS,
   ENGINE,
   FIELDS,
+  LINK_KEYS,
   parseCount,
   parsePercent,
   parsePositive,
   parseSeed,
+  parseVariance,
   percentText,
   rangeOf,
   rangeOfDraws,
@@ -53,16 +55,12 @@ import {
   type ViewState,
 } from "../state/view";
 import { parseRanges } from "../text/ranges";
+import { readKeys } from "./reading";
 
 export const LINK_VERSION = 1;
 
 /** The keys of a link that are settings of the run. */
-export const SETTING_KEYS = [
-  ...FIELDS.map(({ key }) => key),
-  ..."unit-a unit-b modes-a modes-b variance-a variance-b rebase convert mirror points subsample".split(
-    " ",
-  ),
-];
+export const SETTING_KEYS = LINK_KEYS.flatMap(({ key, part }) => (part === "settings" ? key : []));
 
 /** Longest list of points in a link: longer links are cut by programs that pass them on. */
 const LONGEST_RANGES = 2000;
@@ -160,7 +158,7 @@ function settingPairs(settings: Settings): [string, string][] {
   ).map(({ key, name, value }) => [key, settingText(settings[name], value.kind)]);
 }
 
-function settingText(value: string | number | null, kind: Field["value"]["kind"]): string {
+export function settingText(value: string | number | null, kind: Field["value"]["kind"]): string {
   if (value === null) return kind === "countOrAll" ? "all" : "auto";
   return kind === "share" ? percentText(Number(value)) : String(value);
 }
@@ -192,7 +190,7 @@ export function fitsLink(points: PointSelection | null): boolean {
 }
 
 export function readLink(fragment: string): LinkState {
-  const given = new URLSearchParams(fragment.replace(/^#/, ""));
+  const { given, faults } = readKeys(fragment);
   const fallback = defaultLink();
   const page = oneOf(given.get("page"), PAGES) ?? fallback.page;
   const embed = given.get("embed") === "1";
@@ -204,7 +202,7 @@ export function readLink(fragment: string): LinkState {
     lesson: fallback.lesson,
     demo: findDemo(given.get("demo") ?? "")?.id ?? fallback.demo,
     ...readModels(given),
-    settings: settingsOfLink(given),
+    settings: settingsOfLink(given, new Set(faults.map(({ key }) => key))),
     tab: oneOf(given.get("room"), TABS) ?? fallback.tab,
     map: oneOf(given.get("map"), MAPS) ?? fallback.map,
     mapMode: valid(parseCount(given.get("mode") ?? "", ...MODES), 1) - 1,
@@ -227,9 +225,9 @@ export function readLink(fragment: string): LinkState {
 }
 
 /** A link that says nothing about settings has those of its example, as the comparison that is stored with the page. */
-function settingsOfLink(given: URLSearchParams): Settings {
+function settingsOfLink(given: URLSearchParams, unusable: Set<string>): Settings {
   const settings = readSettings(given);
-  const silent = !SETTING_KEYS.some((key) => given.has(key));
+  const silent = !SETTING_KEYS.some((key) => given.has(key) || unusable.has(key));
   const isFirst =
     !given.has("a") && !given.has("b") && !given.has("name-a") && !given.has("name-b");
   const demo = findDemo(given.get("demo") ?? FIRST_DEMO.id);
@@ -280,8 +278,8 @@ function readPreparation(given: URLSearchParams): Preparation {
   const side = (name: "a" | "b"): SidePreparation => ({
     unit: oneOf(given.get(`unit-${name}`), UNITS) ?? null,
     modes: count(`modes-${name}`, MODES),
-    variance: valid<number | null>(parsePercent(given.get(`variance-${name}`) ?? ""), null),
-    rebase: /^[ab]+$/.test(rebased) && rebased.includes(name),
+    variance: valid<number | null>(parseVariance(given.get(`variance-${name}`) ?? ""), null),
+    rebase: rebased.includes(name),
   });
   const points = given.get("points");
   const ranges = parseRanges(points ?? "");
@@ -301,7 +299,7 @@ function readPreparation(given: URLSearchParams): Preparation {
  * one, or none. An empty address is no link.
  */
 export function mayMeanAnotherSigma(fragment: string): boolean {
-  const given = new URLSearchParams(fragment.replace(/^#/, ""));
+  const { given } = readKeys(fragment);
   const { page, settings } = readLink(fragment);
   if (given.size === 0 || page !== "compare" || settings.sigma !== null) return false;
   const [major, minor] = versionOf(given.get("engine") ?? "");
@@ -313,24 +311,6 @@ export function mayMeanAnotherSigma(fragment: string): boolean {
 function versionOf(text: string): [number, number] {
   const [, major, minor] = /^(\d+)\.(\d+)/.exec(text) ?? [];
   return major === undefined || minor === undefined ? [-1, 0] : [Number(major), Number(minor)];
-}
-
-/** The keys and values of an address that this page does not know, as `key=value`. */
-export function misread(fragment: string): string[] {
-  const given = new URLSearchParams(fragment.replace(/^#/, ""));
-  const choices = FIELDS.flatMap(({ key, value }) =>
-    value.kind === "choice" ? [[key, value.of] as const] : [],
-  );
-  const words: (readonly [string, readonly string[]])[] = [
-    ...choices,
-    ["unit-a", UNITS],
-    ["unit-b", UNITS],
-  ];
-  const settings = words.flatMap(([key, known]) => {
-    const value = given.get(key);
-    return value === null || known.includes(value) ? [] : `${key}=${value}`;
-  });
-  return [...misreadAddresses(given), ...settings];
 }
 
 /** Rounds to the digits of single precision. */

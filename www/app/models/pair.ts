@@ -46,7 +46,7 @@ function unknownPair({ code, message, hint }: Notice): Inspection {
       a: { stated: a?.unit ?? "units", guess: null },
       b: { stated: b?.unit ?? "units", guess: null },
     },
-    meanDistance: { before: null, now: null, rigid: null, similarity: null },
+    meanDistance: { before: null, now: null, rigid: null, similarity: null, mirrored: null },
     scale: null,
     remedies: [],
     applied: [],

@@ -162,7 +162,10 @@ function Made({ side, slot }: { side: Side; slot: Slot }) {
     <>
       {sentence && <p class="made">{sentence}</p>}
       {origin.kind === "shapes" && (
-        <Check checked={hasWord(slot.reading, "scale")} onChange={(scale) => void chooseScale(side, scale)}>
+        <Check
+          checked={hasWord(slot.reading, "scale")}
+          onChange={(scale) => void chooseScale(side, scale)}
+        >
           Also scale to one size
         </Check>
       )}

@@ -34,6 +34,7 @@ export function Learn() {
       {!framed && <SceneList scenes={SCENES} teacher={TEACHER} />}
       <article class="scene" aria-labelledby="scene-title">
         <Notices place="page" />
+        <Notices place="link" />
         <header class="scene-head">
           {index >= 0 && (
             <p class="scene-place">

@@ -5,9 +5,11 @@ import { storedResult, watchChoices, watchPictures } from "../comparison/run";
 import { titleOf } from "../learn/scenes";
 import { lessonState, scene } from "../learn/state";
 import { apply, keepLink, modelListOf, modelsOf } from "../link/history";
-import { type LinkState, mayMeanAnotherSigma, misread, readLink } from "../link/link";
+import { type LinkState, mayMeanAnotherSigma, readLink } from "../link/link";
 import { mayBeOlder, watchOlderLink } from "../link/older";
-import { awaitLink, watchRunFile } from "../link/runfile/run";
+import { linkOfPage } from "../link/reading";
+import { awaited, awaitLink, watchRunFile } from "../link/runfile/run";
+import { tellLink } from "../link/told";
 import { watchContent } from "../models/address/checked";
 import { restoreModelList } from "../models/list/actions";
 import { watchMatrix } from "../models/list/matrix";
@@ -17,13 +19,12 @@ import { watchPair } from "../models/pair";
 import { watchMaps } from "../stage/maps";
 import { watchPairs } from "../stage/pairs";
 import { FIRST_DEMO } from "../state/demos";
-import { engineClient } from "../state/engine";
+import { engineClient, report } from "../state/engine";
 import { settingsKey } from "../state/settings";
 import {
   begun,
   embedded,
   linked,
-  notify,
   nouns,
   opening,
   page,
@@ -44,26 +45,30 @@ import { watchPlaying } from "../tabs/explore/playing";
 import { untilPictured } from "./pictured";
 
 export function boot(): void {
-  const link = readLink(location.hash);
+  const link = readLink(linkOfPage(location));
   linked.value = link;
   apply(link);
+  tellLink(linkOfPage(location), link);
   watchTheme();
   watchDocument();
   watchEngine();
   if (link.page === "compare") {
-    void bootComparison(link).then(() => {
-      keepLink(waits);
-      return restoreModelList(modelListOf(link));
-    });
+    bootComparison(link)
+      .then(() => {
+        keepLink(waits, isAwaited);
+        return restoreModelList(modelListOf(link));
+      })
+      // As where no worker can be started: nothing is waited for without a word.
+      .catch((thrown) => report("page", thrown));
     return;
   }
-  keepLink(waits);
+  keepLink(waits, isAwaited);
   // The other pages need none of it until the comparison is opened.
   const stop = effect(() => {
     if (page.value !== "compare") return;
     queueMicrotask(() => {
       stop();
-      const link = readLink(location.hash);
+      const link = readLink(linkOfPage(location));
       void joinUntil(bootComparison(link)).then(() => restoreModelList(modelListOf(link)));
     });
   });
@@ -72,10 +77,12 @@ export function boot(): void {
 /** Whether the visitor must open files before the link can be compared. */
 const waits = (link: LinkState) => awaitLink(link) !== null;
 
+/** Whether a link waits for such files. */
+const isAwaited = () => Boolean(awaited.value?.link);
+
 async function bootComparison(link: LinkState): Promise<void> {
   begun.value = true;
-  tellMisread();
-  mayBeOlder.value = mayMeanAnotherSigma(location.hash);
+  mayBeOlder.value = mayMeanAnotherSigma(linkOfPage(location));
   const stored = await fetchStored(mayBeStored(link));
   if (stored && !anyTaken() && wants(link, settingsKey(stored.settings))) {
     batch(() => {
@@ -118,18 +125,6 @@ function wants(link: LinkState, storedKey: string): boolean {
 /** Whether the view of the address can be drawn from the stored picture alone. */
 const showsPicture = ({ tab, view }: LinkState) =>
   tab === "regions" && (view === "contrast" || view === "mean");
-
-/** Reports keys and values of a link that this page does not know, as from a newer page. */
-function tellMisread(): void {
-  const found = misread(location.hash);
-  if (found.length === 0) return;
-  notify(
-    "link",
-    "link-setting",
-    `The link asks for ${found.join(" and ")}, which this page does not know.`,
-    "The default is used instead.",
-  );
-}
 
 async function openModels(link: LinkState): Promise<void> {
   const waiting = awaitLink(link);

@@ -2,6 +2,7 @@
 import { EngineClient } from "../../worker/client";
 import { EngineFailure, sentenceOf } from "../../worker/engine-errors";
 import { parseThreads, writeStart } from "../../worker/start";
+import workerFile from "../../worker/worker.ts?worker&url";
 import { engine, notify, type ShownNotice, spoken } from "./state";
 
 const query = new URLSearchParams(location.search);
@@ -48,10 +49,33 @@ function spawn(serial: boolean): Worker {
     serial: serial || query.has("serial"),
     threads: parseThreads(query.get("threads")),
   });
-  return new Worker(new URL("../../worker/worker.ts", import.meta.url), {
-    type: "module",
-    name: start,
-  });
+  try {
+    return new Worker(new URL("../../worker/worker.ts", import.meta.url), {
+      type: "module",
+      name: start,
+    });
+  } catch (thrown) {
+    if (globalThis.origin !== "null") throw thrown;
+    return importingWorker(new URL(workerFile, document.baseURI).href, start);
+  }
+}
+
+/**
+ * A worker of a frame with the attribute `sandbox` and without `allow-same-origin`: the frame has an origin of its own,
+ * to which every script is foreign, so that a worker can only begin with one that the page makes. Chromium starts no
+ * module worker there; a classic one may import the module.
+ */
+function importingWorker(file: string, name: string): Worker {
+  // What arrives before the module listens is handed on.
+  const script = `
+    const early = [];
+    onmessage = ({ data }) => early.push(data);
+    import(${JSON.stringify(file)}).then(
+      () => early.forEach((data) => dispatchEvent(new MessageEvent("message", { data }))),
+      (reason) => setTimeout(() => { throw reason; }),
+    );`;
+  const made = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
+  return new Worker(made, { name });
 }
 
 /** Shows an error next to the part of the page that it concerns. */

@@ -20,6 +20,7 @@ test("a patch changes what it names and nothing beside it", () => {
     a: { ...AS_IT_IS, modes: 3, unit: "mm" as const },
     b: AS_IT_IS,
     convert: false,
+    mirror: false,
     points: { by: "map" },
     subsample: 50,
   });
@@ -72,6 +73,7 @@ test("what was done is said in words", () => {
     a: { ...AS_IT_IS, unit: "mm" as const, variance: 0.95 },
     b: { ...AS_IT_IS, rebase: true },
     convert: true,
+    mirror: false,
     points: { by: "region" as const, ranges: "0-9,20" },
     subsample: 2000,
   };

@@ -4,16 +4,24 @@ import type {
   DifferenceDefinition,
   Field,
   FitChoice,
+  LinkKey,
   Plausibility,
   Pooling,
   Sampler,
   Settings,
 } from "../../worker/protocol";
 import table from "../../worker/settings.json";
+import { countIn, decimalIn, pointed, seedIn, shareIn } from "../text/values";
 import { completed } from "./preparation";
 
 /** Every setting that has a key in links, in their order (src/settings/fields.rs). */
 export const FIELDS = table.fields as Field[];
+
+/** Every key of links, with what its value may be (src/settings/links.rs). */
+export const LINK_KEYS = table.linkKeys as LinkKey[];
+
+/** Digits of a fingerprint in a link that are compared. */
+export const HASH_DIGITS = table.hashDigits;
 
 /** Version of the engine, as links name it; and the first that chooses σ as this one does. */
 export const { engine: ENGINE, sigmaSince: SIGMA_SINCE } = table;
@@ -138,21 +146,28 @@ export function rangeOfDraws(chains: number): [number, number] {
 /** Smallest and largest number of compared points. */
 export const SUBSAMPLE = [3, 10_000_000] as const;
 
-export const SEED_LIMIT = 2n ** 64n;
-
 /** Reads a positive length or ratio; null if nothing is typed. */
 export function parsePositive(text: string): number | null | "invalid" {
-  const trimmed = text.trim().replace(",", ".");
+  const trimmed = text.trim().toLowerCase();
   if (trimmed === "" || trimmed === "auto") return null;
-  const value = Number(trimmed);
-  return Number.isFinite(value) && value > 0 ? value : "invalid";
+  const value = decimalIn(trimmed);
+  return value !== null && value > 0 ? value : "invalid";
 }
 
 /** Reads a share typed as per cent, from 0 to below 100. */
 export function parsePercent(text: string): number | "invalid" {
-  const trimmed = text.replace("%", "").trim().replace(",", ".");
-  const value = trimmed === "" ? Number.NaN : Number(trimmed);
-  return value >= 0 && value < 100 ? Number((value / 100).toPrecision(12)) : "invalid";
+  const share = shareOf(text);
+  return share !== null && share >= 0 && share < 1 ? share : "invalid";
+}
+
+/** Reads a share of the variance as per cent, above 0 and at most 100. */
+export function parseVariance(text: string): number | "invalid" {
+  const share = shareOf(text);
+  return share !== null && share > 0 && share <= 1 ? share : "invalid";
+}
+
+function shareOf(text: string): number | null {
+  return shareIn(pointed(text.trim().replace(/\s*%$/, "")) ?? "");
 }
 
 /** A share as it is typed. */
@@ -161,17 +176,11 @@ export function percentText(share: number): string {
 }
 
 export function parseSeed(text: string): string | "invalid" {
-  const trimmed = text.trim();
-  if (!/^\d{1,20}$/.test(trimmed)) return "invalid";
-  const value = BigInt(trimmed);
-  return value < SEED_LIMIT ? value.toString() : "invalid";
+  return seedIn(text.trim()) ?? "invalid";
 }
 
 export function parseCount(text: string, least: number, most: number): number | "invalid" {
-  const trimmed = text.trim();
-  if (!/^\d+$/.test(trimmed)) return "invalid";
-  const value = Number(trimmed);
-  return value >= least && value <= most ? value : "invalid";
+  return countIn(text.trim(), least, most) ?? "invalid";
 }
 
 const KEYS = Object.keys(DEFAULTS).sort() as (keyof Settings)[];

@@ -18,7 +18,15 @@ import type {
   Sides,
 } from "../../worker/protocol";
 import { type Camera, HOME } from "./camera";
-import { demoOf, exchanged, FIRST_DEMO, type Nouns, nounsOf, nounsOfParts } from "./demos";
+import {
+  demoOf,
+  exchanged,
+  FIRST_DEMO,
+  findDemo,
+  type Nouns,
+  nounsOf,
+  nounsOfParts,
+} from "./demos";
 import type { LinkedModels } from "./linked-models";
 import { patched } from "./preparation";
 import { DEFAULTS, settingsKey } from "./settings";
@@ -138,8 +146,8 @@ export const begun = signal(false);
 export const embedded = signal(FIRST_VIEW.embed);
 /** Whether links contain the names of the visitor's own files. */
 export const namesInLinks = signal(true);
-/** The models that the link named; not all of them may be open. */
-export const linked = signal<LinkedModels | null>(null);
+/** The models or the example that the link named; not all of them may be open. */
+export const linked = signal<(LinkedModels & { demo?: string }) | null>(null);
 /** The shown tab. */
 export const tab = signal<Tab>(FIRST_VIEW.tab);
 export const view = signal<ViewMode>(FIRST_VIEW.view);
@@ -187,10 +195,12 @@ export const geometry = computed<Record<Side, Geometry | null>>(() => {
   return { a: a?.geometry ?? null, b: b?.geometry ?? null };
 });
 
-/** The example pair that is open, if it is one. */
+/** The example pair that is open or being opened, if it is one. */
 export const demo = computed(() => {
   const [a, b] = [slots.a.value?.source, slots.b.value?.source];
-  if (!a && !b) return linked.value?.urls ? null : FIRST_DEMO;
+  if (!a && !b) {
+    return linked.value?.urls ? null : (findDemo(linked.value?.demo ?? "") ?? FIRST_DEMO);
+  }
   if (a?.kind !== "demo" || b?.kind !== "demo") return null;
   return demoOf(a.name, b.name) ?? null;
 });
@@ -312,6 +322,9 @@ export const recommended = computed(() => {
 
 /** Places of notices about the link, which are no errors of the page. */
 const ABOUT_LINKS = new Set<ShownNotice["place"]>(["link", "older-link", "content"]);
+
+/** Whether something is said of the link that was opened. */
+export const aboutLink = computed(() => notices.value.some(({ place }) => ABOUT_LINKS.has(place)));
 
 /** State of the page, as in `document.documentElement.dataset.state`. */
 export const pageState = computed(() => {

@@ -6,7 +6,8 @@ import { maskCount, maskOf, parseRanges, rangeCount, rangesOf } from "./ranges";
 test("a list of vertices is read as people write it", () => {
   assert.equal(parseRanges("0-99, 120;130–140"), "0-99,120,130-140");
   assert.equal(parseRanges(" 7 "), "7");
-  assert.equal(parseRanges("1 2 3"), "1,2,3");
+  assert.equal(parseRanges("1 2 3"), "1-3");
+  assert.equal(parseRanges("120,0-99,50-101"), "0-101,120", "in order, and each once");
   for (const text of ["", "a", "3-1", "1-2-3", "-4", "1.5", "1,,x"]) {
     assert.equal(parseRanges(text), "invalid", text);
   }

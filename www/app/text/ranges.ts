@@ -1,13 +1,30 @@
 /** Reads and writes sets of vertices as ranges, "0-99,120,130-140". Pure. */
 
-/** Checks and normalises such a list; the engine interprets it. */
+/** More points than any mesh has. */
+const MOST_POINTS = 10_000_000;
+
+/** Such a list in ascending order without overlaps, as the engine writes it (`PointSelection::region`). */
 export function parseRanges(text: string): string | "invalid" {
-  const parts = text.split(/[,;\s]+/).filter((part) => part !== "");
-  const readable = parts.every((part) => {
+  const parts = text
+    .split(/\r?\n/)
+    .flatMap((line) => (line.split("#")[0] ?? "").split(/[,;\s]+/))
+    .filter((part) => part !== "");
+  const found: [number, number][] = [];
+  for (const part of parts) {
     const [, from = "", to = from] = /^(\d{1,9})(?:[-–](\d{1,9}))?$/.exec(part) ?? [];
-    return from !== "" && Number(from) <= Number(to);
-  });
-  return parts.length > 0 && readable ? parts.join(",").replaceAll("–", "-") : "invalid";
+    if (from === "" || Number(from) > Number(to)) return "invalid";
+    found.push([Number(from), Number(to)]);
+  }
+  found.sort(([one], [other]) => one - other);
+  const ranges: [number, number][] = [];
+  for (const [from, to] of found) {
+    const last = ranges.at(-1);
+    if (last && from <= last[1] + 1) last[1] = Math.max(last[1], to);
+    else ranges.push([from, to]);
+  }
+  const count = ranges.reduce((sum, [from, to]) => sum + to - from + 1, 0);
+  if (count === 0 || count > MOST_POINTS) return "invalid";
+  return ranges.map(([from, to]) => (from === to ? String(from) : `${from}-${to}`)).join(",");
 }
 
 /** Mask of the vertices of a list among `points` vertices; others are ignored. */

@@ -14,7 +14,11 @@ export function Notices({ place }: { place: ShownNotice["place"] }) {
       {found.map((notice) => (
         <div key={notice.id} ref={showNotice} class="notice" role="alert" data-code={notice.code}>
           <div>
-            <p class="notice-message">{notice.message}</p>
+            {notice.message.split("\n").map((line) => (
+              <p key={line} class="notice-message">
+                {line}
+              </p>
+            ))}
             {notice.hint && <p class="notice-hint">{notice.hint}</p>}
             {notice.again && (
               <button type="button" class="notice-again" onClick={notice.again}>

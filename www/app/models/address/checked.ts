@@ -1,16 +1,17 @@
-/** Checks whether the file at an address is still the one that the link was made with. */
+/** Checks whether the file at an address, or the example, is still the one that the link was made with. */
 import { computed, effect, untracked } from "@preact/signals";
 import type { Side } from "../../../worker/protocol";
+import { HASH_DIGITS } from "../../state/settings";
 import { dismiss, linked, notify, SIDES, slots, spoken } from "../../state/state";
-import { nameOf } from "../sources";
-import { HASH_DIGITS } from "./codec";
+import { nameOf, sourceText } from "../sources";
 
 /** A sentence for each model that has changed since the link was made. */
 const differences = computed(() => SIDES.flatMap((side) => difference(side) ?? []));
 
 function difference(side: Side): string | null {
   const [slot, models] = [slots[side].value, linked.value];
-  if (slot?.source.kind !== "url" || models?.urls?.[side] !== slot.source.url) return null;
+  const source = slot && sourceText(slot.source);
+  if (!slot || !source || models?.urls?.[side] !== source) return null;
   const found = slot.report.fingerprint?.slice(0, HASH_DIGITS);
   const expected = models.hashes[side];
   // Not checked if the visitor chose another part of the file than the link names.
