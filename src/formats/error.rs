@@ -208,6 +208,8 @@ pub enum Fault {
         /// The class, with its module.
         class: String,
     },
+    /// A joblib file: its arrays lie between the instructions of a pickle.
+    Joblib,
     /// A single array without a name.
     OneArray {
         /// Its shape.
@@ -257,6 +259,11 @@ pub enum Fault {
     /// A shape that does not correspond to the first of its set.
     Correspondence {
         /// How it differs, a whole sentence without the full stop.
+        difference: String,
+    },
+    /// Corners that are one point in the first STL file lie apart in another.
+    Apart {
+        /// Which, a whole sentence without the full stop.
         difference: String,
     },
     /// A file among shapes that is not a shape.
@@ -331,6 +338,7 @@ impl FormatError {
             Fault::Bilinear { .. } => "bilinear",
             Fault::PickleClass { .. } => "pickle-class",
             Fault::OneArray { .. } => "nomodel",
+            Fault::Joblib => "joblib",
             Fault::Alone { .. } | Fault::Companion { .. } => "companion",
             Fault::JsonNumber { .. } => "jsonnan",
             Fault::TextEnds { .. } => "trunc",
@@ -338,7 +346,7 @@ impl FormatError {
             Fault::NoFace { .. } => "displacement",
             Fault::CutOff { .. } => "trunc",
             Fault::Strips => "strips",
-            Fault::Correspondence { .. } => "corr",
+            Fault::Correspondence { .. } | Fault::Apart { .. } => "corr",
             Fault::NoShape { .. } => "no-shape",
             Fault::SameShapes { .. } => "no-variance",
             Fault::Unpacks { .. } => "size",
@@ -373,8 +381,7 @@ impl FormatError {
             }
             Fault::Unknown { .. } => ACCEPTED,
             Fault::NoModel { .. } => {
-                "Export the model from statismo or Scalismo, or save its arrays as `mean` and `basis` \
-                 with `numpy.savez`."
+                "Export the model from statismo or Scalismo, or save its arrays as `mean`, `basis` and `eigenvalues` (variances) with `numpy.savez`."
             }
             Fault::Version { .. } => "Save the model with a current version of its software.",
             Fault::Filter { .. } => "Rewrite the file with gzip or without compression.",
@@ -414,6 +421,9 @@ impl FormatError {
             Fault::Size { .. } => {
                 "Check that the file is not damaged, or save fewer modes and load that."
             }
+            Fault::Damaged { what, .. } if what.starts_with("Line ") => {
+                "Correct this line, or export the file again."
+            }
             Fault::Damaged { .. } => "Download the file or export the model again.",
             Fault::DecimalComma { .. } => {
                 "Write the numbers with points, or export the file again with English number formats."
@@ -438,7 +448,14 @@ impl FormatError {
                  ('v_template', 'shapedirs', 'f')})"
             }
             Fault::OneArray { .. } => {
-                "Save mean and basis together: `numpy.savez('model.npz', mean=mean, basis=basis)`."
+                "Save mean, basis and variances together: `numpy.savez('model.npz', mean=mean, basis=basis, eigenvalues=variances)`."
+            }
+            Fault::Joblib => {
+                "Load it with joblib and save its arrays as plain numbers; of a scikit-learn PCA:\n\
+                 import joblib, numpy\n\
+                 pca = joblib.load('model.joblib')\n\
+                 numpy.savez('model.npz', mean=pca.mean_, basis=pca.components_, \
+                 eigenvalues=pca.explained_variance_)"
             }
             Fault::Companion { .. } => "Choose or drop all files of the model together.",
             Fault::JsonNumber { .. } => {
@@ -451,6 +468,9 @@ impl FormatError {
             Fault::Correspondence { .. } => {
                 "All shapes of a set need the same points in the same order: register one template to \
                  each of them, and drop the registered meshes."
+            }
+            Fault::Apart { .. } => {
+                "STL files have no point numbers. Save the meshes as PLY or OBJ, which keep the vertices."
             }
             Fault::NoShape { .. } => "Give shapes only, each in a file of its own.",
             Fault::SameShapes { .. } => "Drop shapes that differ from one another.",
@@ -611,6 +631,9 @@ impl fmt::Display for Fault {
             Self::DecimalComma { line, word } => {
                 write!(f, "Line {line} has a decimal comma, “{word}”; a point was expected.")
             }
+            Self::Joblib => {
+                write!(f, "It is a joblib file; a plain pickle or arrays were expected.")
+            }
             Self::Missing { which, .. } => write!(f, "{which}."),
             Self::NoSpecimen { wanted, found } => {
                 write!(f, "There is no “{wanted}” among its {found}.")
@@ -626,7 +649,9 @@ impl fmt::Display for Fault {
             Self::Strips => {
                 write!(f, "The faces are stored as triangle strips, which cannot be read.")
             }
-            Self::Correspondence { difference } => write!(f, "{difference}."),
+            Self::Correspondence { difference } | Self::Apart { difference } => {
+                write!(f, "{difference}.")
+            }
             Self::NoShape { format } => {
                 write!(f, "It is a {format}; a mesh, landmarks or a list of points was expected.")
             }

@@ -157,16 +157,19 @@ def all_of(runner, whole):
     yield "evidence, all relabellings", evidence_of_few
     yield "evidence, one size", evidence_of_all
 
-    def evaluated(name, source, model, given, columns, training, scale=False):
+    def evaluated(name, source, model, given, columns, training, scale=False, placement="mean"):
         def run():
             options = ["--training"] * training + ["--scale"] * scale
+            options += [] if training else ["--align", {"given": "none"}.get(placement, placement)]
             case = runner.table.case(f"evaluate {name}", runner.json("evaluate", source, given, *options))
-            evaluations.evaluate(case, model, runner.signs(source, model), columns, training, scale)
+            evaluations.evaluate(case, model, runner.signs(source, model), columns, training, scale, placement)
         return f"evaluate {name}", run
 
     yield evaluated("each left out", files[1], opened[1], files[1], specimens_of[1], True)
     yield evaluated("in parts", files[0], opened[0], files[0], specimens_of[0], True)
     yield evaluated("by test shapes", files[0], opened[0], files[1], specimens_of[1], False)
+    yield evaluated("along with the fit", files[1], opened[1], files[0], specimens_of[0], False, placement="fit")
+    yield evaluated("as they are given", files[1], opened[1], files[0], specimens_of[0], False, placement="given")
     yield evaluated("of one size", demos[0], wings[0], files[1], specimens_of[1], False, True)
 
     def matrix():

@@ -29,10 +29,43 @@ def of_projections(model, columns, counts):
     return np.array(found).T
 
 
-def evaluate(case, model, signs, columns, training, scale):
+def along_the_fit(model, columns, counts, scale):
+    """Distances along with the fit of the first k modes (shapes x counts), and the shapes as they lie with all of them."""
+    dimension = model.dimension
+    starts = [columns, moved_onto(model.mean, columns, dimension, scale)]
+
+    def projected(placed, modes):
+        away = placed - model.mean[:, None]
+        return model.mean[:, None] + modes @ (modes.T @ away)
+
+    found = []
+    for count in counts:
+        modes = model.modes[:, :count]
+        ends = []
+        for placed in starts:
+            square = np.full(columns.shape[1], np.inf)
+            for _ in range(5000):
+                target = projected(placed, modes)
+                nearer = np.hstack([moved_onto(target[:, i], columns[:, i:i + 1], dimension, scale)
+                                    for i in range(columns.shape[1])])
+                now = ((nearer - projected(nearer, modes)) ** 2).sum(axis=0)
+                placed, before, square = nearer, square, now
+                if np.all(before - now <= 1e-15 * (model.size ** 2) * model.points):
+                    break
+            ends.append((square, placed))
+        nearer = ends[0][0] <= ends[1][0]
+        placed = np.where(nearer, ends[0][1], ends[1][1])
+        rest = placed - projected(placed, modes)
+        found.append(np.linalg.norm(rest.T.reshape(columns.shape[1], -1, dimension), axis=2).mean(axis=1))
+    return np.array(found).T, placed
+
+
+def evaluate(case, model, signs, columns, training, scale, placement):
     """Generalization and specificity, by test shapes or by leaving training shapes out."""
     dimension, count = model.dimension, columns.shape[1]
-    columns = moved_onto(model.mean, columns, dimension, scale)
+    case.same("placement", placement)
+    if placement == "mean":
+        columns = moved_onto(model.mean, columns, dimension, scale)
     folds = 0 if not training else count if count <= 50 else 10
     most = len(model.deviations)
     if training:
@@ -50,6 +83,8 @@ def evaluate(case, model, signs, columns, training, scale):
             others = procrustes_analysis(everything[:, ~out], dimension, scale)
             of_others = model_of_shapes(dimension, others, "rigid")
             general[out] = of_projections(of_others, moved_onto(of_others.mean, everything[:, out], dimension, scale), counts)
+    elif placement == "fit":
+        general, columns = along_the_fit(model, columns, counts, scale)
     else:
         general = of_projections(model, columns, counts)
     numbers, _ = streams.normals(1, streams.SPECIFICITY, 0, range(1000), len(model.deviations))
@@ -107,6 +142,10 @@ def inspect(case, models):
     motions = [motion_onto(models[A].mean, models[B].mean, dimension, scale) for scale in (False, True)]
     for name, motion in (("before", still), ("now", still), ("rigid", motions[0]), ("similarity", motions[1])):
         case.equal(f"meanDistance.{name}", apart(motion))
+    image = models[B].mean * np.tile([-1.0] + [1.0] * (dimension - 1), models[B].points)
+    factor, turn, shift = motion_onto(models[A].mean, image, dimension, False)
+    mirrored = image.reshape(-1, dimension) @ turn.T + shift - target
+    case.equal("meanDistance.mirrored", np.linalg.norm(mirrored, axis=1).mean())
     case.equal("scale", models[B].size / models[A].size)
     for name, model in zip("ab", models):
         case.same(f"points.{name}", model.points)
@@ -189,7 +228,8 @@ def words(case, text, found):
     most = [sum(share < 0.9 for share in found["compactness"][name]) + 1 for name in ("a", "b", "intersection")]
     lines.append(f"90 % of the variance lie in {most[0]} modes of A, {most[1]} of B, {most[2]} of A∩B.")
     both = found["intersection"]
-    lines.append(f"A∩B  {both['modes']} modes; its shapes lie {plain(both['meanDistance']['mean'])} ± {plain(both['meanDistance']['sd'])} "
+    kept = f" with {100 * both['varianceKept']:.1f} % of its variance" if both["varianceKept"] < 0.995 else ""
+    lines.append(f"A∩B  {both['modes']} mode{'' if both['modes'] == 1 else 's'}{kept}; its shapes lie {plain(both['meanDistance']['mean'])} ± {plain(both['meanDistance']['sd'])} "
                  f"{unit} from both models.")
     for name, field in (("A\\B", "aWithoutB"), ("B\\A", "bWithoutA")):
         part = found["differences"][field]

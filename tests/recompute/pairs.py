@@ -9,7 +9,7 @@ import numpy as np
 A, B = 0, 1
 ROUNDING = 1e-6  # share of the size below which left-out errors and meetings are nothing
 # Mean length over root mean square of isotropic vectors, in three digits: sqrt(pi)/2 and sqrt(8/(3 pi)).
-NOISE_RATIO = {2: 0.886, 3: 0.921}
+NOISE_RATIO = {2: np.sqrt(np.pi) / 2, 3: np.sqrt(8 / (3 * np.pi))}
 
 
 class Side:

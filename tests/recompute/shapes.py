@@ -132,7 +132,7 @@ def centroid_sizes(shapes, dimension):
 
 
 def procrustes_analysis(shapes, dimension, scale=False):
-    """All shapes moved onto their common mean, which starts as the first and keeps the mean size where sizes change."""
+    """All shapes moved onto their common mean, which starts as the first; where sizes change it ends with their mean size."""
     size = centroid_sizes(shapes, dimension).mean()
 
     def resized(mean):
@@ -149,6 +149,11 @@ def procrustes_analysis(shapes, dimension, scale=False):
         mean = after
         if change <= 1e-12 * size:
             break
+    if scale:
+        middle = shapes.mean(axis=1)[:, None]
+        points, centre = _centred(middle, dimension)
+        factor, centre = size / np.linalg.norm(points), np.tile(centre[0, 0], shapes.shape[0] // dimension)[:, None]
+        shapes = centre + factor * (shapes - centre)
     return shapes
 
 

@@ -197,8 +197,8 @@ test("a part, a size and the files themselves come to the engine as they were as
   coordinator.receive({ t: "open", id: 1, files, part: "expression", reading: "scale" });
   coordinator.receive({ t: "open", id: 2, files, part: null, reading: "" });
   assert.deepEqual(asked, [
-    [files, "expression", true],
-    [files, undefined, false],
+    [files, "expression", "scale"],
+    [files, undefined, ""],
   ]);
   coordinator.receive({ t: "groups", id: 3, files });
   const groups = [{ name: "set/1.ply", files: [0] }];

@@ -302,6 +302,8 @@ export type Group = {
   name: string,
   /** Which of the files of the drop. */
   files: Array<number>,
+  /** Names of files beside a population that are left out: single shapes of another kind, files of no known format. */
+  leftOut: Array<string>,
 };
 
 /** Where a model comes from. */

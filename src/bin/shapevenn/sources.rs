@@ -60,7 +60,22 @@ pub(crate) fn open(source: &str, reading: &Reading) -> Result<Described, Failure
         });
     };
     let members: Vec<Input> = group.files.iter().map(|&index| inputs[index].clone()).collect();
-    Ok(files::open(&members, &options)?)
+    let mut described = files::open(&members, &options)?;
+    described.report.notes.extend(left_out_sentence(&group.left_out));
+    Ok(described)
+}
+
+/// Which files of a folder are no part of its population.
+fn left_out_sentence(names: &[String]) -> Option<String> {
+    const NAMED: usize = 5;
+    let more = names.len().saturating_sub(NAMED);
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    (!names.is_empty()).then(|| {
+        format!(
+            "Left out, since they are no shapes of the set: {}{more}.",
+            names[..names.len().min(NAMED)].join(", ")
+        )
+    })
 }
 
 /// Shapes beside the two models.

@@ -110,6 +110,16 @@ impl<'a> Objects<'a> {
     fn collect(&mut self, id: Id, prefix: &str, depth: usize, seen: &mut BTreeSet<Id>) {
         seen.insert(id);
         let mut entries = Vec::new();
+        if let (0, Value::Tuple(items) | Value::List(items)) = (depth, self.heap.get(id)) {
+            // Arrays without names are listed by their places, so that whoever wrote them can name them.
+            let items = items.clone();
+            for (place, item) in items.into_iter().enumerate().take(MOST_NAMES) {
+                if matches!(self.find(item), Found::Array { .. } | Found::Picked { .. }) {
+                    self.names.insert(format!("[{place}]"), item);
+                }
+            }
+            return;
+        }
         match self.heap.get(id) {
             Value::Dict(items) => entries.clone_from(items),
             Value::Call { items, .. } if !items.is_empty() => entries.clone_from(items),

@@ -277,7 +277,9 @@ impl<'a> Text<'a> {
     }
 
     fn is_json(&self) -> bool {
-        self.text.starts_with('{')
+        // Members or nothing: SPHARM coefficients begin with a brace, too.
+        let after = self.text.strip_prefix('{').map(str::trim_start);
+        after.is_some_and(|after| after.is_empty() || after.starts_with(['"', '}']))
     }
 
     fn is_tps(&self) -> bool {
@@ -407,7 +409,7 @@ fn unknown(bytes: &[u8]) -> Fault {
     let start = start.trim_start_matches('\u{feff}').trim_start();
     if bytes.is_empty() {
         Fault::Empty
-    } else if start.starts_with("<!doctype") || start.starts_with("<html") {
+    } else if start.starts_with("<!doctype html") || start.starts_with("<html") {
         Fault::WebPage
     } else if start.starts_with("version https://git-lfs") {
         let size = start.lines().find_map(|line| line.strip_prefix("size ")?.trim().parse().ok());

@@ -293,6 +293,7 @@ const MEANS: &[&str] = &[
     "shapeMU",
     "mean_vertices",
     "template_vertex_positions",
+    "mean_",
 ];
 const BASES: &[&str] = &[
     "basis",
@@ -306,12 +307,14 @@ const BASES: &[&str] = &[
     "idBase",
     "U",
     "vertex_identity_basis",
+    "components_",
 ];
 const VARIANCES: &[&str] = &[
     "eigenvalues",
     "variance",
     "variances",
     "explained_variance",
+    "explained_variance_",
     "pcaVariance",
     "weights",
     "eigVal",
@@ -766,9 +769,15 @@ impl Source<'_> {
                     let own = name.strip_prefix(self.prefix).unwrap_or_default();
                     own.to_lowercase().starts_with("singular")
                 };
-                match self.table.names().into_iter().find(singular) {
-                    Some(what) => Err(Fault::SingularValues { what }),
-                    None => Ok(Scaling::Unstated),
+                let shares = |name: &String| name.trim_end_matches('_').ends_with("variance_ratio");
+                let names = self.table.names();
+                match (
+                    names.iter().find(|name| singular(name)),
+                    names.iter().find(|name| shares(name)),
+                ) {
+                    (Some(what), _) => Err(Fault::SingularValues { what: what.clone() }),
+                    (None, Some(what)) => Err(Fault::VarianceShares { what: what.clone() }),
+                    (None, None) => Ok(Scaling::Unstated),
                 }
             }
         }

@@ -66,9 +66,17 @@ pub(crate) fn read_hdf5(
 /// Reads a model of a Python pickle.
 pub(crate) fn read_pickle(input: &Input, options: &Options) -> Result<Opened, FormatError> {
     let bytes = input.bytes()?;
-    read_objects(&bytes, "Python pickle", input.file_name(), options)
-        .map_err(|fault| fault.of(&input.name))
+    read_objects(&bytes, "Python pickle", input.file_name(), options).map_err(|fault| {
+        let start = &bytes[..bytes.len().min(4096)];
+        let joblib = start.windows(JOBLIB.len()).any(|at| at == JOBLIB);
+        let fault =
+            if joblib && matches!(fault, Fault::Damaged { .. }) { Fault::Joblib } else { fault };
+        fault.of(&input.name)
+    })
 }
+
+/// The module whose objects stand for arrays in joblib's pickles.
+const JOBLIB: &[u8] = b"joblib.numpy_pickle";
 
 /// Reads a model of a pickle in `container`.
 fn read_objects(

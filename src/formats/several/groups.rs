@@ -7,7 +7,8 @@
 //! | meshes, landmarks or points of one kind in a folder | one population, named after the folder |
 //! | one shape in each of several folders side by side | one population |
 //! | a mesh beside the only model, or beside one whose name begins alike | the model with its faces |
-//! | a file of no known format beside a population | part of it, if its name ends alike; else nothing |
+//! | a single shape beside populations | nothing; its name is told |
+//! | a file of no known format beside a population | part of it, if its name ends alike; else nothing, and its name is told |
 //! | anything else | a model on its own |
 //!
 //! Files of a group are in natural order: 2 before 10.
@@ -55,6 +56,9 @@ pub struct Group {
     pub name: String,
     /// Which of the files of the drop.
     pub files: Vec<usize>,
+    /// Names of files beside a population that are left out: single shapes of another kind, files of no known format.
+    #[serde(rename = "leftOut")]
+    pub left_out: Vec<String>,
 }
 
 /// The models that dropped files make, in the order of the files.
@@ -81,6 +85,7 @@ pub fn groups(inputs: &[Input]) -> Result<Vec<Group>, FormatError> {
     let mut sets = sets(inputs, &contents, &rest);
     let claimed: Vec<usize> = sets.iter().chain(&groups).flatten().copied().collect();
     rest.retain(|index| !claimed.contains(index));
+    let before = rest.clone();
     rest.retain(|&index| contents[index].is_some() || !joins_or_vanishes(inputs, index, &mut sets));
     let folders_of_groups: Vec<&str> =
         groups.iter().flatten().map(|&index: &usize| folder(&inputs[index].name)).collect();
@@ -91,10 +96,45 @@ pub fn groups(inputs: &[Input]) -> Result<Vec<Group>, FormatError> {
         rest.retain(|index| *index != mesh && *index != model);
         groups.push(vec![model, mesh]);
     }
+    // A single shape beside populations makes no model.
+    let alone = |index: usize| {
+        contents[index].is_some_and(|content| {
+            mesh::is_shape(content) && !is_set_by_itself(&inputs[index], content)
+        })
+    };
+    // So does a file that is told by the sizes in it alone, without the ending of such files: a transform of ShapeWorks.
+    let by_chance = |index: usize| {
+        let name = &inputs[index].name;
+        let told_by_sizes = matches!(
+            contents[index],
+            Some(Content::Eos | Content::Scm | Content::PointPca | Content::Deep3d)
+        );
+        let beside =
+            sets.iter().flatten().any(|&other| folder(&inputs[other].name) == folder(name));
+        told_by_sizes
+            && beside
+            && !["bin", "scm", "pca"].contains(&ending(name).trim_start_matches('.'))
+    };
+    if !sets.is_empty() {
+        rest.retain(|&index| !alone(index) && !by_chance(index));
+    }
+    let taken: Vec<usize> = sets.iter().chain(&groups).flatten().chain(&rest).copied().collect();
+    let left_out: Vec<String> = before
+        .into_iter()
+        .filter(|index| !taken.contains(index))
+        .map(|index| inputs[index].name.clone())
+        .collect();
+    let first_set = sets.first().and_then(|set| set.first()).copied();
     groups.extend(sets);
     groups.extend(rest.into_iter().map(|index| vec![index]));
     groups.sort_by_key(|files| files.iter().copied().min());
-    Ok(named(inputs, &contents, groups))
+    let mut named = named(inputs, &contents, groups);
+    if let Some(set) =
+        named.iter_mut().find(|group| first_set.is_some_and(|first| group.files.contains(&first)))
+    {
+        set.left_out = left_out;
+    }
+    Ok(named)
 }
 
 /// What each file is; `None` for those of no known format.
@@ -214,7 +254,7 @@ fn named(inputs: &[Input], contents: &[Option<Content>], groups: Vec<Vec<usize>>
         .into_iter()
         .map(|files| {
             let of_group: Vec<Input> = files.iter().map(|&index| inputs[index].clone()).collect();
-            Group { name: name_of(&of_group), files }
+            Group { name: name_of(&of_group), files, left_out: Vec::new() }
         })
         .collect();
     let is_ambiguous = |groups: &[Group], index: usize| {

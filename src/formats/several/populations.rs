@@ -246,23 +246,21 @@ impl Shapes {
             }
         };
         let first = self.first.as_ref().map(|first| first.name.as_str()).unwrap_or_default();
-        let difference = if corners.len() != welding.corner_count() {
-            Some(format!(
+        if corners.len() != welding.corner_count() {
+            let difference = format!(
                 "It has {} faces, {first} has {}",
                 thousands(corners.len() / 3),
                 thousands(welding.corner_count() / 3)
-            ))
-        } else {
-            welding.disagreement(corners).map(|[one, other]| {
-                format!(
-                    "A corner of face {} and one of face {} are one point in {first}, but lie apart here",
-                    thousands(one / 3 + 1),
-                    thousands(other / 3 + 1)
-                )
-            })
-        };
-        if let Some(difference) = difference {
+            );
             return Err(Fault::Correspondence { difference }.of(name));
+        }
+        if let Some([one, other]) = welding.disagreement(corners) {
+            let difference = format!(
+                "A corner of face {} and one of face {} are one point in {first}, but lie apart here",
+                thousands(one / 3 + 1),
+                thousands(other / 3 + 1)
+            );
+            return Err(Fault::Apart { difference }.of(name));
         }
         let mesh = welding.mesh(corners).map_err(|fault| fault.of(name))?;
         self.add(name, Some(file), mesh)

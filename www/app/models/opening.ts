@@ -149,7 +149,7 @@ export async function modelsIn(
   return (
     groups?.map((group) => {
       const own = group.files.flatMap((index) => files[index] ?? []);
-      return { name: group.name, source: filesSource(group.name, own) };
+      return { name: group.name, source: filesSource(group.name, own, group.leftOut) };
     }) ?? null
   );
 }
@@ -157,7 +157,7 @@ export async function modelsIn(
 /** Groups files that belong together; null if they cannot be read. */
 async function grouped(files: DroppedFile[], side: Side | null) {
   const [only] = files;
-  if (only && files.length === 1) return [{ name: baseName(only.name), files: [0] }];
+  if (only && files.length === 1) return [{ name: baseName(only.name), files: [0], leftOut: [] }];
   const controller = side ? begin(side, `${files.length} files`) : new AbortController();
   try {
     const groups = await engineClient().groups(controller.signal, files);

@@ -30,9 +30,18 @@ export function demoSource(name: string): Source {
   return { kind: "demo", name };
 }
 
-export function filesSource(name: string, files: DroppedFile[]): Files {
+export function filesSource(name: string, files: DroppedFile[], leftOut: string[] = []): Files {
   fileSerial += 1;
-  return { kind: "files", name, files, serial: fileSerial };
+  return { kind: "files", name, files, serial: fileSerial, leftOut };
+}
+
+/** Most names in a sentence. */
+const NAMED = 5;
+
+/** Which dropped files are no part of a population. */
+function leftOutSentence(names: string[]): string {
+  const more = names.length > NAMED ? ` and ${names.length - NAMED} more` : "";
+  return `Left out, since they are no shapes of the set: ${names.slice(0, NAMED).join(", ")}${more}.`;
 }
 
 /** Source, part and shapes with which this model can be opened again. */
@@ -85,7 +94,10 @@ export async function openWanted(
     opened = await client.open(signal, files, part, reading, (bytes, of) => onRead({ bytes, of }));
   }
   if (shapes) opened = await withShapes(signal, opened, shapes, reading);
-  const { format, parts, model, report, origin, hasMap } = opened;
+  const { format, parts, model, origin, hasMap } = opened;
+  const leftOut = source.kind === "files" ? (source.leftOut ?? []) : [];
+  const said = leftOut.length > 0 ? [leftOutSentence(leftOut)] : [];
+  const report = { ...opened.report, notes: [...opened.report.notes, ...said] };
   return {
     source,
     reading,

@@ -40,6 +40,8 @@ export interface Files {
   name: string;
   files: DroppedFile[];
   serial: number;
+  /** Names of files beside them that are no part of the model. */
+  leftOut?: string[];
 }
 
 /** Where a model came from, so that it can be opened again. */

@@ -86,6 +86,7 @@ test("of a report the numbers are kept, and models without a fingerprint have no
   assert.deepEqual(expectedRun("r.json", report, old, "0.1.0").models.a, {
     name: "x",
     part: null,
+    reading: "",
     source: null,
     fingerprint: null,
     shapes: null,

@@ -139,7 +139,13 @@ test("a link waits for the files that it names, and knows them by the start of t
   assert.equal(run?.settings.seed, "9");
   assert.equal(run?.models.a.source, "demo:heads-male");
   const { b } = run?.models ?? assert.fail("it waits for nothing");
-  assert.deepEqual(b, { name: "b.h5", source: null, part: null, fingerprint: HASH });
+  assert.deepEqual(b, {
+    name: "b.h5",
+    source: null,
+    part: null,
+    reading: "",
+    fingerprint: HASH,
+  });
   const open = (fingerprint: string) => ({ report: { name: "x.h5", fingerprint }, source: null });
   assert.equal(verdictOf(b, open(`${HASH}${HASH}`)), "same");
   assert.equal(verdictOf(b, open(`f${HASH}${HASH}`)), "other");
