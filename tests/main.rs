@@ -6,6 +6,7 @@ mod common;
 
 mod answer;
 mod attacks;
+mod cases;
 mod cli;
 mod closed_forms;
 mod conditions;
