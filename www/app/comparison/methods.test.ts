@@ -70,6 +70,15 @@ test("the methods paragraph says what was done to the models and which sampler r
   assert.doesNotMatch(text, /undefined|null|NaN/);
 });
 
+test("what was chosen about reading a file is said", () => {
+  const report = reportWith({});
+  const step = { sentence: "Specimens mirrored: m4.ply.", undo: "" };
+  const models = { ...report.models, b: { ...report.models.b, applied: [step] } };
+  const text = plain(methods({ ...report, models }));
+  assert.match(text, /How B was read: Specimens mirrored: m4\.ply\./);
+  assert.doesNotMatch(text, /How A was read/);
+});
+
 test("BibTeX has the paper and this version of the program", () => {
   const text = bibTeX("0.1.0");
   assert.match(text, /@inproceedings\{[\s\S]*eprint +=.*2211\.16314/);

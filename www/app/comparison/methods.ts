@@ -46,7 +46,18 @@ function models(report: Report): Phrase {
     ", and ",
     ...one("b"),
     ".",
+    ...read(report),
   ];
+}
+
+/** What was said about reading the files: specimens left out or mirrored, order of coordinates. */
+function read({ models }: Report): Phrase {
+  return (["a", "b"] as const).flatMap((side) => {
+    const applied = models[side].applied ?? [];
+    if (applied.length === 0) return [];
+    const sentences = applied.map(({ sentence }) => sentence).join(" ");
+    return [` How ${side.toUpperCase()} was read: ${sentences}`];
+  });
 }
 
 const ALIGNED = {
