@@ -162,6 +162,10 @@ fn likely_units(a: &LinearModel, b: &LinearModel, stated: [Unit; 2]) -> Option<(
     if !ratio.is_finite() || ratio <= 0.0 || (0.3..3.2).contains(&ratio) {
         return None;
     }
+    // Nothing is known of the usual size of a drawing in the plane.
+    if stated == [Unit::Unknown; 2] && a.dimension() != 3 {
+        return None;
+    }
     let metres = |unit: Unit| unit.metres().unwrap_or(1.0);
     let possible =
         |stated: Unit| if stated == Unit::Unknown { LENGTHS.to_vec() } else { vec![stated] };

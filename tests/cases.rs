@@ -94,7 +94,7 @@ fn coordinates_axis_by_axis_are_told_by_neighbours_that_move_alike() {
         ("flat", written(&model, vec![120], axes)),
         ("a mean of points", written(&model, vec![40, 3], axes)),
     ] {
-        let opened = open(&[input.clone()], "").unwrap();
+        let opened = open(std::slice::from_ref(&input), "").unwrap();
         assert_eq!(codes(&opened), ["coordinates"], "{what}: said");
         assert!(!opened.part.findings[0].doubt, "{what}: sure");
         assert!(far(&opened.part.model, &model) < 1e-9, "{what}: the same model");
@@ -122,7 +122,7 @@ fn where_numbers_do_not_tell_the_dimension_is_asked_and_can_be_said() {
     .unwrap()
     .0;
     let input = written(&white, vec![60], <[f64]>::to_vec);
-    let opened = open(&[input.clone()], "").unwrap();
+    let opened = open(std::slice::from_ref(&input), "").unwrap();
     assert_eq!(codes(&opened), ["coordinates-open"], "asked");
     assert!(opened.part.findings[0].doubt && opened.part.findings[0].choices.len() == 3);
     let said = open(&[input], "dimension=2 order=points").unwrap();
@@ -280,13 +280,13 @@ fn unusual_specimens_are_named_and_one_click_mends_them() {
     check(
         &|shapes| [3, 7].iter().for_each(|&index| mirror(&mut shapes[index])),
         "mirrored",
-        "specimen 4 and specimen 8 fit the other specimens only when mirrored",
+        "Specimen 4 and specimen 8 fit the other specimens only when mirrored",
         Some(plain),
     );
     check(
         &|shapes| shapes[5].iter_mut().for_each(|value| *value /= 1000.0),
         "specimen-size",
-        "specimen 6",
+        "Specimen 6",
         Some(plain),
     );
     check(
@@ -305,7 +305,7 @@ fn unusual_specimens_are_named_and_one_click_mends_them() {
         "1 and 6 of specimen 2",
         None,
     );
-    check(&|shapes| shapes[8].reverse(), "outlier", "specimen 9", None);
+    check(&|shapes| shapes[8].reverse(), "outlier", "Specimen 9", None);
 }
 
 #[test]

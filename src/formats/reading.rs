@@ -329,12 +329,24 @@ pub struct Finding {
 
 impl Finding {
     pub(super) fn new(code: &str, message: impl Into<String>, choices: Vec<Choice>) -> Self {
-        Self { code: code.to_owned(), message: message.into(), doubt: true, choices }
+        // A sentence may begin with the name of a specimen.
+        let message: String = message.into();
+        let mut letters = message.chars();
+        let first = letters
+            .next()
+            .map(|first| if is_specimen(&message) { first.to_ascii_uppercase() } else { first });
+        let message = first.into_iter().chain(letters).collect();
+        Self { code: code.to_owned(), message, doubt: true, choices }
     }
 
     pub(super) fn sure(self) -> Self {
         Self { doubt: false, ..self }
     }
+}
+
+/// Whether a sentence begins with a number of a specimen, not with the name of a file.
+fn is_specimen(message: &str) -> bool {
+    message.starts_with("specimen ") || message.starts_with("landmark ")
 }
 
 /// A reading that can be chosen.

@@ -179,7 +179,8 @@ impl Problem {
     /// (1/n) Σ √(‖residual_v‖² + t²) − t Σ ln(1 − ‖·‖²/k²); infinite outside of the balls.
     fn barrier(&self, solution: &DVector<f64>, radii: [f64; 2], t: f64) -> f64 {
         let norms = self.norms(solution);
-        let smooth = norms.iter().map(|norm| norm.hypot(t)).sum::<f64>() / self.points as f64;
+        let smooth =
+            norms.iter().map(|norm| libm::hypot(*norm, t)).sum::<f64>() / self.points as f64;
         let walls: f64 = self
             .balls()
             .into_iter()
@@ -206,7 +207,7 @@ impl Problem {
         let mut force = residual.clone();
         for point in 0..self.points {
             let own = residual.rows(d * point, d);
-            let length = own.norm().hypot(t);
+            let length = libm::hypot(own.norm(), t);
             let share = 1.0 / (length * self.points as f64);
             weighted.rows_mut(d * point, d).scale_mut(share);
             force.rows_mut(d * point, d).scale_mut(share);

@@ -192,7 +192,7 @@ test("a part, a size and the files themselves come to the engine as they were as
       asked.push(given.slice(0, 3));
       return { model: 1 } as ReturnType<Engine["open"]>;
     },
-    groups: (given) => given.map(({ name }, i) => ({ name, files: [i] })),
+    groups: (given) => given.map(({ name }, i) => ({ name, files: [i], leftOut: [] })),
   });
   coordinator.receive({ t: "open", id: 1, files, part: "expression", reading: "scale" });
   coordinator.receive({ t: "open", id: 2, files, part: null, reading: "" });
@@ -201,7 +201,7 @@ test("a part, a size and the files themselves come to the engine as they were as
     [files, undefined, ""],
   ]);
   coordinator.receive({ t: "groups", id: 3, files });
-  const groups = [{ name: "set/1.ply", files: [0] }];
+  const groups = [{ name: "set/1.ply", files: [0], leftOut: [] }];
   assert.deepEqual(posted.at(-1), { t: "groups", id: 3, groups });
 });
 
