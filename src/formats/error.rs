@@ -467,7 +467,8 @@ impl FormatError {
             Fault::Strips => "Save the mesh with single triangles.",
             Fault::Correspondence { .. } => {
                 "All shapes of a set need the same points in the same order: register one template to \
-                 each of them, and drop the registered meshes."
+                 each of them, and drop the registered meshes. Landmarks and outlines need equally many \
+                 points in every specimen."
             }
             Fault::Apart { .. } => {
                 "STL files have no point numbers. Save the meshes as PLY or OBJ, which keep the vertices."

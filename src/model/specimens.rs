@@ -344,10 +344,12 @@ impl Specimens {
             .filter(|&(specimen, point)| single_points && wrong(specimen, point))
             .collect();
         for (specimen, fit) in self.fits.iter().enumerate() {
+            // What is wrong with mirrored specimens is that they are mirrored.
+            let looked_at = single_points && !look.mirrored.contains(&specimen);
             let found: Vec<usize> = self.present[specimen]
                 .iter()
                 .copied()
-                .filter(|&point| single_points && wrong(specimen, point))
+                .filter(|&point| looked_at && wrong(specimen, point))
                 .collect();
             let of_all = 3 * found.len() <= self.points;
             if let (true, Some(pair)) = (of_all, self.exchanged(specimen, &found, &usual)) {

@@ -30,6 +30,7 @@ const CASES = [
   "points=3,7&sigma=0.05",
   "points=5-8;0–2, 4&sigma=0.05",
   "subsample=6&rebase=a&sigma=0.05",
+  "mirror=yes&align=rigid&sigma=0.05",
   "unit-a=mm&unit-b=%C2%B5m&convert=yes&sigma=0.05",
   "variance-a=99.9&variance-b=99.9",
 ];
@@ -38,7 +39,7 @@ const CASES = [
 const wordsOf = (line) =>
   [...line.matchAll(/'([^']*)'|(\S+)/g)].map(([, quoted, plain]) => quoted ?? plain);
 
-const model = (source) => ({ source, part: null, scale: false });
+const model = (source) => ({ source, part: null, reading: "" });
 const STARS = { a: model("demo:stars-2-a"), b: model("demo:stars-2-b") };
 
 test("every setting but those without an option is in one of the commands", () => {

@@ -36,6 +36,7 @@ use shapevenn::error::ComparisonError;
 use shapevenn::files::{self, Download, Error, ShownShape, Sources};
 use shapevenn::formats;
 use shapevenn::formats::Reading;
+use shapevenn::inspect::Agreement;
 use shapevenn::model::LinearModel;
 use shapevenn::pair::{MeanSquare, Quantiles};
 use shapevenn::report::{ModelReport, Report, Seconds};
@@ -287,6 +288,11 @@ fn inspect(
     match (&found.problem, found.compared) {
         (Some(problem), _) => println!("! {} {}", problem.message, problem.hint),
         (None, count) => println!("{} points in common", count.unwrap_or(0)),
+    }
+    if found.triangles == Agreement::Different {
+        println!(
+            "! The two meshes have other triangles. Check that point k is the same place on both: the order of the points may differ."
+        );
     }
     if let (Some(now), unit) = (found.mean_distance.now, found.units.a.stated.symbol()) {
         println!("the means are {} {unit} apart", plain(now));

@@ -301,6 +301,10 @@ impl Shapes {
     pub(crate) fn into_population(mut self) -> Result<Option<Population>, Fault> {
         let Some(First { mut dimension, points, cells, .. }) = self.first else { return Ok(None) };
         let length = dimension * points;
+        // As the file has them: a mark times SCALE is none.
+        let marked = DMatrix::from_column_slice(length, self.count, &self.values);
+        self.specimens.find_marks(dimension, &marked);
+        drop(marked);
         if !self.scales.is_empty() && self.scales.iter().all(Option::is_some) {
             for (shape, scale) in self.values.chunks_exact_mut(length).zip(&self.scales) {
                 shape.iter_mut().for_each(|value| *value *= scale.unwrap_or(1.0));

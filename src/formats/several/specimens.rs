@@ -14,6 +14,9 @@ use crate::text::{thousands, three_digits};
 /// Numbers that mark a missing landmark when all coordinates have them.
 const MARKS: [f64; 10] = [0.0, -1.0, -9.0, -99.0, -999.0, -9999.0, 99.0, 999.0, 9999.0, 99_999.0];
 
+/// Sets of more points are meshes, of which none is missing.
+const MOST_LANDMARKS: usize = 2000;
+
 /// Procrustes distance from which a note says what it means for a linear model: sin ρ is 2 % less than ρ.
 const WIDE: f64 = 0.35;
 
@@ -142,7 +145,6 @@ impl Specimens {
         let left_out = |specimen: usize, point: usize, without: &[usize], points: &[usize]| {
             without.contains(&specimen) || points.contains(&point)
         };
-        self.find_marks(dimension, &shapes);
         let gone: Vec<(usize, usize)> = self
             .missing
             .iter()
@@ -200,8 +202,10 @@ impl Specimens {
 
     /// Finds numbers that mark missing landmarks: a point with the same such number in all coordinates, which lies
     /// elsewhere than in the other specimens, or of which a specimen has two.
-    fn find_marks(&mut self, dimension: usize, shapes: &DMatrix<f64>) {
-        if self.reading.missing == Some(Missing::Values) {
+    pub(crate) fn find_marks(&mut self, dimension: usize, shapes: &DMatrix<f64>) {
+        if self.reading.missing == Some(Missing::Values)
+            || shapes.nrows() / dimension > MOST_LANDMARKS
+        {
             return;
         }
         let mut doubted: BTreeMap<(usize, usize), f64> = BTreeMap::new();
