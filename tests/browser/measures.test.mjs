@@ -247,8 +247,9 @@ test("shapes that a model has not seen, and those that it was made of, put it to
       errors.every((error) => error > 0),
       "every mean has its error",
     );
+    // The root mean square falls with every mode; the mean length may rise by a little where shapes move along.
     generalization.forEach((value, i) => {
-      assert.ok(i === 0 || value <= generalization[i - 1] + 1e-12, `${value} of ${modes[i]} modes`);
+      assert.ok(i === 0 || value <= 1.02 * generalization[i - 1], `${value} of ${modes[i]} modes`);
     });
     assert.ok(
       generalization[0] > 3 * generalization[2],
