@@ -97,7 +97,7 @@
 //! ```
 //! use nalgebra::DMatrix;
 //! use shapevenn::demos;
-//! use shapevenn::measure::evaluate;
+//! use shapevenn::measure::{Placement, evaluate};
 //! use shapevenn::model::{Alignment, principal_components};
 //! use shapevenn::sampling::{Stream, fill_normal, stream};
 //!
@@ -110,7 +110,7 @@
 //!     truth.shape(&coefficients)
 //! }).collect::<Vec<_>>());
 //! let model = principal_components(2, &shapes).expect("enough shapes");
-//! let found = evaluate(&model, 2, shapes, true, Alignment::None)?;
+//! let found = evaluate(&model, 2, shapes, true, Alignment::None, Placement::Mean)?;
 //! println!("generalization with all modes: {:.2e}", found.generalization.last().expect("modes"));
 //! # assert!(found.generalization.windows(2).all(|pair| pair[1] <= pair[0]), "more modes come nearer");
 //! # Ok::<(), shapevenn::measure::EvaluationError>(())

@@ -498,3 +498,17 @@ fn files_of_other_formats_are_named_for_what_they_are() {
         scale.hint()
     );
 }
+
+#[test]
+fn words_that_say_nothing_about_a_file_are_named_and_not_claimed() {
+    let model = written(&ring(40), vec![40, 3], <[f64]>::to_vec);
+    let described = files::open(&[model], &reading("mirror=4")).unwrap();
+    assert!(described.report.applied.is_empty(), "nothing was mirrored");
+    let said =
+        described.report.notes.iter().any(|note| note.starts_with("“mirror=4” says nothing"));
+    assert!(said, "{:?}", described.report.notes);
+    let set = files::open(&[tps(&specimens(), &[])], &reading("mirror=4 order=axes")).unwrap();
+    assert_eq!(set.report.applied.len(), 1, "{:?}", set.report.applied);
+    assert_eq!(set.report.applied[0].undo, "order=axes", "the rest stays");
+    assert!(set.report.notes.iter().any(|note| note.starts_with("“order=axes” says nothing")));
+}

@@ -83,8 +83,27 @@ pub fn open(inputs: &[Input], options: &Options) -> Result<Described, Error> {
         ..ModelReport::new(&model, &opened.format, &part.notes)
     }
     .with_reading(&options.reading, part.findings);
+    let (used, idle) = match part.origin {
+        Origin::Shapes { .. } => (options.reading.of_shapes(), options.reading.of_arrays()),
+        _ => (options.reading.of_arrays(), options.reading.of_shapes()),
+    };
+    let report = report.with_applied(&options.reading, &used);
+    let report = ModelReport { notes: [report.notes.clone(), idle_note(&idle)].concat(), ..report };
     Ok(Described { parts: opened.parts, part: part.name, origin: part.origin, model, report })
 }
+
+/// That words of a reading say nothing about what was opened.
+fn idle_note(idle: &Reading) -> Vec<String> {
+    // One option scales the sets among several files.
+    let idle = Reading { scale: false, ..idle.clone() };
+    if idle.is_default() {
+        return Vec::new();
+    }
+    vec![format!("“{idle}” {IDLE}")]
+}
+
+/// End of the note about words that say nothing.
+const IDLE: &str = "says nothing about this file: words for shapes are for sets of shapes, words for arrays for models.";
 
 /// Opens a demo model; `bytes` is the packaged file where it is one.
 ///
@@ -149,8 +168,10 @@ pub fn add_shapes(
             Error::Shapes { shapes, model, error }
         })?;
     let mut report = described.report.clone();
-    if report.reading.is_none() {
-        report = report.with_reading(&reading, Vec::new());
+    if !matches!(described.origin, Origin::Shapes { .. }) {
+        // What said nothing about the model is about its shapes.
+        report.notes.retain(|note| !note.ends_with(IDLE));
+        report = report.with_applied(&reading, &reading.of_shapes());
     }
     report.findings.extend(set.findings.iter().cloned());
     report.shapes = model.training_shapes().map(|known| KnownShapes {

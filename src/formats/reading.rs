@@ -230,6 +230,17 @@ impl Reading {
         *self == Self::default()
     }
 
+    /// What it says of the arrays of a model.
+    pub fn of_arrays(&self) -> Self {
+        let Self { dimension, order, modes, .. } = *self;
+        Self { dimension, order, modes, ..Self::default() }
+    }
+
+    /// What it says of shapes.
+    pub fn of_shapes(&self) -> Self {
+        Self { dimension: None, order: None, modes: None, ..self.clone() }
+    }
+
     /// A choice that changes this reading.
     pub(super) fn choice(
         &self,

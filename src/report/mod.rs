@@ -221,8 +221,16 @@ impl ModelReport {
     #[must_use]
     pub fn with_reading(mut self, reading: &Reading, findings: Vec<Finding>) -> Self {
         self.reading = Some(reading.to_string()).filter(|text| !text.is_empty());
-        self.applied = reading.applied();
         self.findings.extend(findings);
+        self
+    }
+
+    /// The same with what `used`, a part of the reading, did.
+    #[must_use]
+    pub fn with_applied(mut self, reading: &Reading, used: &Reading) -> Self {
+        let done: Vec<String> = used.applied().into_iter().map(|step| step.sentence).collect();
+        self.applied
+            .extend(reading.applied().into_iter().filter(|step| done.contains(&step.sentence)));
         self
     }
 }
