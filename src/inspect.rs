@@ -10,7 +10,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::measure::mean_vertex_distance;
-use crate::model::{Alignment, Cells, Kind, LinearModel, Unit, procrustes};
+use crate::model::{Alignment, Cells, Kind, LinearModel, Unit, procrustes, reflect};
 use crate::pair::{PairError, PointSelection, Preparation, SelectionError, SidePreparation};
 use crate::report::Notice;
 use crate::settings::Settings;
@@ -659,7 +659,7 @@ fn is_expression(model: &LinearModel) -> bool {
 }
 
 fn mirror_image(mut points: DVector<f64>, dimension: usize) -> DVector<f64> {
-    points.iter_mut().step_by(dimension).for_each(|x| *x = -*x);
+    reflect(points.as_mut_slice(), dimension);
     points
 }
 

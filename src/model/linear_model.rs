@@ -666,7 +666,7 @@ impl LinearModel {
 }
 
 /// Changes the sign of x of interleaved points or directions.
-pub(super) fn reflect(points: &mut [f64], dimension: usize) {
+pub(crate) fn reflect(points: &mut [f64], dimension: usize) {
     points.iter_mut().step_by(dimension).for_each(|x| *x = -*x);
 }
 

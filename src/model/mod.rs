@@ -25,7 +25,7 @@ mod training;
 pub use beside::ShapesError;
 pub use geometry::Geometry;
 pub use linear_model::{BasisCheck, Cells, Kind, LinearModel, ModelError, Unit};
-pub(crate) use linear_model::{SMALLEST_LENGTH, check_magnitude, lengths};
+pub(crate) use linear_model::{SMALLEST_LENGTH, check_magnitude, lengths, reflect};
 pub use normals::vertex_normals;
 pub use points::evenly_spread;
 pub(crate) use population::into_principal_components;

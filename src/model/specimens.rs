@@ -17,6 +17,7 @@ use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use super::linear_model::reflect;
 use super::{Alignment, Similarity, procrustes};
 
 /// More points are thinned out.
@@ -249,7 +250,7 @@ impl Specimens {
             .filter(|point| there.binary_search(point).is_ok())
             .collect();
         let mut reflected = shape.clone();
-        reflected.iter_mut().step_by(self.dimension).for_each(|value| *value = -*value);
+        reflect(reflected.as_mut_slice(), self.dimension);
         let own = self.fit_of(reference, &both, shape, false);
         let other = self.fit_of(reference, &both, &reflected, true);
         // Flat shapes in three dimensions are their own mirror images: then the two are equal up to rounding.

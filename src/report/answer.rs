@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::{EvidenceReport, Hypothesis, Notice, Report, StatisticName};
 use crate::model::{Side, Sides};
 use crate::pair::ReachOfSide;
-use crate::text::{one_digit, three_digits};
+use crate::text::{listed, one_digit, three_digits};
 
 /// Level of the answer: below it a difference is called more than chance.
 pub const LEVEL: f64 = 0.05;
@@ -465,16 +465,6 @@ fn unknown(missing: &NoEvidence) -> Sentence {
     };
     let parts = vec![words("whether this is more than chance cannot be said: "), words(&why)];
     Sentence { about: Topic::ChanceUnknown, parts }
-}
-
-/// “one, two and three”.
-fn listed<'a>(items: impl Iterator<Item = &'a str>) -> String {
-    let items: Vec<&str> = items.collect();
-    match items.split_last() {
-        Some((last, [])) => (*last).to_owned(),
-        Some((last, others)) => format!("{} and {last}", others.join(", ")),
-        None => String::new(),
-    }
 }
 
 impl Sentence {

@@ -14,7 +14,7 @@
 //! "Statistical Shape Analysis", 2nd ed. (2016), chapter 7.
 
 use crate::formats::error::{Fault, counted};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DMatrixView};
 
 use crate::formats::input::sniffing::Content;
 use crate::formats::input::{Input, compressed, paths};
@@ -302,9 +302,8 @@ impl Shapes {
         let Some(First { mut dimension, points, cells, .. }) = self.first else { return Ok(None) };
         let length = dimension * points;
         // As the file has them: a mark times SCALE is none.
-        let marked = DMatrix::from_column_slice(length, self.count, &self.values);
-        self.specimens.find_marks(dimension, &marked);
-        drop(marked);
+        let as_they_are = DMatrixView::from_slice(&self.values, length, self.count);
+        self.specimens.find_marks(dimension, as_they_are);
         if !self.scales.is_empty() && self.scales.iter().all(Option::is_some) {
             for (shape, scale) in self.values.chunks_exact_mut(length).zip(&self.scales) {
                 shape.iter_mut().for_each(|value| *value *= scale.unwrap_or(1.0));

@@ -3,13 +3,13 @@
 
 use std::collections::BTreeMap;
 
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DMatrixView};
 
 use crate::formats::error::{Fault, counted};
 use crate::formats::mesh::MissingPoint;
 use crate::formats::reading::{Choice, Finding, FirstColumn, Missing, Reading};
-use crate::model::{Cells, look};
-use crate::text::{thousands, three_digits};
+use crate::model::{Cells, look, reflect};
+use crate::text::{listed, thousands, three_digits};
 
 /// Numbers that mark a missing landmark when all coordinates have them.
 const MARKS: [f64; 10] = [0.0, -1.0, -9.0, -99.0, -999.0, -9999.0, 99.0, 999.0, 9999.0, 99_999.0];
@@ -89,7 +89,7 @@ impl Specimens {
         let names: Vec<String> =
             specimens.iter().take(NAMED).map(|&specimen| self.called(specimen)).collect();
         match specimens.len() {
-            0..=NAMED => in_words(&names),
+            0..=NAMED => listed(names.iter().map(String::as_str)),
             more => format!("{} and {} more", names.join(", "), more - NAMED),
         }
     }
@@ -139,8 +139,7 @@ impl Specimens {
             shape *= *factor;
         }
         for specimen in self.numbers(&self.reading.mirror)? {
-            let mut shape = shapes.column_mut(specimen);
-            shape.iter_mut().step_by(dimension).for_each(|value| *value = -*value);
+            reflect(shapes.column_mut(specimen).as_mut_slice(), dimension);
         }
         let left_out = |specimen: usize, point: usize, without: &[usize], points: &[usize]| {
             without.contains(&specimen) || points.contains(&point)
@@ -202,7 +201,7 @@ impl Specimens {
 
     /// Finds numbers that mark missing landmarks: a point with the same such number in all coordinates, which lies
     /// elsewhere than in the other specimens, or of which a specimen has two.
-    pub(crate) fn find_marks(&mut self, dimension: usize, shapes: &DMatrix<f64>) {
+    pub(crate) fn find_marks(&mut self, dimension: usize, shapes: DMatrixView<'_, f64>) {
         if self.reading.missing == Some(Missing::Values)
             || shapes.nrows() / dimension > MOST_LANDMARKS
         {
@@ -279,7 +278,7 @@ impl Specimens {
         let shown = if more > 0 {
             format!("{}, and more in {}", shown.join(", "), counted(more, "specimen", "specimens"))
         } else {
-            in_words(&shown)
+            listed(shown.iter().map(String::as_str))
         };
         let which = format!(
             "{} missing in {} of {} specimens: {shown}",
@@ -524,15 +523,6 @@ fn landmarks(points: &[usize]) -> String {
     let numbers: Vec<String> = points.iter().map(|point| (point + 1).to_string()).collect();
     match numbers.as_slice() {
         [one] => format!("landmark {one}"),
-        several => format!("landmarks {}", in_words(several)),
-    }
-}
-
-/// "a", "a and b", "a, b and c".
-fn in_words(items: &[String]) -> String {
-    match items {
-        [] => String::new(),
-        [one] => one.clone(),
-        [before @ .., last] => format!("{} and {last}", before.join(", ")),
+        several => format!("landmarks {}", listed(several.iter().map(String::as_str))),
     }
 }
