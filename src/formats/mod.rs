@@ -12,7 +12,8 @@
 //! |---|---|
 //! | `input` | files as they were dropped, what they are, and archives unpacked |
 //! | `containers` | arrays under names or in order: NumPy, MATLAB, HDF5, JSON, pickles, tables |
-//! | `mesh` | meshes and landmarks |
+//! | `mesh` | meshes |
+//! | `landmarks` | landmarks, of one specimen or of several |
 //! | `readers` | models, one file a format |
 //! | `several` | files that make one model together |
 //! | `write` | exports |
@@ -25,6 +26,7 @@
 mod containers;
 mod error;
 mod input;
+mod landmarks;
 mod mesh;
 mod open;
 mod opened;

@@ -8,7 +8,6 @@ use super::input::Input;
 use super::input::compressed::{self, DEEPEST};
 use super::input::paths::in_order;
 use super::input::sniffing::{self, Content, sniff};
-use super::mesh;
 use super::opened::{Opened, Options};
 use super::readers::{
     cells, clmtrackr, deep3d, eos, named_arrays, plain_json, point_pca, shapeworks, statismo,
@@ -17,6 +16,7 @@ use super::readers::{
 use super::several::groups::{self, Group};
 use super::several::naming::name_of;
 use super::several::populations;
+use super::{landmarks, mesh};
 use crate::model::Cells;
 
 /// Names listed when an archive holds no model.
@@ -95,7 +95,8 @@ fn open_several(inputs: &[Input], options: &Options, depth: u8) -> Result<Opened
         return opened;
     }
     let contents = groups::contents(&inputs)?;
-    let model = |content: &Option<Content>| content.is_some_and(|content| !mesh::is_shape(content));
+    let model =
+        |content: &Option<Content>| content.is_some_and(|content| !landmarks::is_shape(content));
     let models: Vec<usize> = (0..inputs.len()).filter(|&index| model(&contents[index])).collect();
     match (models.as_slice(), inputs.len()) {
         (_, 0) => Err(Fault::Empty.of("nothing")),

@@ -40,6 +40,7 @@ const RUST = {
       "input",
       "containers",
       "mesh",
+      "landmarks",
       "readers",
       "several",
       "write",

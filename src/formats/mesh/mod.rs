@@ -1,4 +1,4 @@
-//! Reads meshes and landmarks: the shapes of a population, or the faces of a model.
+//! Reads meshes: the shapes of a population, or the faces of a model.
 //!
 //! | format | read | points come from |
 //! |---|---|---|
@@ -6,8 +6,6 @@
 //! | OBJ | text | lines `v`, in the order of the file |
 //! | STL | ASCII and binary | corners, welded as in the first file of the set |
 //! | VTK | legacy 2.0 to 5.1, ASCII and binary; XML (`.vtp`, `.vtu`) | `POINTS` |
-//! | TPS | landmarks and curves of several specimens | `LM=`, `LM3=`, `CURVES=` |
-//! | points | two or three numbers a line | lines |
 //!
 //! Polygons become fans of triangles. Where a file has both, triangles win over line segments. A reader never trusts
 //! an announced count: it reads what is there and compares.
@@ -16,16 +14,13 @@
 
 pub(super) mod obj;
 pub(super) mod ply;
-pub(super) mod points;
 pub(super) mod stl;
-pub(super) mod tps;
 pub(super) mod vtk;
 pub(super) mod vtp;
 mod vtp_numbers;
 
 use super::error::Fault;
 use crate::formats::input::sniffing::Content;
-use crate::formats::reading::FirstColumn;
 use crate::model::{Cells, SMALLEST_LENGTH, check_magnitude};
 
 /// Points and cells.
@@ -118,30 +113,8 @@ pub(super) fn is_mesh(content: Content) -> bool {
     matches!(content, Content::Ply | Content::Obj | Content::Stl | Content::Vtk | Content::Vtp)
 }
 
-/// Whether content may be a shape of a population: a mesh, landmarks, points.
-pub(super) fn is_shape(content: Content) -> bool {
-    is_mesh(content) || matches!(content, Content::Tps | Content::Numbers)
-}
-
-/// Reads a single mesh of which no point is missing; STL is welded by its own corners.
+/// Reads a single mesh; STL is welded by its own corners.
 pub(super) fn read(content: Content, bytes: &[u8]) -> Result<Mesh, Fault> {
-    let mesh = read_specimen(content, bytes, None)?;
-    match mesh.missing.first() {
-        None => Ok(mesh),
-        Some(missing) => {
-            let place = missing.place.as_deref().unwrap_or_default();
-            let what = format!("Point {}", missing.point + 1);
-            Err(damaged(what, format!("a coordinate is missing ({place})")))
-        }
-    }
-}
-
-/// Reads a single mesh of a population, of which points may be missing.
-pub(super) fn read_specimen(
-    content: Content,
-    bytes: &[u8],
-    first_column: Option<FirstColumn>,
-) -> Result<Mesh, Fault> {
     let mesh = match content {
         Content::Ply => ply::read(bytes),
         Content::Obj => obj::read(bytes),
@@ -151,7 +124,6 @@ pub(super) fn read_specimen(
         }
         Content::Vtk => vtk::read(bytes),
         Content::Vtp => vtp::read(bytes),
-        Content::Numbers => points::read(bytes, first_column),
         other => return Err(Fault::Alone { format: other.name() }),
     };
     mesh.map_err(|fault| unless_decimal_commas(fault, bytes))
@@ -229,12 +201,12 @@ fn index_of(number: f64) -> Option<u32> {
 }
 
 /// The number that a word of text writes.
-fn number(word: &[u8]) -> Option<f64> {
+pub(super) fn number(word: &[u8]) -> Option<f64> {
     core::str::from_utf8(word).ok()?.parse().ok()
 }
 
 /// The fault of a word that should be a number, on a line counted from 0.
-fn no_number(line: usize, word: &[u8]) -> Fault {
+pub(super) fn no_number(line: usize, word: &[u8]) -> Fault {
     const LONGEST: usize = 24;
     let shown = &word[..word.len().min(LONGEST)];
     Fault::NoNumber { line: line + 1, word: String::from_utf8_lossy(shown).into_owned() }
@@ -261,7 +233,7 @@ pub(super) fn unless_decimal_commas(fault: Fault, bytes: &[u8]) -> Fault {
 }
 
 /// Whether a word is one number once its only comma is a point.
-fn has_decimal_comma(word: &[u8]) -> bool {
+pub(super) fn has_decimal_comma(word: &[u8]) -> bool {
     const LONGEST: usize = 40;
     let Some(place) = word.iter().position(|byte| *byte == b',') else { return false };
     let digits_beside = place > 0
@@ -276,32 +248,32 @@ fn has_decimal_comma(word: &[u8]) -> bool {
 }
 
 /// The number that a word of text writes, if it is one that a coordinate may be.
-fn finite(word: &[u8]) -> Option<f64> {
+pub(super) fn finite(word: &[u8]) -> Option<f64> {
     number(word).filter(|value| value.is_finite())
 }
 
 /// The words of text, between blanks and line ends.
-fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+pub(super) fn words(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     text.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty())
 }
 
 /// The lines of text, without blanks around them; lines of old Macintosh files too.
-fn lines(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+pub(super) fn lines(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     let end = if text.contains(&b'\n') { b'\n' } else { b'\r' };
     text.split(move |byte| *byte == end).map(<[u8]>::trim_ascii)
 }
 
-fn damaged(what: impl Into<String>, reason: impl Into<String>) -> Fault {
+pub(super) fn damaged(what: impl Into<String>, reason: impl Into<String>) -> Fault {
     Fault::Damaged { what: what.into(), reason: reason.into() }
 }
 
 /// The fault of a line of text, counted from 0.
-fn at_line(line: usize, reason: impl Into<String>) -> Fault {
+pub(super) fn at_line(line: usize, reason: impl Into<String>) -> Fault {
     damaged(format!("Line {}", line + 1), reason)
 }
 
 /// The fault of a list that is shorter than announced.
-fn ends_early(what: &str, announced: u64, present: u64) -> Fault {
+pub(super) fn ends_early(what: &str, announced: u64, present: u64) -> Fault {
     Fault::CutOff { detail: format!("{announced} {what} were announced, {present} are there") }
 }
 
@@ -334,17 +306,11 @@ mod tests {
         for (content, text, line) in [
             (Content::Ply, &ply[..], 8),
             (Content::Vtk, &vtk[..], 6),
-            (Content::Numbers, b"1 2\n0,5 2\n", 2),
             (Content::Obj, b"v 0,5 1 2\n", 1),
         ] {
             let expected = Fault::DecimalComma { line, word: "0,5".to_owned() };
             assert_eq!(read(content, text).unwrap_err(), expected, "{content:?}");
         }
-        // Commas between numbers are no decimal commas, nor are they why this one cannot be read.
-        let fault = read(Content::Numbers, b"1.5,2.5\n1.0,c\n").unwrap_err();
-        assert_eq!(fault, Fault::NoNumber { line: 2, word: "c".to_owned() });
-        let fault = read(Content::Numbers, b"1.5,2.5\n1.0,NA\n").unwrap_err();
-        assert_eq!(fault, damaged("Point 2", "a coordinate is missing (line 2: “NA”)"));
         assert!(
             !has_decimal_comma(b"1,2,3") && !has_decimal_comma(b",5") && !has_decimal_comma(b"a,b")
         );

@@ -21,8 +21,8 @@ use crate::formats::error::{Fault, FormatError};
 use crate::formats::input::paths::{ending, folder, is_junk, sort_naturally};
 use crate::formats::input::sniffing::Content;
 use crate::formats::input::{Input, compressed};
-use crate::formats::mesh;
 use crate::formats::opened::{Opened, Options};
+use crate::formats::{landmarks, mesh};
 
 /// A format whose model may lie in several files.
 struct Together {
@@ -99,7 +99,7 @@ pub fn groups(inputs: &[Input]) -> Result<Vec<Group>, FormatError> {
     // A single shape beside populations makes no model.
     let alone = |index: usize| {
         contents[index].is_some_and(|content| {
-            mesh::is_shape(content) && !is_set_by_itself(&inputs[index], content)
+            landmarks::is_shape(content) && !is_set_by_itself(&inputs[index], content)
         })
     };
     // So does a file that is told by the sizes in it alone, without the ending of such files: a transform of ShapeWorks.
@@ -155,7 +155,7 @@ fn sets(inputs: &[Input], contents: &[Option<Content>], rest: &[usize]) -> Vec<V
     let mut by_folder: BTreeMap<(&str, &str), Vec<usize>> = BTreeMap::new();
     for &index in rest {
         if let Some(content) = contents[index]
-            && mesh::is_shape(content)
+            && landmarks::is_shape(content)
             && !is_set_by_itself(&inputs[index], content)
         {
             let key = (folder(&inputs[index].name), content.name());
@@ -180,16 +180,12 @@ fn sets(inputs: &[Input], contents: &[Option<Content>], rest: &[usize]) -> Vec<V
     sets
 }
 
-/// Whether a file holds several shapes: a TPS file of several specimens.
+/// Whether a file holds several specimens.
 fn is_set_by_itself(input: &Input, content: Content) -> bool {
-    content == Content::Tps
-        && compressed::unpacked(input).and_then(|input| input.bytes()).is_ok_and(|bytes| {
-            let begins = |line: &[u8]| {
-                let line = line.trim_ascii_start().to_ascii_uppercase();
-                line.starts_with(b"LM=") || line.starts_with(b"LM3=")
-            };
-            bytes.split(|byte| *byte == b'\n').filter(|line| begins(line)).count() > 1
-        })
+    landmarks::is_landmarks(content)
+        && compressed::unpacked(input)
+            .and_then(|input| input.bytes())
+            .is_ok_and(|bytes| landmarks::is_set(content, &bytes))
 }
 
 /// A file of no known format in the folder of a population: a damaged shape if its name ends as theirs
@@ -225,7 +221,7 @@ fn companion_meshes(
         rest.iter().filter(|index| is(index, mesh::is_mesh)).copied().collect();
     let models: Vec<usize> = rest
         .iter()
-        .filter(|index| is(index, |content| !mesh::is_shape(content)))
+        .filter(|index| is(index, |content| !landmarks::is_shape(content)))
         .copied()
         .collect();
     if let (&[mesh], &[model]) = (meshes.as_slice(), models.as_slice()) {

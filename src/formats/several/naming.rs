@@ -2,12 +2,12 @@
 
 use crate::formats::input::paths::folder;
 use crate::formats::input::{Input, compressed};
-use crate::formats::mesh;
+use crate::formats::landmarks;
 
 /// What to call files that make one model: the file's name, the model's, the folder's.
 pub(crate) fn name_of(inputs: &[Input]) -> String {
     let Some(first) = inputs.first() else { return String::new() };
-    let is_shape = |input: &&Input| compressed::content(input).is_ok_and(mesh::is_shape);
+    let is_shape = |input: &&Input| compressed::content(input).is_ok_and(landmarks::is_shape);
     if inputs.len() == 2
         && let Some(model) = inputs.iter().find(|input| !is_shape(input))
     {

@@ -18,8 +18,9 @@ use nalgebra::{DMatrix, DMatrixView};
 
 use crate::formats::input::sniffing::Content;
 use crate::formats::input::{Input, compressed, paths};
+use crate::formats::landmarks;
 use crate::formats::mesh::stl::Welding;
-use crate::formats::mesh::{self, Mesh, stl, tps};
+use crate::formats::mesh::{self, Mesh, stl};
 use crate::formats::readers::cells;
 use crate::formats::reading::{Finding, Reading};
 use crate::formats::several::naming::name_of;
@@ -80,7 +81,7 @@ pub fn read_shapes(inputs: &[Input], reading: &Reading) -> Result<ShapeSet, Form
     let shape_endings: Vec<String> = inputs
         .iter()
         .zip(&contents)
-        .filter(|(_, content)| content.is_some_and(mesh::is_shape))
+        .filter(|(_, content)| content.is_some_and(landmarks::is_shape))
         .map(|(input, _)| paths::ending(input.file_name()))
         .collect();
     if !shape_endings.is_empty() {
@@ -170,8 +171,7 @@ impl Shapes {
             Content::Obj => "OBJ meshes",
             Content::Stl => "STL meshes",
             Content::Vtk | Content::Vtp => "VTK meshes",
-            Content::Tps => "TPS landmarks",
-            _ => "lists of points",
+            content => landmarks::kind(*content),
         };
         let mut names: Vec<&str> = self.contents.iter().map(name).collect();
         names.sort_unstable();
@@ -190,9 +190,11 @@ impl Shapes {
                 let corners = stl::corners(&bytes).map_err(refused)?;
                 self.add_corners(&input.name, input.file_name(), &corners)
             }
-            Content::Tps => {
-                let specimens = tps::read(&bytes)
-                    .map_err(|fault| refused(mesh::unless_decimal_commas(fault, &bytes)))?;
+            content if landmarks::is_landmarks(content) => {
+                let landmarks =
+                    landmarks::read(content, &bytes, self.specimens.reading()).map_err(refused)?;
+                self.notes.extend(landmarks.notes);
+                let specimens = landmarks.specimens;
                 let several = specimens.len() > 1;
                 for (index, specimen) in specimens.into_iter().enumerate() {
                     let name = if several {
@@ -206,12 +208,11 @@ impl Shapes {
                 }
                 Ok(())
             }
-            content if !mesh::is_shape(content) => {
+            content if !landmarks::is_shape(content) => {
                 Err(refused(Fault::NoShape { format: content.name() }))
             }
             content => {
-                let first_column = self.specimens.reading().first_column;
-                let mesh = mesh::read_specimen(content, &bytes, first_column).map_err(refused)?;
+                let mesh = mesh::read(content, &bytes).map_err(refused)?;
                 self.add(&input.name, Some(input.file_name()), mesh)
             }
         }

@@ -5,7 +5,8 @@
 //! | `LM=n`, `LM3=n` | n lines of 2 or 3 coordinates follow; a new specimen |
 //! | `CURVES=k`, then `POINTS=p` | k curves of p points each, appended to the landmarks |
 //! | `SCALE=s` | factor from image to length |
-//! | `ID=`, `IMAGE=` … | skipped |
+//! | `ID=` | name of the specimen |
+//! | `IMAGE=` … | skipped |
 //!
 //! Keys may be in lower case, blank lines are allowed anywhere. `SCALE` counts only where every specimen has one.
 //! Words for missing values (`NA`, `NaN`) make a landmark missing; numbers that mark one, as −1 −1, are told by where the
@@ -13,22 +14,16 @@
 //!
 //! **References.** Rohlf, tpsDig.
 
-use super::{Mesh, MissingPoint, at_line, ends_early, finite, lines, no_number, number, words};
+use super::{Landmarks, Specimen};
 use crate::formats::error::Fault;
 use crate::formats::input::columns::is_missing;
+use crate::formats::mesh::{
+    Mesh, MissingPoint, at_line, ends_early, finite, lines, no_number, number, words,
+};
 use crate::model::Cells;
 
-/// The landmarks of one specimen.
-#[derive(Debug)]
-pub(in crate::formats) struct Specimen {
-    /// Landmarks, then the points of all curves; nothing joins them.
-    pub(in crate::formats) mesh: Mesh,
-    /// Its factor from image to length.
-    pub(in crate::formats) scale: Option<f64>,
-}
-
 /// Reads all specimens; at least one.
-pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Vec<Specimen>, Fault> {
+pub(super) fn read(bytes: &[u8]) -> Result<Landmarks, Fault> {
     let mut specimens = Vec::new();
     let mut current: Option<Draft> = None;
     for (index, line) in lines(bytes).enumerate() {
@@ -60,6 +55,11 @@ pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Vec<Specimen>, Fault> {
                     let wrong = || at_line(index, "a positive number was expected after “=”");
                     draft.scale = Some(scale.ok_or_else(wrong)?);
                 }
+                b"ID" => {
+                    let draft = current.as_mut().ok_or_else(|| early(index))?;
+                    let name = String::from_utf8_lossy(value).trim().to_owned();
+                    draft.name = (!name.is_empty()).then_some(name);
+                }
                 _ => {}
             }
             continue;
@@ -90,7 +90,16 @@ pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Vec<Specimen>, Fault> {
         }
     }
     specimens.push(current.ok_or_else(|| early(0))?.finish(specimens.len())?);
-    Ok(specimens)
+    Ok(Landmarks { specimens, ..Landmarks::default() })
+}
+
+/// Specimens in a file.
+pub(super) fn count(bytes: &[u8]) -> usize {
+    let begins = |line: &[u8]| {
+        let line = line.to_ascii_uppercase();
+        line.starts_with(b"LM=") || line.starts_with(b"LM3=")
+    };
+    lines(bytes).filter(|line| begins(line)).count()
 }
 
 fn early(line: usize) -> Fault {
@@ -104,6 +113,7 @@ struct Draft {
     expected: u64,
     points: Vec<f64>,
     missing: Vec<MissingPoint>,
+    name: Option<String>,
     scale: Option<f64>,
 }
 
@@ -116,7 +126,7 @@ impl Draft {
         }
         self.missing.dedup_by_key(|missing| missing.point);
         let mesh = Mesh::with_missing(self.dimension, self.points, Cells::None, self.missing)?;
-        Ok(Specimen { mesh, scale: self.scale })
+        Ok(Specimen { name: self.name, scale: self.scale, ..Specimen::new(mesh) })
     }
 }
 
@@ -128,10 +138,11 @@ mod tests {
     fn landmarks_curves_and_keys_of_any_case_are_read() {
         let text = b"lm=2\n1 2\n3 4\nCURVES=1\nPOINTS=1\n5 6\nIMAGE=a.jpg\nScale=0.5\n\n\
                      LM3=1\r\n1 2 3\r\nID=b\r\n";
-        let specimens = read(text).unwrap();
+        let specimens = read(text).unwrap().specimens;
         assert_eq!(specimens.len(), 2, "specimens");
         assert_eq!(specimens[0].mesh.points, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0], "with the curve");
         assert_eq!(specimens[0].scale, Some(0.5), "its scale");
+        assert_eq!(specimens[1].name.as_deref(), Some("b"), "its name");
         assert_eq!((specimens[1].mesh.dimension, specimens[1].scale), (3, None), "the second");
     }
 

@@ -5,9 +5,12 @@
 //! `n_points:`, braces) are skipped. A first column that numbers the points, 0, 1, 2 … or 1, 2, 3 …, is no coordinate.
 //! Words for missing values (`NA`, `NaN`, nothing between two commas) make a point missing.
 
-use super::{Mesh, MissingPoint, at_line, finite, has_decimal_comma, lines, no_number, number};
+use super::{Landmarks, Specimen};
 use crate::formats::error::Fault;
 use crate::formats::input::columns::{Heading, columns, is_missing};
+use crate::formats::mesh::{
+    Mesh, MissingPoint, at_line, finite, has_decimal_comma, lines, no_number, number,
+};
 use crate::formats::reading::FirstColumn;
 use crate::model::Cells;
 
@@ -16,7 +19,12 @@ use crate::model::Cells;
 const FEWEST_NUMBERED: usize = 3;
 
 /// Reads a list of points; `first` says what its first column is, where that is known.
-pub(in crate::formats) fn read(bytes: &[u8], first: Option<FirstColumn>) -> Result<Mesh, Fault> {
+pub(super) fn read(bytes: &[u8], first: Option<FirstColumn>) -> Result<Landmarks, Fault> {
+    let specimens = vec![Specimen::new(points(bytes, first)?)];
+    Ok(Landmarks { specimens, ..Landmarks::default() })
+}
+
+fn points(bytes: &[u8], first: Option<FirstColumn>) -> Result<Mesh, Fault> {
     let mut heading = None;
     let mut announced = None;
     let mut rows: Vec<(usize, Vec<&str>)> = Vec::new();
@@ -130,7 +138,7 @@ mod tests {
             "# points\n1\t2\n\n3\t4\n",
             "version: 1\nn_points: 2\n{\n1 2\n3 4\n}\n",
         ] {
-            let mesh = read(text.as_bytes(), None).unwrap();
+            let mesh = points(text.as_bytes(), None).unwrap();
             assert_eq!(
                 (mesh.dimension, &mesh.points[..]),
                 (2, &[1.0, 2.0, 3.0, 4.0][..]),
@@ -141,10 +149,11 @@ mod tests {
 
     #[test]
     fn rows_of_other_lengths_name_their_line() {
-        let fault = |text: &str| read(text.as_bytes(), None).unwrap_err();
+        let fault = |text: &str| points(text.as_bytes(), None).unwrap_err();
         assert_eq!(fault("1 2 3\n4 5\n"), at_line(1, "it has 2 numbers, not 3"), "two");
         assert_eq!(fault("1 2 3 4\n"), at_line(0, "it has 4 numbers, not 2 or 3"), "four");
         assert_eq!(fault("1 2 x\n"), no_number(0, b"x"), "a letter");
+        assert_eq!(fault("1.5,2.5\n1.0,c\n"), no_number(1, b"c"), "commas between numbers");
         let comma = Fault::DecimalComma { line: 2, word: "3,5".to_owned() };
         assert_eq!(fault("1;2\n12;3,5\n"), comma, "a decimal comma between semicolons");
         let detail = "3 points were announced, 1 are there".to_owned();
@@ -160,7 +169,7 @@ mod tests {
             "\"x\" \"y\"\n\"1\" 5 6\n\"2\" 7 8\n\"3\" 9 5\n",
             "name;x;y\nnasion;5;6\nbregma;7;8\nlambda;9;5\n",
         ] {
-            let mesh = read(text.as_bytes(), None).unwrap();
+            let mesh = points(text.as_bytes(), None).unwrap();
             assert_eq!(
                 (mesh.dimension, &mesh.points[..]),
                 (2, &[5., 6., 7., 8., 9., 5.][..]),
@@ -168,15 +177,19 @@ mod tests {
             );
         }
         let text = b"1 5 6\n2 7 8\n3 9 5\n";
-        let mesh = read(text, Some(FirstColumn::Coordinate)).unwrap();
+        let mesh = points(text, Some(FirstColumn::Coordinate)).unwrap();
         assert_eq!(mesh.dimension, 3, "as the user says");
-        assert_eq!(read(b"1 5 6\n2 7 8\n4 9 5\n", None).unwrap().dimension, 3, "does not count");
-        assert_eq!(read(b"1 5\n2 7\n3 9\n", None).unwrap().dimension, 2, "two columns are x and y");
+        assert_eq!(points(b"1 5 6\n2 7 8\n4 9 5\n", None).unwrap().dimension, 3, "does not count");
+        assert_eq!(
+            points(b"1 5\n2 7\n3 9\n", None).unwrap().dimension,
+            2,
+            "two columns are x and y"
+        );
     }
 
     #[test]
     fn missing_values_are_kept_with_their_line() {
-        let mesh = read(b"1,2\n3,NaN\n\nNA,NA\n5,6\n,6\n", None).unwrap();
+        let mesh = points(b"1,2\n3,NaN\n\nNA,NA\n5,6\n,6\n", None).unwrap();
         let places: Vec<(usize, &str)> = mesh
             .missing
             .iter()
