@@ -1,6 +1,6 @@
 /**
  * `npm run test:long`: the statistical laws that `npm test` checks over few repetitions, over many, with bounds that are
- * tighter by as much. Writes what came of it to docs/long-tests.md, with the date.
+ * tighter by as much, into docs/long-tests.md with the date; then every reader for a minute of random bytes (`npm run fuzz`).
  */
 import { readFileSync, writeFileSync } from "node:fs";
 import { cpus } from "node:os";
@@ -75,4 +75,5 @@ ${cpus().length} processors. \`npm test\` checks the same laws with a ${FACTOR}t
 ${rows.join("\n")}
 `,
   );
+  await must("node", ["scripts/fuzz.mjs"]);
 });

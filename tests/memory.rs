@@ -5,20 +5,21 @@
 
 #[path = "common/files.rs"]
 mod files;
+#[allow(dead_code, unreachable_pub, reason = "the targets of the fuzzer use the rest")]
+#[allow(clippy::cast_possible_truncation, reason = "inputs of the fuzzer have at most 100 kB")]
+#[path = "../fuzz/src/lib.rs"]
+mod fuzz;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use files::tests;
+use fuzz::MEMORY;
 use nalgebra::{DMatrix, DVector};
-use peak_alloc::PeakAlloc;
 use shapevenn::evidence::{self, Evidence, Groups};
 use shapevenn::formats::{self, FormatError, Input, Opened, Options};
 use shapevenn::model::{Alignment, LinearModel};
-
-#[global_allocator]
-static MEMORY: PeakAlloc = PeakAlloc;
 
 /// What small files may cost: any file may unpack to 16 MiB, and a list that grows is twice there for a moment.
 const ALWAYS: usize = 2 * (16 << 20);
@@ -52,6 +53,19 @@ fn files_below(folder: &Path) -> Vec<PathBuf> {
     }
     found.sort();
     found
+}
+
+/// The fuzzer is built by hand and in the long tests only; what its targets do is tried here, so that it always builds.
+#[test]
+fn what_the_fuzzer_does_with_bytes_is_done_with_fixtures() {
+    let _alone = alone();
+    let folder = tests().join("fixtures");
+    let read = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    let shapes = std::fs::read(folder.join("meshes/curves.tps")).unwrap();
+    fuzz::open_shapes(shapes.clone());
+    fuzz::open_group(&[&[2, 80, 80, 80], &shapes[..]].concat());
+    fuzz::open(read("cpp-0.9.h5"));
+    fuzz::read_pairs(b"1,2\n3,4\n");
 }
 
 #[test]

@@ -15,8 +15,9 @@ use peak_alloc::PeakAlloc;
 use shapevenn::formats::{self, Input, Options};
 use shapevenn::pair::PointSelection;
 
+/// Counts what is allocated.
 #[global_allocator]
-static MEMORY: PeakAlloc = PeakAlloc;
+pub static MEMORY: PeakAlloc = PeakAlloc;
 
 /// The longest that files of 100 kB may take.
 const LONGEST: Duration = Duration::from_secs(2);
@@ -135,7 +136,10 @@ fn open_files(data: &[u8]) {
         let files: Vec<Input> = group.files.iter().map(|&file| inputs[file].clone()).collect();
         let _ = formats::open(&files, &Options::default());
     }
-    let _ = formats::open(&inputs, &Options { scale: true, ..Options::default() });
+    let _ = formats::open(
+        &inputs,
+        &Options { reading: "scale".parse().unwrap_or_default(), ..Options::default() },
+    );
 }
 
 /// `data` with its first bytes replaced.
