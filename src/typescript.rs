@@ -165,6 +165,7 @@ fn settings() -> String {
         "leastDrawsOfAChain": LEAST_DRAWS_OF_A_CHAIN,
         "engine": concat!(env!("CARGO_PKG_VERSION_MAJOR"), ".", env!("CARGO_PKG_VERSION_MINOR")),
         "sigmaSince": SIGMA_SINCE,
+        "sceneBounds": SCENE_BOUNDS,
     });
     serde_json::to_string_pretty(&table).unwrap() + "\n"
 }

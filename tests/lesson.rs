@@ -112,11 +112,7 @@ fn a_bad_link_ends_with_two_and_says_what_was_expected_found_and_to_do() {
             "The pair must be one of stars-1 to stars-6, or planes, not “stars-9”.",
             "Change it",
         ),
-        (
-            "scene=step&chains=65",
-            "The number of chains must be a whole number from 1 to 64, not “65”.",
-            "Change it",
-        ),
+        ("scene=step&chains=65", "chains must be from 1 to 16, not “65”.", "Change it"),
         (
             "scene=step&seed=x",
             "The seed must be a whole number of up to 64 bits, not “x”.",
@@ -128,7 +124,11 @@ fn a_bad_link_ends_with_two_and_says_what_was_expected_found_and_to_do() {
             "Change it",
         ),
         ("scene=cloud&sampler=gibbs", "not “gibbs”.", "Change it"),
-        ("scene=cloud&pair=stars-5&sigma=0", "σ must be a positive number, not “0”.", "Change it"),
+        (
+            "scene=cloud&pair=stars-5&sigma=0",
+            "sigma must be from 0.0001 to 3, not “0”.",
+            "Change it",
+        ),
         (
             "scene=difference&tilt=0",
             "B holds every shape of A: the difference is empty.",

@@ -39,7 +39,7 @@ pub use ask::{
     MOST_DIMENSIONS, MOST_DRAWS, MOST_ROWS, MOST_STEPS, Opening,
 };
 pub use error::LessonError;
-pub use scene::{Break, Scene, SceneName};
+pub use scene::{Break, SCENE_BOUNDS, Scene, SceneBounds, SceneName};
 pub use scene_numbers::{PointNumbers, RaceNumbers, SceneNumbers, Tip};
 
 use std::collections::BTreeMap;

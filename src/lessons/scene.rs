@@ -58,6 +58,50 @@ pub enum Break {
     Misaligned,
 }
 
+/// Bounds of a number of a scene, in a link and on the page.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SceneBounds {
+    /// Of which scene.
+    pub scene: SceneName,
+    /// Its key in links.
+    pub key: &'static str,
+    /// The least value, of each where there are several.
+    pub least: f64,
+    /// The largest.
+    pub most: f64,
+    /// Digits after the point in a link.
+    pub digits: u8,
+}
+
+/// The bounds of all numbers of scenes: the page has its sliders from them.
+pub const SCENE_BOUNDS: [SceneBounds; 18] = {
+    use SceneName::{Agree, Cloud, Difference, Model, Planes, Race, Step};
+    const fn of(scene: SceneName, key: &'static str, range: [f64; 2], digits: u8) -> SceneBounds {
+        let [least, most] = range;
+        SceneBounds { scene, key, least, most, digits }
+    }
+    [
+        of(Model, "coefficients", [-6.0, 6.0], 2),
+        of(Agree, "sigma", [0.0001, 3.0], 5),
+        of(Planes, "tilt", [0.0, 90.0], 0),
+        of(Planes, "shift", [-2.0, 2.0], 2),
+        of(Planes, "lift", [-1.5, 1.5], 2),
+        of(Planes, "sigma", [0.01, 3.0], 3),
+        of(Planes, "coefficients", [-6.0, 6.0], 2),
+        of(Step, "sigma", [0.001, 3.0], 3),
+        of(Step, "chains", [1.0, 16.0], 0),
+        of(Step, "steps", [0.0, 20_000.0], 0),
+        of(Cloud, "sigma", [0.0001, 3.0], 5),
+        of(Cloud, "chains", [1.0, 16.0], 0),
+        of(Cloud, "draws", [16.0, 20_000.0], 0),
+        of(Difference, "sigma", [0.001, 3.0], 3),
+        of(Difference, "draws", [16.0, 5000.0], 0),
+        of(Race, "sigma", [0.0001, 3.0], 5),
+        of(Race, "chains", [1.0, 16.0], 0),
+        of(Race, "steps", [16.0, 5000.0], 0),
+    ]
+};
+
 /// A scene with all that makes its numbers.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[serde(rename_all = "camelCase")]
@@ -150,6 +194,7 @@ impl Scene {
             if !scene.set(key, value)? {
                 others.push(key.clone());
             }
+            check_bounds(scene.scene, key, value)?;
         }
         Ok((scene, others))
     }
@@ -196,6 +241,18 @@ impl Scene {
         }
         Ok(true)
     }
+}
+
+/// Refuses a number outside its bounds; what is no number is refused where it is read.
+fn check_bounds(scene: SceneName, key: &str, value: &str) -> Result<(), LessonError> {
+    let known = SCENE_BOUNDS.iter().find(|bounds| bounds.scene == scene && bounds.key == key);
+    let Some(SceneBounds { key, least, most, .. }) = known else { return Ok(()) };
+    let mut numbers = value.split(',').filter_map(|number| number.parse::<f64>().ok());
+    if numbers.all(|number| (*least..=*most).contains(&number)) {
+        return Ok(());
+    }
+    let expected = format!("from {least} to {most}");
+    Err(unexpected(key, &expected, value))
 }
 
 fn unexpected(what: &'static str, expected: &str, found: &str) -> LessonError {
@@ -251,11 +308,18 @@ mod tests {
         }
         let (scene, _) = of_link("scene=step&modes=all&sampler=paper").unwrap();
         assert_eq!((scene.opening.modes, scene.sampler), (None, LessonSampler::Paper), "set");
+        assert!(of_link("scene=planes&tilt=90&coefficients=6,-6").is_ok(), "bounds may be reached");
     }
 
     #[test]
     fn faults_name_what_was_expected_and_what_was_found() {
         for (link, expected) in [
+            ("scene=planes&tilt=90.5", "tilt must be from 0 to 90, not “90.5”."),
+            (
+                "scene=planes&coefficients=1,-6.5",
+                "coefficients must be from -6 to 6, not “1,-6.5”.",
+            ),
+            ("scene=step&sigma=NaN", "sigma must be from 0.001 to 3, not “NaN”."),
             ("page=learn", "The link names no scene: scene=… was expected among its keys."),
             ("scene=step&steps=-1", "The number of steps must be a whole number, not “-1”."),
             ("scene=step&side=c", "The side must be a or b, not “c”."),

@@ -56,8 +56,6 @@ export const number = (standard: number, least: number, most: number, digits = 3
   most,
   digits,
 });
-export const count = (standard: number, least: number, most: number) =>
-  number(standard, least, most, 0);
 export const choice = <const T extends string>(
   standard: NoInfer<T>,
   options: readonly T[],

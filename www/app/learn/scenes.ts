@@ -1,5 +1,6 @@
 /** The scenes of the lessons, in their order, with the schema of their parameters. */
-import { choice, count, flag, list, number, type Schema, seed, type Values } from "./params";
+import { SCENE_BOUNDS } from "../state/settings";
+import { choice, flag, list, number, type Schema, seed, type Values } from "./params";
 
 export const STAR_PAIRS = [
   "stars-1",
@@ -15,64 +16,79 @@ export const WALKS = ["paper-corrected", "paper"] as const;
 export const LESSON_SAMPLERS = [...WALKS, "mala", "hmc", "independence"] as const;
 export const BREAKS = ["none", "scaling", "one-chain", "sigma", "misaligned"] as const;
 
-const coefficients = (standard: readonly number[]) => list(standard, -6, 6);
+/** The bounds of a number of a scene, which are the engine's (src/lessons/scene.rs). */
+function boundsOf(scene: string, key: string) {
+  const found = SCENE_BOUNDS.find((bounds) => bounds.scene === scene && bounds.key === key);
+  if (!found) throw new Error(`The engine has no bounds of ${key} in the scene ${scene}.`);
+  return found;
+}
+
+const within = (scene: string, key: string, standard: number) => {
+  const { least, most, digits } = boundsOf(scene, key);
+  return number(standard, least, most, digits);
+};
+
+const coefficients = (scene: string, standard: readonly number[]) => {
+  const { least, most, digits } = boundsOf(scene, "coefficients");
+  return list(standard, least, most, digits);
+};
 
 /** Parameters of the scenes with their defaults; `shapevenn lesson` has the same. */
 export const SCENE_PARAMS = {
   model: {
     pair: choice("stars-5", STAR_PAIRS),
     side: choice("a", SIDES),
-    coefficients: coefficients([1.2, -0.6]),
+    coefficients: coefficients("model", [1.2, -0.6]),
   },
   agree: {
     pair: choice("stars-5", STAR_PAIRS),
-    sigma: number(0.003, 0.0001, 3, 5),
+    sigma: within("agree", "sigma", 0.003),
     guess: list([], 0, 4, 0),
     shown: flag(),
   },
   planes: {
-    tilt: number(50, 0, 90, 0),
-    shift: number(0.4, -2, 2, 2),
-    lift: number(0, -1.5, 1.5, 2),
-    sigma: number(0.3, 0.01, 3),
+    tilt: within("planes", "tilt", 50),
+    shift: within("planes", "shift", 0.4),
+    lift: within("planes", "lift", 0),
+    sigma: within("planes", "sigma", 0.3),
     side: choice("a", SIDES),
-    coefficients: coefficients([0.8, 0.8]),
+    coefficients: coefficients("planes", [0.8, 0.8]),
     turn: list([-0.6, 0.36], -7, 7),
   },
   step: {
     pair: choice("planes", PAIRS),
-    sigma: number(0.3, 0.001, 3),
+    sigma: within("step", "sigma", 0.3),
     side: choice("a", SIDES),
     sampler: choice("paper-corrected", WALKS),
-    chains: count(1, 1, 16),
+    chains: within("step", "chains", 1),
     seed: seed(),
-    steps: count(0, 0, 20_000),
+    steps: within("step", "steps", 0),
     /** Steps per second: changes the animation, not the result. */
     speed: number(0.8, 0.5, 1000, 2),
   },
   cloud: {
     pair: choice("stars-5", STAR_PAIRS),
-    sigma: number(0.003, 0.0001, 3, 5),
+    sigma: within("cloud", "sigma", 0.003),
     sampler: choice("independence", LESSON_SAMPLERS),
-    chains: count(8, 1, 16),
+    chains: within("cloud", "chains", 8),
     seed: seed(),
-    draws: count(2000, 16, 20_000),
+    draws: within("cloud", "draws", 2000),
   },
   difference: {
     pair: choice("planes", PAIRS),
-    sigma: number(0.3, 0.001, 3),
+    sigma: within("difference", "sigma", 0.3),
     side: choice("a", SIDES),
     seed: seed(),
-    draws: count(1000, 16, 5000),
+    draws: within("difference", "draws", 1000),
     flipped: flag(),
   },
   race: {
     pair: choice("stars-5", PAIRS),
-    sigma: number(0.003, 0.0001, 3, 5),
+    sigma: within("race", "sigma", 0.003),
     side: choice("a", SIDES),
-    chains: count(4, 1, 16),
+    chains: within("race", "chains", 4),
     seed: seed(),
-    steps: count(500, 16, 5000),
+    steps: within("race", "steps", 500),
     break: choice("none", BREAKS),
   },
   yours: {},

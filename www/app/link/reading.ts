@@ -101,7 +101,7 @@ function take(read: ReadLink, known: LinkKey, text: string): void {
   }
 }
 
-/** Checks the scene of a lesson and its values, of which only the page knows the bounds. */
+/** Checks the scene of a lesson and its values, of which the engine has the bounds. */
 function checkLesson(read: ReadLink): void {
   const { given, faults, repairs } = read;
   const fault = (key: string, expected: string) => {

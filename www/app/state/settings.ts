@@ -20,6 +20,9 @@ export const FIELDS = table.fields as Field[];
 /** Every key of links, with what its value may be (src/settings/links.rs). */
 export const LINK_KEYS = table.linkKeys as LinkKey[];
 
+/** Bounds of the numbers of the lessons' scenes (src/lessons/scene.rs). */
+export const SCENE_BOUNDS = table.sceneBounds;
+
 /** Digits of a fingerprint in a link that are compared. */
 export const HASH_DIGITS = table.hashDigits;
 
