@@ -306,6 +306,21 @@ fn unusual_specimens_are_named_and_one_click_mends_them() {
         None,
     );
     check(&|shapes| shapes[8].reverse(), "outlier", "Specimen 9", None);
+    check(
+        &|shapes| {
+            let points: Vec<&[f64]> = shapes[4].chunks(2).collect();
+            shapes[4] = points.into_iter().rev().flatten().copied().collect();
+        },
+        "point-order",
+        "specimen 5 backwards from point 11",
+        Some(plain),
+    );
+    check(
+        &|shapes| shapes[4].rotate_left(6),
+        "point-order",
+        "specimen 5 from point 9",
+        Some(plain),
+    );
 }
 
 #[test]

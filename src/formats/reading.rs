@@ -16,6 +16,8 @@
 //! | `without-points=3,5` | these points are left out of all shapes, by number from 1 |
 //! | `mirror=4,m8.csv` | these specimens are mirrored |
 //! | `rescale=4:1000` | these specimens are multiplied by these factors |
+//! | `start=4:12` | the points of these specimens are counted from this one, from 1, and around |
+//! | `reverse=4:12` | the same, backwards |
 //!
 //! What a reader doubts is a [`Finding`], with a [`Choice`] of readings, one of which a click takes.
 
@@ -85,6 +87,10 @@ pub struct Reading {
     pub mirror: Vec<String>,
     /// Specimens that are multiplied by a factor.
     pub rescale: Vec<(String, f64)>,
+    /// Specimens whose points are counted from another one, from 1, and on around the outline.
+    pub start: Vec<(String, usize)>,
+    /// Specimens whose points are counted backwards from this one.
+    pub reverse: Vec<(String, usize)>,
 }
 
 /// A word that is no word of a reading.
@@ -112,7 +118,7 @@ impl ReadingError {
     /// Stable code, for programs.
     pub const CODE: &'static str = "reading";
     /// What to do next.
-    pub const HINT: &'static str = "Words are scale, dimension=2, order=axes, modes=scaled, first-column=number, missing=specimens, without=4, without-points=3, mirror=4 and rescale=4:1000, apart by blanks.";
+    pub const HINT: &'static str = "Words are scale, dimension=2, order=axes, modes=scaled, first-column=number, missing=specimens, without=4, without-points=3, mirror=4, rescale=4:1000, start=4:12 and reverse=4:12, apart by blanks.";
 }
 
 impl FromStr for Reading {
@@ -155,6 +161,16 @@ impl FromStr for Reading {
                     let expected = "without-points= and numbers of points from 1";
                     reading.without_points.extend(points.ok_or_else(|| wrong(expected))?);
                 }
+                ("start", list) => {
+                    let firsts = first_points(list);
+                    let expected = "start= and specimens with their first point, as 4:12";
+                    reading.start.extend(firsts.ok_or_else(|| wrong(expected))?);
+                }
+                ("reverse", list) => {
+                    let firsts = first_points(list);
+                    let expected = "reverse= and specimens with their first point, as 4:12";
+                    reading.reverse.extend(firsts.ok_or_else(|| wrong(expected))?);
+                }
                 ("rescale", list) => {
                     let factor = |word: &str| {
                         let (name, factor) = word.rsplit_once(':')?;
@@ -168,7 +184,7 @@ impl FromStr for Reading {
                 }
                 _ => {
                     return Err(wrong(
-                        "one of scale, dimension=, order=, modes=, first-column=, missing=, without=, without-points=, mirror=, rescale=",
+                        "one of scale, dimension=, order=, modes=, first-column=, missing=, without=, without-points=, mirror=, rescale=, start=, reverse=",
                     ));
                 }
             }
@@ -179,6 +195,16 @@ impl FromStr for Reading {
 
 fn names(list: &str) -> impl Iterator<Item = String> + '_ {
     list.split(',').filter(|name| !name.is_empty()).map(str::to_owned)
+}
+
+/// Specimens with the point that becomes their first.
+fn first_points(list: &str) -> Option<Vec<(String, usize)>> {
+    let first = |word: &str| {
+        let (name, first) = word.rsplit_once(':')?;
+        let first = first.parse().ok().filter(|&first| first > 0)?;
+        (!name.is_empty()).then(|| (name.to_owned(), first))
+    };
+    list.split(',').map(first).collect()
 }
 
 impl fmt::Display for Reading {
@@ -222,6 +248,11 @@ impl Reading {
         let factors =
             self.rescale.iter().map(|(name, factor)| format!("{name}:{factor}")).collect();
         words.extend(list("rescale", factors));
+        let firsts = |pairs: &[(String, usize)]| {
+            pairs.iter().map(|(name, first)| format!("{name}:{first}")).collect()
+        };
+        words.extend(list("start", firsts(&self.start)));
+        words.extend(list("reverse", firsts(&self.reverse)));
         words
     }
 
@@ -319,6 +350,19 @@ impl Reading {
             let sentence = format!("Specimens multiplied: {}.", factors.join(", "));
             step(sentence, &|reading| reading.rescale.clear());
         }
+        let firsts = |pairs: &[(String, usize)]| {
+            let each: Vec<String> =
+                pairs.iter().map(|(name, first)| format!("{name} from point {first}")).collect();
+            each.join(", ")
+        };
+        if !self.start.is_empty() {
+            let sentence = format!("Points counted from another one: {}.", firsts(&self.start));
+            step(sentence, &|reading| reading.start.clear());
+        }
+        if !self.reverse.is_empty() {
+            let sentence = format!("Points counted backwards: {}.", firsts(&self.reverse));
+            step(sentence, &|reading| reading.reverse.clear());
+        }
         applied
     }
 }
@@ -386,14 +430,14 @@ mod tests {
 
     #[test]
     fn text_and_reading_say_the_same() {
-        let text = "scale dimension=2 order=axes modes=scaled first-column=number missing=points without=4,m8.csv without-points=3,5 mirror=2 rescale=7:1000,m1.ply:0.1";
+        let text = "scale dimension=2 order=axes modes=scaled first-column=number missing=points without=4,m8.csv without-points=3,5 mirror=2 rescale=7:1000,m1.ply:0.1 start=2:9 reverse=3:1";
         let reading: Reading = text.parse().unwrap();
         assert_eq!(reading.to_string(), text, "the same text");
         assert_eq!(reading.rescale[1], ("m1.ply".to_owned(), 0.1), "a factor");
-        assert_eq!(reading.applied().len(), 9, "each with its undo, but for scale");
+        assert_eq!(reading.applied().len(), 11, "each with its undo, but for scale");
         for step in reading.applied() {
             let undone: Reading = step.undo.parse().unwrap();
-            assert_eq!(undone.applied().len(), 8, "{}", step.sentence);
+            assert_eq!(undone.applied().len(), 10, "{}", step.sentence);
         }
         assert!("".parse::<Reading>().unwrap().is_default(), "nothing");
     }
@@ -411,6 +455,8 @@ mod tests {
             "rescale=4",
             "rescale=4:-1",
             "rescale=:2",
+            "start=4",
+            "reverse=4:0",
             "first-column=x",
             "scale=1",
         ] {

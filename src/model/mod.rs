@@ -33,5 +33,5 @@ pub use population::{generalised_procrustes, model_of_population, principal_comp
 pub(crate) use procrustes::Moment;
 pub use procrustes::{Alignment, Similarity, align_to, procrustes};
 pub use side::{Side, Sides};
-pub(crate) use specimens::look;
+pub(crate) use specimens::{PointOrder, look};
 pub use training::{ShapesRole, TrainingShapes};

@@ -1,5 +1,6 @@
 //! Looks at the specimens of a population before they are averaged: which are mirrored, of another size, twice there,
-//! far from all others, or have landmarks that are not where those of the others are.
+//! far from all others, have their points in the opposite order or from another start, or landmarks that are not where
+//! those of the others are.
 //!
 //! Every specimen is fitted to a reference by the landmarks that fit best, so that a wrong one shows instead of being
 //! spread over all. The reference is the specimen that is nearest to most others, then the median of the fitted ones.
@@ -51,12 +52,42 @@ pub(crate) struct Look {
     pub(crate) landmarks: Vec<(usize, usize, f64)>,
     /// Landmarks that were exchanged: specimen and two points.
     pub(crate) exchanged: Vec<(usize, [usize; 2])>,
+    /// Specimens that fit the others only when their points are counted from another one, or backwards.
+    pub(crate) reordered: Vec<(usize, PointOrder)>,
     /// Specimens that lie far from the others as a whole, with how many times as far as the middle one.
     pub(crate) far: Vec<(usize, f64)>,
     /// Landmarks among those that were doubted which are indeed elsewhere than in other specimens.
     pub(crate) confirmed: Vec<(usize, usize)>,
     /// Largest Procrustes distance ρ of a specimen from the reference, in radians.
     pub(crate) widest: f64,
+}
+
+/// Another order of the points of an outline.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct PointOrder {
+    /// The point that becomes the first, from 0.
+    pub(crate) first: usize,
+    /// Whether the others follow against their order.
+    pub(crate) backwards: bool,
+}
+
+impl PointOrder {
+    /// The point of a shape of `points` that becomes point `place`.
+    fn source(self, place: usize, points: usize) -> usize {
+        let steps = if self.backwards { points - place } else { place };
+        (self.first + steps) % points
+    }
+
+    /// An interleaved shape in this order.
+    pub(crate) fn reorder(self, shape: &[f64], dimension: usize) -> Vec<f64> {
+        let points = shape.len() / dimension;
+        (0..points)
+            .flat_map(|place| {
+                let from = dimension * self.source(place, points);
+                shape[from..from + dimension].iter().copied()
+            })
+            .collect()
+    }
 }
 
 /// Looks at interleaved shapes (d·n × N). `absent` landmarks (specimen, point) are passed over; `doubted` ones too, until
@@ -333,7 +364,13 @@ impl Specimens {
         if several == 0 || several == count {
             look.mirrored.clear();
         }
+        if single_points {
+            self.report_reordered(middle_error, look);
+        }
+        let reordered: Vec<usize> = look.reordered.iter().map(|(specimen, _)| *specimen).collect();
+        look.mirrored.retain(|specimen| !reordered.contains(specimen));
         self.report_sizes(look);
+        look.sizes.retain(|(specimen, _)| !reordered.contains(specimen));
         let usual = self.usual_residuals(middle_error);
         let wrong = |specimen: usize, point: usize| {
             let residual = self.fits[specimen].residuals[point];
@@ -345,6 +382,10 @@ impl Specimens {
             .filter(|&(specimen, point)| single_points && wrong(specimen, point))
             .collect();
         for (specimen, fit) in self.fits.iter().enumerate() {
+            // What is wrong with these is their order, whatever else seems so.
+            if reordered.contains(&specimen) {
+                continue;
+            }
             // What is wrong with mirrored specimens is that they are mirrored.
             let looked_at = single_points && !look.mirrored.contains(&specimen);
             let found: Vec<usize> = self.present[specimen]
@@ -369,6 +410,48 @@ impl Specimens {
                     .sum();
                 let distance = (squares / self.present[specimen].len().max(1) as f64).sqrt();
                 look.widest = look.widest.max(libm::asin(distance.min(1.0)));
+            }
+        }
+    }
+
+    /// Specimens that fit badly, and well in another order of their points.
+    fn report_reordered(&self, middle_error: f64, look: &mut Look) {
+        const MOST_TRIED: usize = 500;
+        const MOST_SPECIMENS: usize = 50;
+        if self.points > MOST_TRIED {
+            return;
+        }
+        let suspect = |specimen: &usize| {
+            let fit = &self.fits[*specimen];
+            let far = fit.error > 4.0 * middle_error && fit.error > 0.5 * RADII;
+            (far || look.mirrored.contains(specimen))
+                && self.present[*specimen].len() == self.points
+        };
+        let suspects: Vec<usize> =
+            (0..self.fits.len()).filter(suspect).take(MOST_SPECIMENS).collect();
+        let squares = |fit: &Fit| fit.residuals.iter().map(|one| one * one).sum::<f64>();
+        for specimen in suspects {
+            let shape = &self.shapes[specimen];
+            let orders = [false, true].into_iter().flat_map(|backwards| {
+                (0..self.points).map(move |first| PointOrder { first, backwards })
+            });
+            let fitted = orders.map(|order| {
+                let mut moved = order.reorder(shape.as_slice(), self.dimension);
+                let reference = self.reference.as_slice();
+                procrustes(reference, &moved, self.dimension, Alignment::Similarity)
+                    .move_points(&mut moved);
+                let away =
+                    moved.iter().zip(reference).map(|(one, other)| (one - other) * (one - other));
+                (away.sum::<f64>(), order)
+            });
+            let Some((best, order)) = fitted.min_by(|one, other| one.0.total_cmp(&other.0)) else {
+                continue;
+            };
+            // Symmetric outlines fit mirrored as well as backwards: then they are called mirrored.
+            let near =
+                best < (self.points as f64) * libm::pow((4.0 * middle_error).max(RADII * 0.5), 2.0);
+            if near && best < 0.25 * squares(&self.fits[specimen]) {
+                look.reordered.push((specimen, order));
             }
         }
     }
@@ -527,6 +610,29 @@ mod tests {
         shapes.column_mut(4).rows_mut(4, 2).fill(-1.0);
         let found = look(2, &shapes, &[], &[(4, 2), (1, 0)]);
         assert_eq!(found.confirmed, [(4, 2)], "landmark 1 of specimen 2 lies where it should");
+    }
+
+    #[test]
+    fn outlines_from_another_start_or_backwards_are_told_from_mirrored_ones() {
+        for seed in 0..40 {
+            let mut shapes = population(seed);
+            // Point 3 of the others is the first of this one, or they follow backwards from point 7.
+            for (specimen, undo) in [
+                (4, PointOrder { first: 3, backwards: false }),
+                (9, PointOrder { first: 7, backwards: true }),
+            ] {
+                let other = undo.reorder(shapes.column(specimen).as_slice(), 2);
+                shapes.column_mut(specimen).copy_from_slice(&other);
+            }
+            let found = look(2, &shapes, &[], &[]);
+            let redo = [
+                (4, PointOrder { first: 7, backwards: false }),
+                (9, PointOrder { first: 7, backwards: true }),
+            ];
+            assert_eq!(found.reordered, redo, "seed {seed}");
+            let others = Look { reordered: Vec::new(), widest: 0.0, ..found };
+            assert_eq!(others, Look::default(), "nothing else, seed {seed}");
+        }
     }
 
     #[test]

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DMatrixView};
 use crate::formats::error::{Fault, counted};
 use crate::formats::mesh::MissingPoint;
 use crate::formats::reading::{Choice, Finding, FirstColumn, Missing, Reading};
-use crate::model::{Cells, look, reflect};
+use crate::model::{Cells, PointOrder, look, reflect};
 use crate::text::{listed, thousands, three_digits};
 
 /// Numbers that mark a missing landmark when all coordinates have them.
@@ -133,6 +133,18 @@ impl Specimens {
                 return Err(Fault::NoSpecimen { wanted: format!("point {number}"), found });
             }
             without_points.push(number - 1);
+        }
+        for (list, backwards) in [(&self.reading.start, false), (&self.reading.reverse, true)] {
+            for (name, first) in list {
+                if *first > points {
+                    let found = format!("{} points", thousands(points));
+                    return Err(Fault::NoSpecimen { wanted: format!("point {first}"), found });
+                }
+                let order = PointOrder { first: first - 1, backwards };
+                let mut shape = shapes.column_mut(self.numbered_by(name)?);
+                let other = order.reorder(shape.as_slice(), dimension);
+                shape.copy_from_slice(&other);
+            }
         }
         for (name, factor) in &self.reading.rescale {
             let mut shape = shapes.column_mut(self.numbered_by(name)?);
@@ -390,6 +402,7 @@ impl Specimens {
             let choices = vec![self.leave_out(&all(&columns))];
             findings.push(Finding::new("exchanged-landmarks", message, choices));
         }
+        findings.extend(self.order_finding(&found.reordered));
         if !found.far.is_empty() {
             let columns: Vec<usize> = found.far.iter().map(|(column, _)| *column).collect();
             let specimens = all(&columns);
@@ -411,6 +424,41 @@ impl Specimens {
             findings.push(Finding::new("wide-variation", message, Vec::new()).sure());
         }
         findings
+    }
+
+    /// Specimens whose points are in another order. Points that are left out change the numbers, so there is no remedy
+    /// then but to leave the specimens out.
+    fn order_finding(&self, found: &[(usize, PointOrder)]) -> Option<Finding> {
+        if found.is_empty() {
+            return None;
+        }
+        let each: Vec<String> = found
+            .iter()
+            .take(NAMED)
+            .map(|&(column, order)| {
+                let from = if order.backwards { "backwards from" } else { "from" };
+                let first = self.points_named(order.first);
+                format!("{} {from} point {first}", self.called(self.left[column]))
+            })
+            .collect();
+        let more = if found.len() > NAMED { ", and more" } else { "" };
+        let message = format!(
+            "The points are in another order than those of the other specimens, which fit when they are counted so: {}{more}.",
+            each.join(", ")
+        );
+        let specimens: Vec<usize> = found.iter().map(|(column, _)| self.left[*column]).collect();
+        let mut choices = Vec::new();
+        if self.reading.without_points.is_empty() && self.reading.missing != Some(Missing::Points) {
+            let label = if found.len() == 1 { "Count them so" } else { "Count all of them so" };
+            choices.push(self.reading.choice(label, |to| {
+                for &(column, order) in found {
+                    let list = if order.backwards { &mut to.reverse } else { &mut to.start };
+                    list.push((self.key(self.left[column]), order.first + 1));
+                }
+            }));
+        }
+        choices.push(self.leave_out(&specimens));
+        Some(Finding::new("point-order", message, choices))
     }
 
     fn size_finding(&self, sizes: &[(usize, f64)]) -> Option<Finding> {
