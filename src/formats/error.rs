@@ -69,6 +69,20 @@ pub enum Fault {
         /// What there is.
         found: String,
     },
+    /// No specimen is in a group that the reading names, or no column has its name.
+    NoGroup {
+        /// The condition or the column, in words.
+        wanted: String,
+        /// What there is.
+        found: String,
+    },
+    /// The regression on a column cannot be taken out of the shapes.
+    Covariate {
+        /// The column.
+        column: String,
+        /// Why, without its full stop.
+        reason: String,
+    },
     /// Shares of the variance where variances are needed.
     VarianceShares {
         /// Name of the array.
@@ -333,6 +347,8 @@ impl FormatError {
             Fault::NoNumber { .. } => "no-number",
             Fault::Missing { .. } => "missing-landmarks",
             Fault::NoSpecimen { .. } => "no-specimen",
+            Fault::NoGroup { .. } => "no-group",
+            Fault::Covariate { .. } => "covariate",
             Fault::Unreadable { .. } => "unreadable",
             Fault::NoPart { .. } => "unknown-part",
             Fault::Bilinear { .. } => "bilinear",
@@ -415,6 +431,12 @@ impl FormatError {
             }
             Fault::NoSpecimen { .. } => {
                 "Name specimens by number from 1 or by file name, points by number from 1."
+            }
+            Fault::NoGroup { .. } => {
+                "Choose a column and a group that there are; a table of groups beside the shapes needs a first line of names and a column that names the specimens or their files."
+            }
+            Fault::Covariate { .. } => {
+                "Choose a column of numbers that differ within the groups, or leave `adjust` out."
             }
             Fault::NotNumbers { .. } => "Save it as an array of numbers with `numpy.savez`.",
             Fault::NotMesh { .. } => "Load a model of points or of a mesh.",
@@ -638,6 +660,12 @@ impl fmt::Display for Fault {
             Self::Missing { which, .. } => write!(f, "{which}."),
             Self::NoSpecimen { wanted, found } => {
                 write!(f, "There is no “{wanted}” among its {found}.")
+            }
+            Self::NoGroup { wanted, found } => {
+                write!(f, "No specimen has {wanted}: there are {found}.")
+            }
+            Self::Covariate { column, reason } => {
+                write!(f, "What follows {column} cannot be taken out of the shapes: {reason}.")
             }
             Self::VarianceShares { what } => write!(
                 f,

@@ -23,6 +23,7 @@
 //! **Limits.** At most 1 GiB is read into one array, and no more than a file of its size may
 //! reasonably unpack to.
 
+mod condition;
 mod containers;
 mod error;
 mod input;
@@ -35,6 +36,7 @@ mod reading;
 mod several;
 mod write;
 
+pub use condition::{Condition, Test};
 pub use containers::arrays::{Array, Data};
 pub use containers::npz::{read_arrays, write_arrays};
 pub use error::{Fault, FormatError};
@@ -45,7 +47,8 @@ pub use reading::{
     Applied, Choice, Finding, FirstColumn, Missing, ModeLength, Order, Reading, ReadingError,
 };
 pub use several::groups::{Group, groups};
-pub use several::populations::{ShapeSet, read_shapes};
+pub use several::populations::{ShapeSet, read_shapes, read_specimens};
+pub use several::table::{Column, ColumnKind, ColumnValue, SpecimenRow, SpecimenTable};
 pub use write::{
     DrawnSet, write_csv, write_draws_csv, write_draws_json, write_glb, write_hdf5_json, write_json,
     write_npz, write_obj, write_ply, write_statismo, write_values,

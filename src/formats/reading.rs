@@ -15,6 +15,9 @@
 //! | `without=4,m8.csv` | these specimens are left out, by number from 1 or by file name |
 //! | `without-points=3,5` | these points are left out of all shapes, by number from 1 |
 //! | `mirror=4,m8.csv` | these specimens are mirrored |
+//! | `where=side:left` | only specimens for which these conditions hold are read: [`Condition`] |
+//! | `group=sex:female` | the model is made of these, superimposed together with all that are read |
+//! | `adjust=size` | what follows the log centroid size, or a column of numbers, within the groups is taken out |
 //! | `rescale=4:1000` | these specimens are multiplied by these factors |
 //! | `start=4:12` | the points of these specimens are counted from this one, from 1, and around |
 //! | `reverse=4:12` | the same, backwards |
@@ -25,6 +28,8 @@ use core::fmt;
 use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
+
+use super::condition::{Condition, escaped, unescaped};
 
 /// How the coordinates of a vector of points follow one another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,6 +69,9 @@ pub enum Missing {
     Values,
 }
 
+/// The name of the log centroid size among the columns.
+pub(super) const SIZE: &str = "size";
+
 /// How a file is to be read where it does not say so itself; by default as the reader finds it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Reading {
@@ -83,6 +91,12 @@ pub struct Reading {
     pub without: Vec<String>,
     /// Points that are left out, from 1.
     pub without_points: Vec<usize>,
+    /// Conditions that specimens must fulfil to be read.
+    pub only: Vec<Condition>,
+    /// Which of the specimens that are read the model is made of.
+    pub group: Option<Condition>,
+    /// The column of which the regression within groups is taken out; [`SIZE`] is the log centroid size.
+    pub adjust: Option<String>,
     /// Specimens that are mirrored.
     pub mirror: Vec<String>,
     /// Specimens that are multiplied by a factor.
@@ -118,7 +132,7 @@ impl ReadingError {
     /// Stable code, for programs.
     pub const CODE: &'static str = "reading";
     /// What to do next.
-    pub const HINT: &'static str = "Words are scale, dimension=2, order=axes, modes=scaled, first-column=number, missing=specimens, without=4, without-points=3, mirror=4, rescale=4:1000, start=4:12 and reverse=4:12, apart by blanks.";
+    pub const HINT: &'static str = "Words are scale, dimension=2, order=axes, modes=scaled, first-column=number, missing=specimens, without=4, without-points=3, mirror=4, where=side:left, group=sex:female, adjust=size, rescale=4:1000, start=4:12 and reverse=4:12, apart by blanks.";
 }
 
 impl FromStr for Reading {
@@ -153,6 +167,21 @@ impl FromStr for Reading {
                 ("missing", _) => {
                     return Err(wrong("missing=specimens, missing=points or missing=values"));
                 }
+                ("where", list) => {
+                    let conditions: Result<Vec<Condition>, ()> =
+                        list.split(',').map(str::parse).collect();
+                    let expected = "where= and conditions on columns, as side:left or age<40";
+                    reading.only.extend(conditions.map_err(|()| wrong(expected))?);
+                }
+                ("group", text) => {
+                    let expected = "group= and a condition on a column, as sex:female or age<40";
+                    reading.group = Some(text.parse().map_err(|()| wrong(expected))?);
+                }
+                ("adjust", column) => {
+                    let column = unescaped(column).filter(|column| !column.is_empty());
+                    let expected = "adjust=size, or adjust= and a column of numbers";
+                    reading.adjust = Some(column.ok_or_else(|| wrong(expected))?);
+                }
                 ("without", list) if !list.is_empty() => reading.without.extend(names(list)),
                 ("mirror", list) if !list.is_empty() => reading.mirror.extend(names(list)),
                 ("without-points", list) => {
@@ -184,13 +213,18 @@ impl FromStr for Reading {
                 }
                 _ => {
                     return Err(wrong(
-                        "one of scale, dimension=, order=, modes=, first-column=, missing=, without=, without-points=, mirror=, rescale=, start=, reverse=",
+                        "one of scale, dimension=, order=, modes=, first-column=, missing=, without=, without-points=, mirror=, where=, group=, adjust=, rescale=, start=, reverse=",
                     ));
                 }
             }
         }
         Ok(reading)
     }
+}
+
+/// What a covariate is called in a sentence.
+pub(super) fn covariate_name(column: &str) -> &str {
+    if column == SIZE { "log centroid size" } else { column }
 }
 
 fn names(list: &str) -> impl Iterator<Item = String> + '_ {
@@ -245,6 +279,9 @@ impl Reading {
             self.without_points.iter().map(usize::to_string).collect(),
         ));
         words.extend(list("mirror", self.mirror.clone()));
+        words.extend(list("where", self.only.iter().map(Condition::to_string).collect()));
+        words.extend(self.group.iter().map(|group| format!("group={group}")));
+        words.extend(self.adjust.iter().map(|column| format!("adjust={}", escaped(column))));
         let factors =
             self.rescale.iter().map(|(name, factor)| format!("{name}:{factor}")).collect();
         words.extend(list("rescale", factors));
@@ -344,6 +381,22 @@ impl Reading {
             let sentence = format!("Specimens mirrored: {}.", self.mirror.join(", "));
             step(sentence, &|reading| reading.mirror.clear());
         }
+        if !self.only.is_empty() {
+            let each: Vec<String> = self.only.iter().map(Condition::sentence).collect();
+            let sentence = format!("Only specimens with {} were read.", each.join(" and "));
+            step(sentence, &|reading| reading.only.clear());
+        }
+        if let Some(group) = &self.group {
+            let sentence = format!("The model is of the specimens with {}.", group.sentence());
+            step(sentence, &|reading| reading.group = None);
+        }
+        if let Some(column) = &self.adjust {
+            let sentence = format!(
+                "The regression on {} within groups was taken out.",
+                covariate_name(column)
+            );
+            step(sentence, &|reading| reading.adjust = None);
+        }
         if !self.rescale.is_empty() {
             let factors: Vec<String> =
                 self.rescale.iter().map(|(name, factor)| format!("{name} by {factor}")).collect();
@@ -430,14 +483,14 @@ mod tests {
 
     #[test]
     fn text_and_reading_say_the_same() {
-        let text = "scale dimension=2 order=axes modes=scaled first-column=number missing=points without=4,m8.csv without-points=3,5 mirror=2 rescale=7:1000,m1.ply:0.1 start=2:9 reverse=3:1";
+        let text = "scale dimension=2 order=axes modes=scaled first-column=number missing=points without=4,m8.csv without-points=3,5 mirror=2 where=side:left,age<40 group=sex:%21x%20y adjust=size rescale=7:1000,m1.ply:0.1 start=2:9 reverse=3:1";
         let reading: Reading = text.parse().unwrap();
         assert_eq!(reading.to_string(), text, "the same text");
         assert_eq!(reading.rescale[1], ("m1.ply".to_owned(), 0.1), "a factor");
-        assert_eq!(reading.applied().len(), 11, "each with its undo, but for scale");
+        assert_eq!(reading.applied().len(), 14, "each with its undo, but for scale");
         for step in reading.applied() {
             let undone: Reading = step.undo.parse().unwrap();
-            assert_eq!(undone.applied().len(), 10, "{}", step.sentence);
+            assert_eq!(undone.applied().len(), 13, "{}", step.sentence);
         }
         assert!("".parse::<Reading>().unwrap().is_default(), "nothing");
     }
@@ -455,6 +508,9 @@ mod tests {
             "rescale=4",
             "rescale=4:-1",
             "rescale=:2",
+            "where=side",
+            "group=",
+            "adjust=",
             "start=4",
             "reverse=4:0",
             "first-column=x",

@@ -34,6 +34,7 @@ const RUST = {
   ],
   "src/formats": [
     ...[
+      "condition",
       "reading",
       "error",
       "opened",

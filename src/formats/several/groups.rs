@@ -8,6 +8,7 @@
 //! | one shape in each of several folders side by side | one population |
 //! | a mesh beside the only model, or beside one whose name begins alike | the model with its faces |
 //! | a single shape beside populations | nothing; its name is told |
+//! | a table of text beside the only set of its folder | more columns of its specimens |
 //! | a file of no known format beside a population | part of it, if its name ends alike; else nothing, and its name is told |
 //! | anything else | a model on its own |
 //!
@@ -16,6 +17,7 @@
 use std::collections::BTreeMap;
 
 use super::naming::name_of;
+use super::populations::side_table;
 use super::{blendshapes, companions};
 use crate::formats::error::{Fault, FormatError};
 use crate::formats::input::paths::{ending, folder, is_junk, sort_naturally};
@@ -85,6 +87,7 @@ pub fn groups(inputs: &[Input]) -> Result<Vec<Group>, FormatError> {
     let mut sets = sets(inputs, &contents, &rest);
     let claimed: Vec<usize> = sets.iter().chain(&groups).flatten().copied().collect();
     rest.retain(|index| !claimed.contains(index));
+    join_tables(inputs, &contents, &mut rest, &mut sets);
     let before = rest.clone();
     rest.retain(|&index| contents[index].is_some() || !joins_or_vanishes(inputs, index, &mut sets));
     let folders_of_groups: Vec<&str> =
@@ -186,6 +189,50 @@ fn is_set_by_itself(input: &Input, content: Content) -> bool {
         && compressed::unpacked(input)
             .and_then(|input| input.bytes())
             .is_ok_and(|bytes| landmarks::is_set(content, &bytes))
+}
+
+/// Adds tables of specimens to the set that they can only be of: the one in their folder, or the only one there is. Sets
+/// that are one file leave the rest for that.
+fn join_tables(
+    inputs: &[Input],
+    contents: &[Option<Content>],
+    rest: &mut Vec<usize>,
+    sets: &mut Vec<Vec<usize>>,
+) {
+    let tables: Vec<usize> = rest
+        .iter()
+        .copied()
+        .filter(|&index| contents[index].is_none() && side_table(&inputs[index]).is_some())
+        .collect();
+    if tables.is_empty() {
+        return;
+    }
+    let alone = |index: &usize| {
+        contents[*index].is_some_and(|content| is_set_by_itself(&inputs[*index], content))
+    };
+    let by_themselves: Vec<usize> = rest.iter().copied().filter(alone).collect();
+    let all: Vec<Vec<usize>> =
+        sets.iter().cloned().chain(by_themselves.iter().map(|&index| vec![index])).collect();
+    for table in tables {
+        let place = folder(&inputs[table].name);
+        let beside: Vec<usize> = (0..all.len())
+            .filter(|&set| all[set].iter().any(|&file| folder(&inputs[file].name) == place))
+            .collect();
+        let only = match (beside.as_slice(), all.len()) {
+            (&[only], _) => only,
+            ([], 1) => 0,
+            _ => continue,
+        };
+        let first = all[only][0];
+        match sets.iter_mut().find(|set| set.contains(&first)) {
+            Some(set) => set.push(table),
+            None => {
+                sets.push(vec![first, table]);
+                rest.retain(|&index| index != first);
+            }
+        }
+        rest.retain(|&index| index != table);
+    }
 }
 
 /// A file of no known format in the folder of a population: a damaged shape if its name ends as theirs

@@ -6,3 +6,4 @@ pub(crate) mod groups;
 pub(crate) mod naming;
 pub(crate) mod populations;
 mod specimens;
+pub(crate) mod table;

@@ -18,13 +18,14 @@ use nalgebra::{DMatrix, DMatrixView};
 
 use crate::formats::input::sniffing::Content;
 use crate::formats::input::{Input, compressed, paths};
-use crate::formats::landmarks;
+use crate::formats::landmarks::{self, Specimen};
 use crate::formats::mesh::stl::Welding;
 use crate::formats::mesh::{self, Mesh, stl};
 use crate::formats::readers::cells;
 use crate::formats::reading::{Finding, Reading};
 use crate::formats::several::naming::name_of;
 use crate::formats::several::specimens::{self, Specimens};
+use crate::formats::several::table::{SideTable, SpecimenTable};
 use crate::formats::{FormatError, Opened, Options, Origin, Part};
 use crate::model::{
     Alignment, BasisCheck, Cells, ModelError, generalised_procrustes, model_of_population,
@@ -40,9 +41,11 @@ pub(crate) fn read(inputs: &[Input], options: &Options) -> Result<Opened, Format
     let name = name_of(inputs);
     let (inputs, local) = without_local(inputs);
     let mut shapes = Shapes::new(&options.reading);
+    let (inputs, tables) = with_tables_apart(inputs);
     for input in inputs {
         shapes.add_file(input)?;
     }
+    shapes.join(tables);
     let format = shapes.format();
     let part = shapes.into_part(&name, local).map_err(|fault| fault.of(&name))?;
     if let Some(wanted) = &options.part
@@ -92,15 +95,64 @@ pub fn read_shapes(inputs: &[Input], reading: &Reading) -> Result<ShapeSet, Form
         });
     }
     let mut shapes = Shapes::new(reading);
-    for input in without_local(&inputs).0 {
+    let (inputs, tables) = with_tables_apart(without_local(&inputs).0);
+    for input in inputs {
         shapes.add_file(input)?;
     }
+    shapes.join(tables);
     let refused = |fault: Fault| fault.of(&name);
     let population =
         shapes.into_population().map_err(refused)?.ok_or_else(|| refused(Fault::Empty))?;
     let Population { dimension, shapes, specimens, .. } = population;
     let findings = specimens.findings(dimension, &shapes);
     Ok(ShapeSet { dimension, shapes, findings })
+}
+
+/// The table of the specimens of files or archives, of whatever columns their files or a table beside them have.
+///
+/// # Errors
+/// [`FormatError`] of the first file that has none, or that does not correspond to the first.
+pub fn read_specimens(inputs: &[Input], reading: &Reading) -> Result<SpecimenTable, FormatError> {
+    let name = name_of(inputs);
+    let mut files = Vec::new();
+    for input in inputs {
+        files.extend(compressed::files_in(input)?);
+    }
+    let files = paths::in_order(&files);
+    let (inputs, tables) = with_tables_apart(without_local(&files).0);
+    let mut shapes = Shapes::new(reading);
+    for input in inputs {
+        shapes.add_file(input)?;
+    }
+    shapes.join(tables);
+    shapes.into_table().map_err(|fault| fault.of(&name))
+}
+
+/// Shapes, and tables beside them that say more of each.
+fn with_tables_apart(inputs: Vec<&Input>) -> (Vec<&Input>, Vec<(&Input, SideTable)>) {
+    let mut tables = Vec::new();
+    let shapes = inputs
+        .into_iter()
+        .filter(|input| match side_table(input) {
+            Some(table) => {
+                tables.push((*input, table));
+                false
+            }
+            None => true,
+        })
+        .collect();
+    (shapes, tables)
+}
+
+/// The table in a file that is no shape.
+pub(crate) fn side_table(input: &Input) -> Option<SideTable> {
+    const LONGEST: u64 = 16 << 20;
+    const ENDINGS: [&str; 4] = [".csv", ".tsv", ".txt", ".dat"];
+    let may_be = ENDINGS.contains(&paths::ending(input.file_name()).as_str());
+    if !may_be || input.len() > LONGEST || compressed::content(input).is_ok() {
+        return None;
+    }
+    SideTable::read(&input.bytes().ok()?)
 }
 
 /// ShapeWorks writes each shape twice: `_world` is aligned, `_local` as it was. Returns the aligned
@@ -196,7 +248,7 @@ impl Shapes {
                 self.notes.extend(landmarks.notes);
                 let specimens = landmarks.specimens;
                 let several = specimens.len() > 1;
-                for (index, specimen) in specimens.into_iter().enumerate() {
+                for (index, mut specimen) in specimens.into_iter().enumerate() {
                     let name = if several {
                         format!("{}, specimen {}", input.name, index + 1)
                     } else {
@@ -204,7 +256,7 @@ impl Shapes {
                     };
                     self.scales.push(specimen.scale);
                     let file = (!several).then(|| input.file_name());
-                    self.add(&name, file, specimen.mesh)?;
+                    self.add(&name, file, &mut specimen)?;
                 }
                 Ok(())
             }
@@ -213,7 +265,7 @@ impl Shapes {
             }
             content => {
                 let mesh = mesh::read(content, &bytes).map_err(refused)?;
-                self.add(&input.name, Some(input.file_name()), mesh)
+                self.add(&input.name, Some(input.file_name()), &mut Specimen::new(mesh))
             }
         }
     }
@@ -232,7 +284,7 @@ impl Shapes {
                  point in all."
                     .to_owned(),
             );
-            self.add(name, Some(file), mesh)?;
+            self.add(name, Some(file), &mut Specimen::new(mesh))?;
             if let Some(first) = &mut self.first {
                 first.welding = Some(welding);
             }
@@ -264,11 +316,17 @@ impl Shapes {
             return Err(Fault::Apart { difference }.of(name));
         }
         let mesh = welding.mesh(corners).map_err(|fault| fault.of(name))?;
-        self.add(name, Some(file), mesh)
+        self.add(name, Some(file), &mut Specimen::new(mesh))
     }
 
     /// Adds a shape, if it corresponds to the first; `file` is the name of the file that it has to itself.
-    fn add(&mut self, name: &str, file: Option<&str>, mesh: Mesh) -> Result<(), FormatError> {
+    fn add(
+        &mut self,
+        name: &str,
+        file: Option<&str>,
+        specimen: &mut Specimen,
+    ) -> Result<(), FormatError> {
+        let mesh = &mut specimen.mesh;
         match &self.first {
             None => {
                 self.notes.extend(mesh.notes.iter().cloned());
@@ -276,12 +334,12 @@ impl Shapes {
                     name: name.to_owned(),
                     dimension: mesh.dimension,
                     points: mesh.point_count(),
-                    cells: mesh.cells,
+                    cells: core::mem::replace(&mut mesh.cells, Cells::None),
                     welding: None,
                 });
             }
             Some(first) => {
-                if let Some(difference) = difference(first, &mesh) {
+                if let Some(difference) = difference(first, mesh) {
                     return Err(Fault::Correspondence { difference }.of(name));
                 }
             }
@@ -294,19 +352,35 @@ impl Shapes {
         self.values.try_reserve(mesh.points.len()).map_err(full)?;
         self.values.extend_from_slice(&mesh.points);
         self.count += 1;
-        self.specimens.add(file, mesh.missing, mesh.numbered);
+        self.specimens.add(file, specimen);
         Ok(())
     }
 
-    /// The shapes as the reading wants them; `None` when there are none.
-    pub(crate) fn into_population(mut self) -> Result<Option<Population>, Fault> {
-        let Some(First { mut dimension, points, cells, .. }) = self.first else { return Ok(None) };
+    /// Takes the columns of tables beside the shapes.
+    fn join(&mut self, tables: Vec<(&Input, SideTable)>) {
+        for (input, table) in tables {
+            self.notes.push(self.specimens.join(input.file_name(), &table));
+        }
+    }
+
+    /// The table of all specimens, whatever the reading leaves out.
+    fn into_table(mut self) -> Result<SpecimenTable, Fault> {
+        let Some((dimension, shapes, _)) = self.as_read() else { return Err(Fault::Empty) };
+        // Those that it keeps, where it can be carried out.
+        let _ = self.specimens.choose(dimension, shapes.clone(), Cells::None);
+        Ok(self.specimens.table(dimension, &shapes))
+    }
+
+    /// The shapes as they are in their files, but for SCALE and a third coordinate that says nothing, with their dimension
+    /// and cells; numbers that mark missing landmarks are found on the way.
+    fn as_read(&mut self) -> Option<(usize, DMatrix<f64>, Cells)> {
+        let First { mut dimension, points, cells, .. } = self.first.take()?;
         let length = dimension * points;
+        let mut values = core::mem::take(&mut self.values);
         // As the file has them: a mark times SCALE is none.
-        let as_they_are = DMatrixView::from_slice(&self.values, length, self.count);
-        self.specimens.find_marks(dimension, as_they_are);
+        self.specimens.find_marks(dimension, DMatrixView::from_slice(&values, length, self.count));
         if !self.scales.is_empty() && self.scales.iter().all(Option::is_some) {
-            for (shape, scale) in self.values.chunks_exact_mut(length).zip(&self.scales) {
+            for (shape, scale) in values.chunks_exact_mut(length).zip(&self.scales) {
                 shape.iter_mut().for_each(|value| *value *= scale.unwrap_or(1.0));
             }
             self.notes
@@ -317,17 +391,22 @@ impl Shapes {
         }
         let is_line = matches!(cells, Cells::Segments(_));
         let is_flat = |shape: &[f64]| shape.iter().skip(2).step_by(3).all(|z| *z == shape[2]);
-        if dimension == 3 && is_line && self.values.chunks_exact(length).all(is_flat) {
+        if dimension == 3 && is_line && values.chunks_exact(length).all(is_flat) {
             dimension = 2;
             let mut place = 0;
-            self.values.retain(|_| {
+            values.retain(|_| {
                 place += 1;
                 place % 3 != 0
             });
             let note = "All points of a contour have the same z: it was taken as two-dimensional.";
             self.notes.push(note.to_owned());
         }
-        let shapes = DMatrix::from_vec(dimension * points, self.count, self.values);
+        Some((dimension, DMatrix::from_vec(dimension * points, self.count, values), cells))
+    }
+
+    /// The shapes as the reading wants them; `None` when there are none.
+    pub(crate) fn into_population(mut self) -> Result<Option<Population>, Fault> {
+        let Some((dimension, shapes, cells)) = self.as_read() else { return Ok(None) };
         let specimens::Chosen { shapes, cells, notes } =
             self.specimens.choose(dimension, shapes, cells)?;
         self.notes.extend(notes);
@@ -340,31 +419,50 @@ impl Shapes {
         let Some(population) = self.into_population()? else { return Err(Fault::Empty) };
         let Population { dimension, mut shapes, cells: mut drawn, notes: file_notes, specimens } =
             population;
-        let count = shapes.ncols();
-        if count < 3 {
-            return Err(Fault::Model(ModelError::TooFewShapes { found: count }));
+        let read = shapes.ncols();
+        if read < 3 {
+            return Err(Fault::Model(ModelError::TooFewShapes { found: read }));
         }
+        let sizes: Vec<f64> = shapes
+            .column_iter()
+            .map(|shape| specimens::centroid_size(shape.as_slice(), dimension))
+            .collect();
         let mut findings = specimens.findings(dimension, &shapes);
         let alignment = if scaled { Alignment::Similarity } else { Alignment::Rigid };
         let mean = generalised_procrustes(dimension, &mut shapes, alignment);
         if mean.iter().any(|value| !value.is_finite()) || varies_by(&shapes, dimension) <= ROUNDING
         {
-            return Err(Fault::SameShapes { count });
+            return Err(Fault::SameShapes { count: read });
+        }
+        let adjusted = specimens.adjust(&mut shapes, &sizes)?;
+        let mut name = name.to_owned();
+        let mut together = String::new();
+        if let Some((group, places)) = specimens.group()? {
+            name = format!("{}, {name}", group.label());
+            together =
+                format!(", superimposed together with all {} that were read", thousands(read));
+            shapes = shapes.select_columns(&places);
+        }
+        let count = shapes.ncols();
+        if count < 3 {
+            return Err(Fault::Model(ModelError::TooFewShapes { found: count }));
         }
         let model = model_of_population(dimension, shapes, alignment).map_err(Fault::Model)?;
         let mut notes = vec![format!(
-            "Made of {count} shapes, moved and turned onto their mean {}: {}.",
+            "Made of {count} shapes{together}, moved and turned onto their mean {}: {}.",
             if scaled { "and brought to one size" } else { "without changing their size" },
             counted(model.mode_count(), "mode", "modes"),
         )];
+        notes.extend(adjusted);
         if local > 0 {
             let files = counted(local, "file", "files");
             notes.push(format!("{files} of unaligned points (`_local`) were left out."));
         }
         notes.extend(file_notes);
         notes.extend(cells::turn_outwards(&mut drawn, model.mean().as_slice(), dimension));
-        let model = model.with_cells(drawn).map_err(Fault::Model)?.with_name(name);
+        let model = model.with_cells(drawn).map_err(Fault::Model)?.with_name(&name);
         findings.extend(specimens.first_column_finding());
+        findings.extend(specimens.columns_finding());
         Ok(Part {
             name: "shape".to_owned(),
             model,

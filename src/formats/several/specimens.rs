@@ -5,10 +5,15 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DMatrixView};
 
+use crate::formats::condition::{Condition, Test, number};
 use crate::formats::error::{Fault, counted};
+use crate::formats::landmarks::Specimen;
 use crate::formats::mesh::MissingPoint;
-use crate::formats::reading::{Choice, Finding, FirstColumn, Missing, Reading};
-use crate::model::{Cells, PointOrder, look, reflect};
+use crate::formats::reading::{
+    Choice, Finding, FirstColumn, Missing, Reading, SIZE, covariate_name,
+};
+use crate::formats::several::table::{ColumnKind, Columns, SideTable, SpecimenRow, SpecimenTable};
+use crate::model::{Cells, PointOrder, look, reflect, remove_within_groups};
 use crate::text::{listed, thousands, three_digits};
 
 /// Numbers that mark a missing landmark when all coordinates have them.
@@ -27,8 +32,10 @@ const NAMED: usize = 6;
 #[derive(Debug, Default)]
 pub(crate) struct Specimens {
     reading: Reading,
-    /// Name of the file that each has to itself; else it is called by its number.
-    files: Vec<Option<String>>,
+    /// Name of the file that each has to itself, or what its file calls it; else it is called by its number.
+    names: Vec<Option<String>>,
+    /// What is known of each.
+    columns: Columns,
     /// Numbers of those that are left, from 0.
     left: Vec<usize>,
     /// Missing points of each, before any is left out.
@@ -57,21 +64,37 @@ impl Specimens {
         &self.reading
     }
 
-    /// One more.
-    pub(crate) fn add(&mut self, file: Option<&str>, missing: Vec<MissingPoint>, numbered: bool) {
-        self.left.push(self.files.len());
-        self.files.push(file.map(str::to_owned));
-        self.missing.push(missing);
-        self.numbered |= numbered;
+    /// One more, with its own file if it has one.
+    pub(crate) fn add(&mut self, file: Option<&str>, specimen: &mut Specimen) {
+        self.left.push(self.names.len());
+        // A number of its own would be taken for its place.
+        let said = specimen.name.take().filter(|name| name.parse::<f64>().is_err());
+        self.names.push(file.map(str::to_owned).or(said));
+        self.columns.add(core::mem::take(&mut specimen.columns));
+        self.missing.push(core::mem::take(&mut specimen.mesh.missing));
+        self.numbered |= specimen.mesh.numbered;
+    }
+
+    /// Takes the columns of a table beside the set. Returns a note.
+    pub(crate) fn join(&mut self, file: &str, table: &SideTable) -> String {
+        let numbers: Vec<String> =
+            (1..=self.names.len()).map(|number| number.to_string()).collect();
+        let names: Vec<Vec<&str>> = self
+            .names
+            .iter()
+            .zip(&numbers)
+            .map(|(name, number)| name.as_deref().into_iter().chain([number.as_str()]).collect())
+            .collect();
+        self.columns.join(file, table, &names)
     }
 
     /// What a reading calls a specimen: its file where that is a word of its own, else its number.
     fn key(&self, specimen: usize) -> String {
-        match &self.files[specimen] {
+        match &self.names[specimen] {
             Some(file)
                 if !file.contains([' ', ',', ':', '=', ';', '"'])
                     && file.parse::<usize>().is_err()
-                    && self.files.iter().filter(|other| other.as_ref() == Some(file)).count()
+                    && self.names.iter().filter(|other| other.as_ref() == Some(file)).count()
                         == 1 =>
             {
                 file.clone()
@@ -82,7 +105,7 @@ impl Specimens {
 
     /// What a sentence calls a specimen.
     fn called(&self, specimen: usize) -> String {
-        self.files[specimen].clone().unwrap_or_else(|| format!("specimen {}", specimen + 1))
+        self.names[specimen].clone().unwrap_or_else(|| format!("specimen {}", specimen + 1))
     }
 
     fn list(&self, specimens: &[usize]) -> String {
@@ -97,12 +120,12 @@ impl Specimens {
     /// Its number from 0.
     fn numbered_by(&self, name: &str) -> Result<usize, Fault> {
         let number = name.parse::<usize>().ok().and_then(|number| number.checked_sub(1));
-        let by_file = || self.files.iter().position(|file| file.as_deref() == Some(name));
-        number.filter(|number| *number < self.files.len()).or_else(by_file).ok_or_else(|| {
-            let named: Vec<&str> = self.files.iter().flatten().map(String::as_str).collect();
+        let by_file = || self.names.iter().position(|file| file.as_deref() == Some(name));
+        number.filter(|number| *number < self.names.len()).or_else(by_file).ok_or_else(|| {
+            let named: Vec<&str> = self.names.iter().flatten().map(String::as_str).collect();
             let found = match named.as_slice() {
-                [first, .., last] => format!("{} specimens, {first} to {last}", self.files.len()),
-                _ => format!("{} specimens", self.files.len()),
+                [first, .., last] => format!("{} specimens, {first} to {last}", self.names.len()),
+                _ => format!("{} specimens", self.names.len()),
             };
             Fault::NoSpecimen { wanted: name.to_owned(), found }
         })
@@ -116,6 +139,159 @@ impl Specimens {
         Ok(numbers)
     }
 
+    /// Adds to `without` those that the reading does not ask for, and those that are in no group of the column that
+    /// divides them, or of which the covariate is not known. Returns notes.
+    fn leave_out_others(&self, without: &mut Vec<usize>) -> Result<Vec<String>, Fault> {
+        let mut notes = Vec::new();
+        let mut kept: Vec<usize> =
+            (0..self.names.len()).filter(|specimen| !without.contains(specimen)).collect();
+        for condition in &self.reading.only {
+            let holding = self.columns.holding(condition, &kept)?;
+            notes.push(format!(
+                "Read of {} with {}: {}.",
+                counted(kept.len(), "specimen", "specimens"),
+                condition.sentence(),
+                thousands(holding.len())
+            ));
+            kept = holding;
+        }
+        let mut known = |column: &str, holds: &dyn Fn(&str) -> bool| -> Result<(), Fault> {
+            let words = self.columns.words(column)?;
+            let (with, lacking): (Vec<usize>, Vec<usize>) =
+                kept.iter().partition(|&&specimen| holds(words[specimen]));
+            if !lacking.is_empty() {
+                notes.push(format!("Left out without {column}: {}.", self.list(&lacking)));
+                kept = with;
+            }
+            Ok(())
+        };
+        if let Some(group) = &self.reading.group {
+            let opposite = group.opposite();
+            known(&group.column, &|word| group.holds(word) || opposite.holds(word))?;
+        }
+        if let Some(column) = self.reading.adjust.as_deref().filter(|column| *column != SIZE) {
+            known(column, &|word| number(word).is_some())?;
+        }
+        if kept.len() + without.len() < self.names.len() {
+            *without =
+                (0..self.names.len()).filter(|one| kept.binary_search(one).is_err()).collect();
+        }
+        Ok(notes)
+    }
+
+    /// Takes the regression on the covariate of the reading out of aligned shapes, within the groups of the column that
+    /// divides them; `sizes` are the centroid sizes before they were aligned. Returns a note.
+    pub(crate) fn adjust(
+        &self,
+        shapes: &mut DMatrix<f64>,
+        sizes: &[f64],
+    ) -> Result<Option<String>, Fault> {
+        let Some(column) = &self.reading.adjust else { return Ok(None) };
+        let covariate: Vec<f64> = if column == SIZE {
+            sizes.iter().map(|size| libm::log(*size)).collect()
+        } else {
+            let words = self.columns.words(column)?;
+            self.left.iter().filter_map(|&specimen| number(words[specimen])).collect()
+        };
+        let groups = self.partition()?;
+        let fault = |reason: &str| Fault::Covariate {
+            column: covariate_name(column).to_owned(),
+            reason: reason.to_owned(),
+        };
+        if covariate.len() != shapes.ncols() || covariate.iter().any(|x| !x.is_finite()) {
+            return Err(fault("it is not a number for every specimen"));
+        }
+        let share = remove_within_groups(shapes, &covariate, &groups)
+            .ok_or_else(|| fault("it does not differ within the groups"))?;
+        let within = match &self.reading.group {
+            Some(group) => format!("within the groups of {}", group.column),
+            None => "of all specimens".to_owned(),
+        };
+        Ok(Some(format!(
+            "The regression on {} {within} was taken out, {} % of the variance there: shapes are those at the mean of all.",
+            covariate_name(column),
+            three_digits(100.0 * share)
+        )))
+    }
+
+    /// The number of the group of each specimen that is left: by the words of the column that divides them, or the two
+    /// sides of a threshold.
+    fn partition(&self) -> Result<Vec<usize>, Fault> {
+        let Some(group) = &self.reading.group else { return Ok(vec![0; self.left.len()]) };
+        let words = self.columns.words(&group.column)?;
+        let mut known: BTreeMap<&str, usize> = BTreeMap::new();
+        Ok(self
+            .left
+            .iter()
+            .map(|&specimen| match group.test {
+                Test::Below(_) | Test::From(_) => usize::from(group.holds(words[specimen])),
+                Test::Is(_) | Test::IsNot(_) => {
+                    let next = known.len();
+                    *known.entry(words[specimen]).or_insert(next)
+                }
+            })
+            .collect())
+    }
+
+    /// The places of the shapes of the group that the reading asks for, among those that are left; `None` for all.
+    pub(crate) fn group(&self) -> Result<Option<(&Condition, Vec<usize>)>, Fault> {
+        let Some(group) = &self.reading.group else { return Ok(None) };
+        let holding = self.columns.holding(group, &self.left)?;
+        let places = (0..self.left.len())
+            .filter(|place| holding.binary_search(&self.left[*place]).is_ok())
+            .collect();
+        Ok(Some((group, places)))
+    }
+
+    /// What the files say of the specimens, with models to make of it.
+    pub(crate) fn columns_finding(&self) -> Option<Finding> {
+        const MOST_CHOICES: usize = 6;
+        let columns = self.columns.all();
+        if columns.is_empty() || self.reading.group.is_some() {
+            return None;
+        }
+        let message = format!("Of the specimens is known: {}.", self.columns.described());
+        let choices = columns
+            .iter()
+            .filter(|column| column.kind == ColumnKind::Groups && column.values.len() > 1)
+            .flat_map(|column| {
+                column.values.iter().filter(|value| value.count >= 3).map(|value| Condition {
+                    column: column.name.clone(),
+                    test: Test::Is(value.word.clone()),
+                })
+            })
+            .take(MOST_CHOICES)
+            .map(|group| {
+                let label = format!("Only {}", group.sentence());
+                self.reading.choice(label, |to| to.group = Some(group))
+            })
+            .collect();
+        Some(Finding::new("columns", message, choices).sure())
+    }
+
+    /// The table of all specimens; `shapes` has them as they are in their files, with SCALE (d·n × N).
+    pub(crate) fn table(&self, dimension: usize, shapes: &DMatrix<f64>) -> SpecimenTable {
+        let columns = self.columns.all();
+        let words: Vec<Vec<&str>> = columns
+            .iter()
+            .map(|column| self.columns.words(&column.name).unwrap_or_default())
+            .collect();
+        let specimens = (0..self.names.len())
+            .map(|specimen| {
+                let size = centroid_size(shapes.column(specimen).as_slice(), dimension);
+                SpecimenRow {
+                    key: self.key(specimen),
+                    name: self.called(specimen),
+                    size: Some(size).filter(|size| size.is_finite()),
+                    missing: self.missing[specimen].len(),
+                    kept: self.left.binary_search(&specimen).is_ok(),
+                    values: words.iter().map(|words| words[specimen].to_owned()).collect(),
+                }
+            })
+            .collect();
+        SpecimenTable { dimension, points: shapes.nrows() / dimension, specimens, columns }
+    }
+
     /// Carries out what the reading says about shapes (d·n × N), and refuses them when landmarks are missing and it says
     /// nothing about that.
     pub(crate) fn choose(
@@ -126,6 +302,7 @@ impl Specimens {
     ) -> Result<Chosen, Fault> {
         let points = shapes.nrows() / dimension;
         let mut without = self.numbers(&self.reading.without)?;
+        let mut notes = self.leave_out_others(&mut without)?;
         let mut without_points = Vec::new();
         for &number in &self.reading.without_points {
             if number > points {
@@ -163,7 +340,6 @@ impl Specimens {
             .flat_map(|(specimen, missing)| missing.iter().map(move |gap| (specimen, gap.point)))
             .filter(|&(specimen, point)| !left_out(specimen, point, &without, &without_points))
             .collect();
-        let mut notes = Vec::new();
         if !gone.is_empty() {
             match self.reading.missing {
                 Some(Missing::Specimens) => {
@@ -564,6 +740,17 @@ impl Specimens {
             to.without.extend(specimens.iter().map(|&specimen| self.key(specimen)));
         })
     }
+}
+
+/// Root of the sum of squared distances of interleaved points from their centroid; NaN where a point is missing.
+pub(crate) fn centroid_size(shape: &[f64], dimension: usize) -> f64 {
+    let points = (shape.len() / dimension) as f64;
+    let along = |axis: usize| shape.iter().skip(axis).step_by(dimension);
+    let squares = (0..dimension).map(|axis| {
+        let centre = along(axis).sum::<f64>() / points;
+        along(axis).map(|value| (value - centre) * (value - centre)).sum::<f64>()
+    });
+    squares.sum::<f64>().sqrt()
 }
 
 /// "landmark 6", "landmarks 2 and 4": from 1.
