@@ -24,6 +24,12 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
+/// What shapes are called, several of them, of which a file says neither dimension nor order of coordinates.
+pub(super) const ROWS: &str = "rows of shapes";
+
+/// The same of an NTS matrix, which leaves only the dimension open.
+pub(super) const NTS_WITHOUT_DIMENSION: &str = "NTS landmarks without dim=";
+
 /// How the coordinates of a vector of points follow one another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Order {

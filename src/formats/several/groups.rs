@@ -19,7 +19,7 @@ use super::naming::name_of;
 use super::{blendshapes, companions};
 use crate::formats::error::{Fault, FormatError};
 use crate::formats::input::paths::{ending, folder, is_junk, sort_naturally};
-use crate::formats::input::sniffing::Content;
+use crate::formats::input::sniffing::{self, Content};
 use crate::formats::input::{Input, compressed};
 use crate::formats::opened::{Opened, Options};
 use crate::formats::{landmarks, mesh};
@@ -184,7 +184,7 @@ fn sets(inputs: &[Input], contents: &[Option<Content>], rest: &[usize]) -> Vec<V
 fn is_set_by_itself(input: &Input, content: Content) -> bool {
     landmarks::is_landmarks(content)
         && compressed::unpacked(input)
-            .and_then(|input| input.bytes())
+            .and_then(|input| sniffing::text(&input))
             .is_ok_and(|bytes| landmarks::is_set(content, &bytes))
 }
 
