@@ -221,7 +221,7 @@ mod tests {
         );
         assert!(fault("11 12\n", "").contains("6 points were announced, 5 are there"), "too few");
         assert!(fault("11 12\n", "11 12\n1 2\n").contains("only 6 points"), "too many");
-        assert!(fault("7 8", "7 8 9").starts_with("Line 21"), "three numbers");
+        assert!(fault("7 8", "7 8 9").starts_with("Line 23"), "three numbers");
         assert!(fault("1 2 3\n", "1 2 4\n").contains("points 1 to 3"), "a point that is not there");
         assert!(fault("[landmarks]\n3", "").contains("[landmarks]"), "no count");
         assert!(
