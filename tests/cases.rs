@@ -489,7 +489,7 @@ fn files_of_other_formats_are_named_for_what_they_are() {
     let refused =
         |name: &str, bytes: &[u8]| open(&[Input::of_bytes(name, bytes.to_vec())], "").unwrap_err();
     let points = b"<!DOCTYPE PickedPoints>\n<PickedPoints>\n <point x=\"1\"/>\n</PickedPoints>\n";
-    assert_eq!(refused("m1.pp", points).code(), "unknown", "no web page");
+    assert_eq!(refused("m1.pp", points).code(), "companion", "one specimen, no web page");
     assert_eq!(
         refused("page.pp", b"<!DOCTYPE html>\n<html></html>\n").code(),
         "html",

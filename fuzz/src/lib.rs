@@ -242,6 +242,21 @@ pub fn points(data: &[u8]) -> Vec<u8> {
         .collect()
 }
 
+/// A table under one of the headings of landmarks, or of lines of a name and numbers.
+pub fn landmark_table(data: &[u8]) -> Vec<u8> {
+    const HEADINGS: [&[u8]; 4] = [
+        b"specimen,landmark,x,y\n",
+        b"id;x1;y1;x2;y2;x3;y3;sex\n",
+        b"id,V1,V2,V3,V4,V5,V6\n",
+        b"a 1 2 3 4 5 6\n",
+    ];
+    let Some((first, rest)) = data.split_first() else { return HEADINGS[0].to_vec() };
+    if data.iter().take(100).any(|byte| *byte == b'\n') && data[0].is_ascii_graphic() {
+        return data.to_vec();
+    }
+    [HEADINGS[usize::from(*first) % HEADINGS.len()], rest].concat()
+}
+
 /// An eos model, of a version or bare.
 pub fn eos(data: &[u8]) -> Vec<u8> {
     let mut bytes = data.to_vec();

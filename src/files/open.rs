@@ -67,6 +67,7 @@ impl Described {
 /// [`Error::Format`].
 pub fn open(inputs: &[Input], options: &Options) -> Result<Described, Error> {
     let opened = formats::open(inputs, options)?;
+    let of_shapes = opened.reading_of_shapes(&options.reading);
     let part = opened.part;
     let model = match &part.map {
         Some(map) => part.model.with_point_numbers(map),
@@ -84,12 +85,20 @@ pub fn open(inputs: &[Input], options: &Options) -> Result<Described, Error> {
     }
     .with_reading(&options.reading, part.findings);
     let (used, idle) = match part.origin {
-        Origin::Shapes { .. } => (options.reading.of_shapes(), options.reading.of_arrays()),
+        Origin::Shapes { .. } => (of_shapes.clone(), without(&options.reading, &of_shapes)),
         _ => (options.reading.of_arrays(), options.reading.of_shapes()),
     };
     let report = report.with_applied(&options.reading, &used);
     let report = ModelReport { notes: [report.notes.clone(), idle_note(&idle)].concat(), ..report };
     Ok(Described { parts: opened.parts, part: part.name, origin: part.origin, model, report })
+}
+
+/// The words about arrays that say nothing about a set of shapes.
+fn without(reading: &Reading, used: &Reading) -> Reading {
+    let Reading { dimension, order, modes, .. } = reading.of_arrays();
+    let dimension = dimension.filter(|_| used.dimension.is_none());
+    let order = order.filter(|_| used.order.is_none());
+    Reading { dimension, order, modes, ..Reading::default() }
 }
 
 /// That words of a reading say nothing about what was opened.

@@ -11,7 +11,8 @@ use crate::model::ModelError;
 
 /// Formats that can be read, as listed to the user.
 pub(super) const ACCEPTED: &str = "Accepted: models (.h5, .h5.json, .mat, .npz, .npy, .pkl, .bin, .scm, .js, .json, .pca), \
-     folders of meshes or landmarks (.ply, .obj, .stl, .vtk, .vtp, .tps, .particles), \
+     folders of meshes (.ply, .obj, .off, .stl, .vtk, .vtp) or landmarks (.tps, .csv, .txt, .nts, .dta, .pts, .particles, \
+     .mrk.json, .fcsv, .landmarkAscii, .pp, .asf, .json of Scalismo), \
      and .gz or .zip around them.";
 
 /// Why a file could not be read or written.
@@ -60,6 +61,13 @@ pub enum Fault {
         /// Which, in words.
         which: String,
         /// What can be left out.
+        choices: Vec<Choice>,
+    },
+    /// Shapes whose coordinates may be those of points in the plane or in space.
+    Dimension {
+        /// Numbers of a shape.
+        numbers: usize,
+        /// Both ways to read them.
         choices: Vec<Choice>,
     },
     /// A specimen or point that the reading names is not there.
@@ -346,6 +354,7 @@ impl FormatError {
             Fault::DecimalComma { .. } => "decimal-comma",
             Fault::NoNumber { .. } => "no-number",
             Fault::Missing { .. } => "missing-landmarks",
+            Fault::Dimension { .. } => "dimension",
             Fault::NoSpecimen { .. } => "no-specimen",
             Fault::NoGroup { .. } => "no-group",
             Fault::Covariate { .. } => "covariate",
@@ -377,7 +386,7 @@ impl FormatError {
     /// Readings that would help, to choose from.
     pub fn choices(&self) -> &[Choice] {
         match &self.fault {
-            Fault::Missing { choices, .. } => choices,
+            Fault::Missing { choices, .. } | Fault::Dimension { choices, .. } => choices,
             _ => &[],
         }
     }
@@ -428,6 +437,9 @@ impl FormatError {
             }
             Fault::Missing { .. } => {
                 "Leave out these specimens, or these landmarks of all specimens; or fill in the values."
+            }
+            Fault::Dimension { .. } => {
+                "Choose the dimension, or name it: `dimension=2` or `dimension=3`."
             }
             Fault::NoSpecimen { .. } => {
                 "Name specimens by number from 1 or by file name, points by number from 1."
@@ -658,6 +670,12 @@ impl fmt::Display for Fault {
                 write!(f, "It is a joblib file; a plain pickle or arrays were expected.")
             }
             Self::Missing { which, .. } => write!(f, "{which}."),
+            Self::Dimension { numbers, .. } => write!(
+                f,
+                "Each shape has {numbers} numbers, which may be {} points in 2-D or {} in 3-D; the file does not say which.",
+                numbers / 2,
+                numbers / 3
+            ),
             Self::NoSpecimen { wanted, found } => {
                 write!(f, "There is no “{wanted}” among its {found}.")
             }

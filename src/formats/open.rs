@@ -61,8 +61,21 @@ fn open_one(input: &Input, options: &Options, depth: u8) -> Result<Opened, Forma
         Content::Zip => open_zip(input, options, depth),
         Content::Gzip => open_gzip(input, options, depth),
         Content::Tps => populations::read(core::slice::from_ref(input), options),
+        content if landmarks::is_landmarks(content) => open_landmarks(input, content, options),
         other => Err(Fault::Alone { format: other.name() }.of(&input.name)),
     }
+}
+
+/// Makes a model of a file of landmarks that holds several specimens.
+fn open_landmarks(
+    input: &Input,
+    content: Content,
+    options: &Options,
+) -> Result<Opened, FormatError> {
+    if landmarks::is_set(content, &sniffing::text(input)?) {
+        return populations::read(core::slice::from_ref(input), options);
+    }
+    Err(Fault::Alone { format: content.name() }.of(&input.name))
 }
 
 /// Reads a JSON document; its members say of which format it is.

@@ -1,6 +1,6 @@
 //! The result of opening files: one model, the names of all parts, and where the model comes from.
 
-use crate::formats::reading::{Finding, Reading};
+use crate::formats::reading::{Finding, NTS_WITHOUT_DIMENSION, ROWS, Reading};
 use crate::model::{BasisCheck, LinearModel};
 
 /// Options for reading files: which part, and what they do not say themselves.
@@ -21,6 +21,17 @@ pub struct Opened {
     pub parts: Vec<String>,
     /// The model that was read.
     pub part: Part,
+}
+
+impl Opened {
+    /// What of `reading` says something about a set of shapes: the dimension and the order of coordinates only where the
+    /// file leaves them open.
+    pub fn reading_of_shapes(&self, reading: &Reading) -> Reading {
+        let is = |kind: &str| self.format.split(" and ").any(|format| format == kind);
+        let dimension = reading.dimension.filter(|_| is(ROWS) || is(NTS_WITHOUT_DIMENSION));
+        let order = reading.order.filter(|_| is(ROWS));
+        Reading { dimension, order, ..reading.of_shapes() }
+    }
 }
 
 /// One model of a file.

@@ -31,6 +31,12 @@ use serde::{Deserialize, Serialize};
 
 use super::condition::{Condition, escaped, unescaped};
 
+/// What shapes are called, several of them, of which a file says neither dimension nor order of coordinates.
+pub(super) const ROWS: &str = "rows of shapes";
+
+/// The same of an NTS matrix, which leaves only the dimension open.
+pub(super) const NTS_WITHOUT_DIMENSION: &str = "NTS landmarks without dim=";
+
 /// How the coordinates of a vector of points follow one another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Order {

@@ -5,10 +5,13 @@
 
 pub(crate) mod columns;
 pub(crate) mod compressed;
+pub(crate) mod headings;
+mod landmark_texts;
 pub(crate) mod paths;
 pub(crate) mod sniffing;
 
 use core::fmt;
+use std::borrow::Cow;
 use std::io::{self, Read, Seek, SeekFrom};
 use std::sync::Arc;
 
@@ -164,6 +167,14 @@ impl Storage for Memory {
         let bytes = start.checked_add(buffer.len()).and_then(|end| self.0.get(start..end));
         buffer.copy_from_slice(bytes.ok_or("it ends earlier")?);
         Ok(())
+    }
+}
+
+/// The text of a file: UTF-8, or Latin-1 where it is not, and whether it was that.
+pub(super) fn text(bytes: &[u8]) -> (Cow<'_, str>, bool) {
+    match core::str::from_utf8(bytes) {
+        Ok(text) => (Cow::Borrowed(text), false),
+        Err(_) => (bytes.iter().map(|&byte| char::from(byte)).collect(), true),
     }
 }
 

@@ -7,6 +7,7 @@ use crate::formats::FormatError;
 use crate::formats::error::Fault;
 use crate::formats::input::Input;
 use crate::formats::input::columns::{Heading, columns, is_missing};
+use crate::formats::input::landmark_texts;
 
 /// Bytes that are searched; headers of HDF5 may also be further on.
 const LOOKED_AT: usize = 4096;
@@ -41,8 +42,30 @@ pub(crate) enum Content {
     Stl,
     /// Wavefront OBJ.
     Obj,
+    /// A mesh in the Object File Format of Geomview.
+    Off,
     /// Landmarks in the format of tpsDig.
     Tps,
+    /// Markups of 3D Slicer, in JSON.
+    Markups,
+    /// Fiducials of 3D Slicer, a point a line.
+    Fiducials,
+    /// Landmarks in sections, as morphologika reads them.
+    Morphologika,
+    /// An NTS matrix, a specimen a row.
+    Nts,
+    /// Points of IDAV Landmark.
+    Idav,
+    /// Landmarks of Scalismo, in JSON.
+    ScalismoLandmarks,
+    /// A landmark set of Amira or Avizo.
+    AmiraLandmarks,
+    /// A shape of an active appearance model.
+    Asf,
+    /// Points picked in MeshLab, in XML.
+    PickedPoints,
+    /// A table whose heading or first column names landmarks or specimens.
+    LandmarkTable,
     /// A JSON document.
     Json,
     /// A program text with a clmtrackr model in it.
@@ -62,8 +85,21 @@ pub(crate) enum Content {
 impl Content {
     /// Whether it begins with text, also where binary numbers follow.
     fn begins_with_text(self) -> bool {
+        const LANDMARKS: [Content; 11] = [
+            Content::Off,
+            Content::Markups,
+            Content::Fiducials,
+            Content::Morphologika,
+            Content::Nts,
+            Content::Idav,
+            Content::ScalismoLandmarks,
+            Content::AmiraLandmarks,
+            Content::Asf,
+            Content::PickedPoints,
+            Content::LandmarkTable,
+        ];
         let headed = HEADED.iter().chain(&PLAIN);
-        headed.into_iter().any(|(content, _)| *content == self)
+        LANDMARKS.contains(&self) || headed.into_iter().any(|(content, _)| *content == self)
     }
 
     /// Its name in messages.
@@ -79,7 +115,18 @@ impl Content {
             Self::Vtk | Self::Vtp => "VTK mesh",
             Self::Stl => "STL mesh",
             Self::Obj => "OBJ mesh",
+            Self::Off => "OFF mesh",
             Self::Tps => "TPS landmark file",
+            Self::Markups => "file of Slicer markups",
+            Self::Fiducials => "file of Slicer fiducials",
+            Self::Morphologika => "morphologika file",
+            Self::Nts => "NTS file",
+            Self::Idav => "IDAV landmark file",
+            Self::ScalismoLandmarks => "file of Scalismo landmarks",
+            Self::AmiraLandmarks => "Amira landmark set",
+            Self::Asf => "ASF shape",
+            Self::PickedPoints => "file of picked points",
+            Self::LandmarkTable => "table of landmarks",
             Self::Json => "JSON file",
             Self::Clmtrackr => "clmtrackr model",
             Self::Numbers => "table of numbers",
@@ -249,12 +296,45 @@ fn text_of(start: &[u8], length: u64) -> Option<Content> {
     };
     let text = text.trim_start();
     let text = Text { text, goes_on: length > LOOKED_AT as u64 };
-    let plain = if start.contains(&0) { &[][..] } else { &PLAIN[..] };
-    let found = HEADED.iter().chain(plain).find(|(_, holds)| holds(&text));
-    found.map(|(content, _)| *content)
+    let is_headed =
+        |content: Content| HEADED.iter().any(|(headed, holds)| *headed == content && holds(&text));
+    let binary = [Content::Ply, Content::Vtk, Content::Vtp, Content::Stl];
+    if let Some(content) = binary.into_iter().find(|content| is_headed(*content)) {
+        return Some(content);
+    }
+    let is_text = !start.contains(&0);
+    // TPS and OBJ have words of their own; what comes after them does not.
+    let found =
+        if is_text { text.plain(&PLAIN[..2]).or_else(|| landmarks(start, &text)) } else { None };
+    found
+        .or_else(|| is_headed(Content::Json).then_some(Content::Json))
+        .or_else(|| if is_text { text.plain(&PLAIN[2..]) } else { None })
+}
+
+/// The landmark file that starts so, if it is one. Names in it may be Latin-1.
+fn landmarks(start: &[u8], text: &Text<'_>) -> Option<Content> {
+    let is_letter = |byte: &u8| !byte.is_ascii_control() || byte.is_ascii_whitespace();
+    if !start.iter().all(is_letter) {
+        return None;
+    }
+    let latin: String;
+    let whole = if core::str::from_utf8(start).is_ok_and(|whole| whole.trim_start() == text.text) {
+        text.text
+    } else {
+        let (whole, _) = super::text(start);
+        latin = whole.trim_start().to_owned();
+        &latin
+    };
+    let lines = whole.lines().map(str::trim).filter(|line| !line.is_empty()).count();
+    let complete = if text.goes_on { lines.saturating_sub(1) } else { lines };
+    landmark_texts::content(whole, complete)
 }
 
 impl<'a> Text<'a> {
+    fn plain(&self, rules: &[Rule]) -> Option<Content> {
+        rules.iter().find(|(_, holds)| holds(self)).map(|(content, _)| *content)
+    }
+
     fn lines(&self) -> impl Iterator<Item = &'a str> {
         self.text.lines().map(str::trim).filter(|line| !line.is_empty())
     }

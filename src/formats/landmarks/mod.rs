@@ -3,18 +3,36 @@
 //! | format | read |
 //! |---|---|
 //! | TPS | landmarks and curves of several specimens, `SCALE`, `ID` |
+//! | morphologika, NTS | several specimens, with names; columns in morphologika |
+//! | tables (`.csv`, `.txt`) | several specimens, a point or a shape a line; or one specimen, a point with its name a line |
+//! | rows of shapes | several specimens, a line of numbers each |
+//! | 3D Slicer (`.mrk.json`, `.fcsv`), Scalismo, Amira, IDAV, MeshLab, ASF | one specimen, with the names of its points |
 //! | points | two or three numbers a line: one specimen |
 //!
 //! Each reader turns bytes into [`Landmarks`]; [`read`] chooses the reader. What is missing is told by word and line
 //! ([`MissingPoint`](super::mesh::MissingPoint)), never made up.
 
-pub(super) mod points;
-pub(super) mod tps;
+mod amira;
+mod asf;
+mod fcsv;
+mod gathering;
+mod idav;
+mod markups;
+mod morphologika;
+mod nts;
+mod picked_points;
+mod points;
+mod rows;
+mod scalismo;
+mod table;
+mod tps;
 
 use super::error::Fault;
 use super::input::sniffing::Content;
-use super::mesh::{self, Mesh};
+use super::mesh::{self, Mesh, damaged};
 use super::reading::Reading;
+
+pub(super) use gathering::order_by_name;
 
 /// The specimens of one file.
 #[derive(Debug, Default, PartialEq)]
@@ -25,6 +43,8 @@ pub(super) struct Landmarks {
     pub(super) point_names: Vec<String>,
     /// Notes for the user, each one sentence.
     pub(super) notes: Vec<String>,
+    /// What such specimens are called, several of them, where [`kind`] does not say it.
+    pub(super) kind: Option<&'static str>,
 }
 
 /// The landmarks of one specimen.
@@ -49,7 +69,21 @@ impl Specimen {
 
 /// Whether content is landmarks, of one specimen or of several.
 pub(super) fn is_landmarks(content: Content) -> bool {
-    matches!(content, Content::Tps | Content::Numbers)
+    matches!(
+        content,
+        Content::Tps
+            | Content::Numbers
+            | Content::Markups
+            | Content::Fiducials
+            | Content::Morphologika
+            | Content::Nts
+            | Content::Idav
+            | Content::ScalismoLandmarks
+            | Content::AmiraLandmarks
+            | Content::Asf
+            | Content::PickedPoints
+            | Content::LandmarkTable
+    )
 }
 
 /// Whether content may be a shape of a population: a mesh, landmarks, points.
@@ -61,6 +95,10 @@ pub(super) fn is_shape(content: Content) -> bool {
 pub(super) fn is_set(content: Content, bytes: &[u8]) -> bool {
     match content {
         Content::Tps => tps::count(bytes) > 1,
+        Content::Morphologika => morphologika::count(bytes) > 1,
+        Content::Nts => nts::count(bytes) > 1,
+        Content::LandmarkTable => table::is_set(bytes),
+        Content::Numbers => rows::count(bytes) > 1,
         _ => false,
     }
 }
@@ -69,6 +107,16 @@ pub(super) fn is_set(content: Content, bytes: &[u8]) -> bool {
 pub(super) fn kind(content: Content) -> &'static str {
     match content {
         Content::Tps => "TPS landmarks",
+        Content::Markups => "Slicer markups",
+        Content::Fiducials => "Slicer fiducials",
+        Content::Morphologika => "morphologika landmarks",
+        Content::Nts => "NTS landmarks",
+        Content::Idav => "IDAV landmarks",
+        Content::ScalismoLandmarks => "Scalismo landmarks",
+        Content::AmiraLandmarks => "Amira landmark sets",
+        Content::Asf => "ASF shapes",
+        Content::PickedPoints => "picked points",
+        Content::LandmarkTable => "tables of landmarks",
         _ => "lists of points",
     }
 }
@@ -77,8 +125,43 @@ pub(super) fn kind(content: Content) -> &'static str {
 pub(super) fn read(content: Content, bytes: &[u8], reading: &Reading) -> Result<Landmarks, Fault> {
     let landmarks = match content {
         Content::Tps => tps::read(bytes),
+        Content::Markups => markups::read(bytes),
+        Content::Fiducials => fcsv::read(bytes),
+        Content::Morphologika => morphologika::read(bytes),
+        Content::Nts => nts::read(bytes, reading),
+        Content::Idav => idav::read(bytes),
+        Content::ScalismoLandmarks => scalismo::read(bytes),
+        Content::AmiraLandmarks => amira::read(bytes),
+        Content::Asf => asf::read(bytes),
+        Content::PickedPoints => picked_points::read(bytes),
+        Content::LandmarkTable => table::read(bytes, reading),
+        Content::Numbers if rows::count(bytes) > 0 => rows::read(bytes, reading),
         Content::Numbers => points::read(bytes, reading.first_column),
         other => return Err(Fault::Alone { format: other.name() }),
     };
     landmarks.map_err(|fault| mesh::unless_decimal_commas(fault, bytes))
+}
+
+/// Coordinates per point of a shape of so many numbers: what the reading says, or the one of 2 and 3 that divides them.
+fn dimension_of(numbers: usize, reading: &Reading) -> Result<usize, Fault> {
+    if let Some(dimension) = reading.dimension {
+        return Ok(dimension);
+    }
+    match [2, 3].map(|dimension| numbers.is_multiple_of(dimension)) {
+        [true, false] => Ok(2),
+        [false, true] => Ok(3),
+        [true, true] => {
+            let choice = |dimension: usize| {
+                let label = format!("{} points in {dimension}-D", numbers / dimension);
+                reading.choice(label, |reading| reading.dimension = Some(dimension))
+            };
+            Err(Fault::Dimension { numbers, choices: vec![choice(2), choice(3)] })
+        }
+        [false, false] => {
+            let reason = format!(
+                "it has {numbers} numbers, which neither 2 nor 3 coordinates a point divide"
+            );
+            Err(damaged("A row of coordinates", reason))
+        }
+    }
 }

@@ -6,7 +6,11 @@
 //! | `CURVES=k`, then `POINTS=p` | k curves of p points each, appended to the landmarks |
 //! | `SCALE=s` | factor from image to length |
 //! | `ID=` | name of the specimen |
-//! | `IMAGE=` … | skipped |
+//! | `IMAGE=` | its name where there is no `ID` |
+//! | `COMMENT=`, `VARIABLES=` and other keys, lines that begin with `#` | skipped |
+//!
+//! Points of curves are taken as landmarks where they are, and a note says so: whether they slide is not in the file, but in the
+//! sliders file of tpsRelw.
 //!
 //! Keys may be in lower case, blank lines are allowed anywhere. `SCALE` counts only where every specimen has one.
 //! Words for missing values (`NA`, `NaN`) make a landmark missing; numbers that mark one, as −1 −1, are told by where the
@@ -22,10 +26,15 @@ use crate::formats::mesh::{
 };
 use crate::model::Cells;
 
+/// What is said of curves.
+const CURVES: &str =
+    "Points of curves were taken as landmarks where they are: they were not slid along the curve.";
+
 /// Reads all specimens; at least one.
 pub(super) fn read(bytes: &[u8]) -> Result<Landmarks, Fault> {
     let mut specimens = Vec::new();
     let mut current: Option<Draft> = None;
+    let mut has_curves = false;
     for (index, line) in lines(bytes).enumerate() {
         if line.is_empty() || line.starts_with(b"#") {
             continue;
@@ -46,6 +55,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Landmarks, Fault> {
                     current = Some(Draft { dimension, expected: count()?, ..Draft::default() });
                 }
                 b"POINTS" => {
+                    has_curves = true;
                     let draft = current.as_mut().ok_or_else(|| early(index))?;
                     draft.expected = draft.expected.saturating_add(count()?);
                 }
@@ -59,6 +69,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<Landmarks, Fault> {
                     let draft = current.as_mut().ok_or_else(|| early(index))?;
                     let name = String::from_utf8_lossy(value).trim().to_owned();
                     draft.name = (!name.is_empty()).then_some(name);
+                }
+                b"IMAGE" => {
+                    let name = String::from_utf8_lossy(value).trim().to_owned();
+                    if let Some(draft) = &mut current {
+                        draft.image = (!name.is_empty()).then_some(name);
+                    }
                 }
                 _ => {}
             }
@@ -90,7 +106,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Landmarks, Fault> {
         }
     }
     specimens.push(current.ok_or_else(|| early(0))?.finish(specimens.len())?);
-    Ok(Landmarks { specimens, ..Landmarks::default() })
+    let notes = has_curves.then(|| CURVES.to_owned()).into_iter().collect();
+    Ok(Landmarks { specimens, notes, ..Landmarks::default() })
 }
 
 /// Specimens in a file.
@@ -114,6 +131,7 @@ struct Draft {
     points: Vec<f64>,
     missing: Vec<MissingPoint>,
     name: Option<String>,
+    image: Option<String>,
     scale: Option<f64>,
 }
 
@@ -126,7 +144,8 @@ impl Draft {
         }
         self.missing.dedup_by_key(|missing| missing.point);
         let mesh = Mesh::with_missing(self.dimension, self.points, Cells::None, self.missing)?;
-        Ok(Specimen { name: self.name, scale: self.scale, ..Specimen::new(mesh) })
+        let name = self.name.or(self.image);
+        Ok(Specimen { name, scale: self.scale, ..Specimen::new(mesh) })
     }
 }
 
@@ -142,6 +161,8 @@ mod tests {
         assert_eq!(specimens.len(), 2, "specimens");
         assert_eq!(specimens[0].mesh.points, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0], "with the curve");
         assert_eq!(specimens[0].scale, Some(0.5), "its scale");
+        assert_eq!(specimens[0].name.as_deref(), Some("a.jpg"), "the image where there is no ID");
+        assert_eq!(read(text).unwrap().notes, [CURVES], "curves are said");
         assert_eq!(specimens[1].name.as_deref(), Some("b"), "its name");
         assert_eq!((specimens[1].mesh.dimension, specimens[1].scale), (3, None), "the second");
     }

@@ -5,6 +5,7 @@
 //! | PLY | ASCII, binary of either endianness | element `vertex` |
 //! | OBJ | text | lines `v`, in the order of the file |
 //! | STL | ASCII and binary | corners, welded as in the first file of the set |
+//! | OFF | text | lines of points, in the order of the file |
 //! | VTK | legacy 2.0 to 5.1, ASCII and binary; XML (`.vtp`, `.vtu`) | `POINTS` |
 //!
 //! Polygons become fans of triangles. Where a file has both, triangles win over line segments. A reader never trusts
@@ -13,6 +14,7 @@
 //! **Limits.** Colours, normals, texture coordinates and all other attributes are skipped.
 
 pub(super) mod obj;
+pub(super) mod off;
 pub(super) mod ply;
 pub(super) mod stl;
 pub(super) mod vtk;
@@ -84,6 +86,28 @@ impl Mesh {
         })
     }
 
+    /// Takes the points in another order: `order` has for each place the point that comes there. Cells stay at their points.
+    pub(super) fn reorder(&mut self, order: &[usize]) {
+        let mut places = vec![0; order.len()];
+        for (place, &point) in order.iter().enumerate() {
+            places[point] = place;
+        }
+        let moved = |corner: &mut u32| {
+            *corner = u32::try_from(places[*corner as usize]).unwrap_or(*corner);
+        };
+        match &mut self.cells {
+            Cells::None => {}
+            Cells::Segments(cells) => cells.as_flattened_mut().iter_mut().for_each(moved),
+            Cells::Triangles(cells) => cells.as_flattened_mut().iter_mut().for_each(moved),
+        }
+        let of_point = |&point: &usize| {
+            self.points[point * self.dimension..(point + 1) * self.dimension].to_vec()
+        };
+        self.points = order.iter().flat_map(of_point).collect();
+        self.missing.iter_mut().for_each(|missing| missing.point = places[missing.point]);
+        self.missing.sort_by_key(|missing| missing.point);
+    }
+
     /// Number of points.
     pub(super) fn point_count(&self) -> usize {
         self.points.len() / self.dimension
@@ -110,7 +134,10 @@ pub(super) fn corners(cells: &Cells) -> &[u32] {
 
 /// Whether content is the mesh of one shape, with faces or lines.
 pub(super) fn is_mesh(content: Content) -> bool {
-    matches!(content, Content::Ply | Content::Obj | Content::Stl | Content::Vtk | Content::Vtp)
+    matches!(
+        content,
+        Content::Ply | Content::Obj | Content::Off | Content::Stl | Content::Vtk | Content::Vtp
+    )
 }
 
 /// Reads a single mesh; STL is welded by its own corners.
@@ -118,6 +145,7 @@ pub(super) fn read(content: Content, bytes: &[u8]) -> Result<Mesh, Fault> {
     let mesh = match content {
         Content::Ply => ply::read(bytes),
         Content::Obj => obj::read(bytes),
+        Content::Off => off::read(bytes),
         Content::Stl => {
             let corners = stl::corners(bytes)?;
             stl::Welding::of(&corners).mesh(&corners)

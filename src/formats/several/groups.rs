@@ -21,7 +21,7 @@ use super::populations::side_table;
 use super::{blendshapes, companions};
 use crate::formats::error::{Fault, FormatError};
 use crate::formats::input::paths::{ending, folder, is_junk, sort_naturally};
-use crate::formats::input::sniffing::Content;
+use crate::formats::input::sniffing::{self, Content};
 use crate::formats::input::{Input, compressed};
 use crate::formats::opened::{Opened, Options};
 use crate::formats::{landmarks, mesh};
@@ -187,7 +187,7 @@ fn sets(inputs: &[Input], contents: &[Option<Content>], rest: &[usize]) -> Vec<V
 fn is_set_by_itself(input: &Input, content: Content) -> bool {
     landmarks::is_landmarks(content)
         && compressed::unpacked(input)
-            .and_then(|input| input.bytes())
+            .and_then(|input| sniffing::text(&input))
             .is_ok_and(|bytes| landmarks::is_set(content, &bytes))
 }
 

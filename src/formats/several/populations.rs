@@ -18,7 +18,7 @@ use nalgebra::{DMatrix, DMatrixView};
 
 use crate::formats::input::sniffing::Content;
 use crate::formats::input::{Input, compressed, paths};
-use crate::formats::landmarks::{self, Specimen};
+use crate::formats::landmarks::{self, Landmarks, Specimen, order_by_name};
 use crate::formats::mesh::stl::Welding;
 use crate::formats::mesh::{self, Mesh, stl};
 use crate::formats::readers::cells;
@@ -174,7 +174,10 @@ pub(crate) struct Shapes {
     /// Points of all shapes, one after the other.
     values: Vec<f64>,
     count: usize,
-    contents: Vec<Content>,
+    /// What the shapes are called, of each file.
+    kinds: Vec<&'static str>,
+    /// Names of the landmarks of the first file that has some, and its name.
+    landmarks: Option<(String, Vec<String>)>,
     scales: Vec<Option<f64>>,
     notes: Vec<String>,
     /// What each shape is called, and which of its points are missing.
@@ -218,14 +221,7 @@ impl Shapes {
 
     /// "PLY meshes", "TPS landmarks".
     pub(crate) fn format(&self) -> String {
-        let name = |content: &Content| match content {
-            Content::Ply => "PLY meshes",
-            Content::Obj => "OBJ meshes",
-            Content::Stl => "STL meshes",
-            Content::Vtk | Content::Vtp => "VTK meshes",
-            content => landmarks::kind(*content),
-        };
-        let mut names: Vec<&str> = self.contents.iter().map(name).collect();
+        let mut names = self.kinds.clone();
         names.sort_unstable();
         names.dedup();
         names.join(" and ")
@@ -236,16 +232,22 @@ impl Shapes {
         let input = compressed::unpacked(input)?;
         let (content, bytes) = crate::formats::input::sniffing::read(&input)?;
         let refused = |fault: Fault| fault.of(&input.name);
-        self.contents.push(content);
+        self.kinds.push(kind_of(content));
         match content {
             Content::Stl => {
                 let corners = stl::corners(&bytes).map_err(refused)?;
                 self.add_corners(&input.name, input.file_name(), &corners)
             }
             content if landmarks::is_landmarks(content) => {
-                let landmarks =
+                let mut landmarks =
                     landmarks::read(content, &bytes, self.specimens.reading()).map_err(refused)?;
-                self.notes.extend(landmarks.notes);
+                if let (Some(kind), Some(last)) = (landmarks.kind, self.kinds.last_mut()) {
+                    *last = kind;
+                }
+                self.match_names(&input.name, &mut landmarks);
+                for note in landmarks.notes {
+                    self.note(note);
+                }
                 let specimens = landmarks.specimens;
                 let several = specimens.len() > 1;
                 for (index, mut specimen) in specimens.into_iter().enumerate() {
@@ -267,6 +269,37 @@ impl Shapes {
                 let mesh = mesh::read(content, &bytes).map_err(refused)?;
                 self.add(&input.name, Some(input.file_name()), &mut Specimen::new(mesh))
             }
+        }
+    }
+
+    /// Puts the landmarks of a file into the order of the first, where both have the same names.
+    fn match_names(&mut self, file: &str, landmarks: &mut Landmarks) {
+        if landmarks.point_names.is_empty() {
+            return;
+        }
+        let Some((first, names)) = &self.landmarks else {
+            self.landmarks = Some((file.to_owned(), core::mem::take(&mut landmarks.point_names)));
+            return;
+        };
+        let note = match order_by_name(names, &landmarks.point_names) {
+            Some(order) => {
+                for specimen in &mut landmarks.specimens {
+                    specimen.mesh.reorder(&order);
+                }
+                format!("Landmarks in another order than in {first} were matched by their names.")
+            }
+            None if *names != landmarks.point_names => format!(
+                "Landmarks have other names than in {first}, or names that occur twice: they were matched by their order."
+            ),
+            None => return,
+        };
+        self.note(note);
+    }
+
+    /// A note, once.
+    fn note(&mut self, note: String) {
+        if !self.notes.contains(&note) {
+            self.notes.push(note);
         }
     }
 
@@ -472,6 +505,18 @@ impl Shapes {
             notes,
             findings,
         })
+    }
+}
+
+/// What shapes of this content are called, several of them.
+fn kind_of(content: Content) -> &'static str {
+    match content {
+        Content::Ply => "PLY meshes",
+        Content::Obj => "OBJ meshes",
+        Content::Off => "OFF meshes",
+        Content::Stl => "STL meshes",
+        Content::Vtk | Content::Vtp => "VTK meshes",
+        content => landmarks::kind(content),
     }
 }
 
