@@ -67,6 +67,7 @@ impl Described {
 /// [`Error::Format`].
 pub fn open(inputs: &[Input], options: &Options) -> Result<Described, Error> {
     let opened = formats::open(inputs, options)?;
+    let of_arrays = opened.is_set_of_arrays();
     let part = opened.part;
     let model = match &part.map {
         Some(map) => part.model.with_point_numbers(map),
@@ -84,6 +85,11 @@ pub fn open(inputs: &[Input], options: &Options) -> Result<Described, Error> {
     }
     .with_reading(&options.reading, part.findings);
     let (used, idle) = match part.origin {
+        // Their coordinates have an order, too.
+        Origin::Shapes { .. } if of_arrays => (
+            Reading { modes: None, ..options.reading.clone() },
+            Reading { modes: options.reading.modes, ..Reading::default() },
+        ),
         Origin::Shapes { .. } => (options.reading.of_shapes(), options.reading.of_arrays()),
         _ => (options.reading.of_arrays(), options.reading.of_shapes()),
     };
@@ -191,6 +197,7 @@ fn reading_of_shapes(described: &Described, reading: &Reading) -> Reading {
         Origin::Shapes { .. } => Reading {
             scale: reading.scale,
             first_column: reading.first_column,
+            sides: reading.sides,
             missing: reading.missing,
             without_points: reading.without_points.clone(),
             ..Reading::default()

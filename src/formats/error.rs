@@ -10,9 +10,9 @@ use super::reading::Choice;
 use crate::model::ModelError;
 
 /// Formats that can be read, as listed to the user.
-pub(super) const ACCEPTED: &str = "Accepted: models (.h5, .h5.json, .mat, .npz, .npy, .pkl, .bin, .scm, .js, .json, .pca), \
+pub(super) const ACCEPTED: &str = "Accepted: models (.h5, .h5.json, .mat, .npz, .npy, .pkl, .rds, .rda, .bin, .scm, .js, .json, .pca), \
      folders of meshes or landmarks (.ply, .obj, .stl, .vtk, .vtp, .tps, .particles), \
-     and .gz or .zip around them.";
+     arrays of shapes (.npy, .npz, .mat, .h5, .pkl, .rds, .rda), and .gz, .bz2, .xz or .zip around them.";
 
 /// Why a file could not be read or written.
 #[derive(Debug, Clone, PartialEq)]
@@ -380,6 +380,9 @@ impl FormatError {
                 "Get the real file with `git lfs pull`, or from the repository's download link."
             }
             Fault::Unknown { .. } => ACCEPTED,
+            Fault::NoModel { format: "R data file", .. } => {
+                "Save an array of landmarks × coordinates × specimens, or what `prcomp` returns, with `saveRDS`."
+            }
             Fault::NoModel { .. } => {
                 "Export the model from statismo or Scalismo, or save its arrays as `mean`, `basis` and `eigenvalues` (variances) with `numpy.savez`."
             }

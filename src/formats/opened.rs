@@ -23,6 +23,16 @@ pub struct Opened {
     pub part: Part,
 }
 
+impl Opened {
+    /// Whether it was made here of arrays of shapes.
+    pub fn is_set_of_arrays(&self) -> bool {
+        matches!(self.part.origin, Origin::Shapes { .. }) && self.format.starts_with(OF_ARRAYS)
+    }
+}
+
+/// How the formats of arrays of shapes begin.
+const OF_ARRAYS: &str = "shapes in ";
+
 /// One model of a file.
 #[derive(Debug, Clone)]
 pub struct Part {

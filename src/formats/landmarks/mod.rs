@@ -14,7 +14,7 @@ pub(super) mod tps;
 use super::error::Fault;
 use super::input::sniffing::Content;
 use super::mesh::{self, Mesh};
-use super::reading::Reading;
+use super::reading::{Finding, Reading};
 
 /// The specimens of one file.
 #[derive(Debug, Default, PartialEq)]
@@ -25,6 +25,8 @@ pub(super) struct Landmarks {
     pub(super) point_names: Vec<String>,
     /// Notes for the user, each one sentence.
     pub(super) notes: Vec<String>,
+    /// What the user should look at, with readings to choose from.
+    pub(super) findings: Vec<Finding>,
 }
 
 /// The landmarks of one specimen.
@@ -69,6 +71,11 @@ pub(super) fn is_set(content: Content, bytes: &[u8]) -> bool {
 pub(super) fn kind(content: Content) -> &'static str {
     match content {
         Content::Tps => "TPS landmarks",
+        Content::Npy | Content::Zip => "shapes in NumPy arrays",
+        Content::Mat4 | Content::Mat5 => "shapes in a MATLAB file",
+        Content::Hdf5 => "shapes in an HDF5 file",
+        Content::Pickle => "shapes in a Python pickle",
+        Content::RData => "shapes in an R data file",
         _ => "lists of points",
     }
 }

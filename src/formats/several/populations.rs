@@ -18,10 +18,10 @@ use nalgebra::{DMatrix, DMatrixView};
 
 use crate::formats::input::sniffing::Content;
 use crate::formats::input::{Input, compressed, paths};
-use crate::formats::landmarks;
+use crate::formats::landmarks::{self, Landmarks};
 use crate::formats::mesh::stl::Welding;
 use crate::formats::mesh::{self, Mesh, stl};
-use crate::formats::readers::cells;
+use crate::formats::readers::{cells, named_arrays};
 use crate::formats::reading::{Finding, Reading};
 use crate::formats::several::naming::name_of;
 use crate::formats::several::specimens::{self, Specimens};
@@ -54,6 +54,27 @@ pub(crate) fn read(inputs: &[Input], options: &Options) -> Result<Opened, Format
     Ok(Opened { format, parts: vec![part.name.clone()], part })
 }
 
+/// Makes a model of the shapes in a file of arrays; `None` when they are none.
+pub(crate) fn read_arrays(
+    input: &Input,
+    content: Content,
+    options: &Options,
+) -> Result<Option<Opened>, FormatError> {
+    let reading = &options.reading;
+    let refused = |fault: Fault| fault.of(&input.name);
+    let wanted = options.part.as_deref();
+    let found = named_arrays::read_shapes(input, content, wanted, reading).map_err(refused)?;
+    let Some(set) = found else { return Ok(None) };
+    let mut shapes = Shapes::new(reading);
+    shapes.contents.push(content);
+    shapes.add_landmarks(input, set.landmarks)?;
+    let format = shapes.format();
+    let file = input.file_name();
+    let name = if set.parts.len() > 1 { format!("{file}#{}", set.part) } else { file.to_owned() };
+    let part = shapes.into_part(&name, 0).map_err(refused)?;
+    Ok(Some(Opened { format, parts: set.parts, part: Part { name: set.part, ..part } }))
+}
+
 /// Shapes in correspondence, as they are in their files.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShapeSet {
@@ -81,7 +102,11 @@ pub fn read_shapes(inputs: &[Input], reading: &Reading) -> Result<ShapeSet, Form
     let shape_endings: Vec<String> = inputs
         .iter()
         .zip(&contents)
-        .filter(|(_, content)| content.is_some_and(landmarks::is_shape))
+        .filter(|(_, content)| {
+            content.is_some_and(|content| {
+                landmarks::is_shape(content) || named_arrays::is_arrays(content)
+            })
+        })
         .map(|(input, _)| paths::ending(input.file_name()))
         .collect();
     if !shape_endings.is_empty() {
@@ -98,8 +123,9 @@ pub fn read_shapes(inputs: &[Input], reading: &Reading) -> Result<ShapeSet, Form
     let refused = |fault: Fault| fault.of(&name);
     let population =
         shapes.into_population().map_err(refused)?.ok_or_else(|| refused(Fault::Empty))?;
-    let Population { dimension, shapes, specimens, .. } = population;
-    let findings = specimens.findings(dimension, &shapes);
+    let Population { dimension, shapes, specimens, findings: of_files, .. } = population;
+    let mut findings = specimens.findings(dimension, &shapes);
+    findings.extend(of_files);
     Ok(ShapeSet { dimension, shapes, findings })
 }
 
@@ -125,6 +151,8 @@ pub(crate) struct Shapes {
     contents: Vec<Content>,
     scales: Vec<Option<f64>>,
     notes: Vec<String>,
+    /// How files were read that leave it open.
+    findings: Vec<Finding>,
     /// What each shape is called, and which of its points are missing.
     specimens: Specimens,
 }
@@ -139,6 +167,8 @@ pub(crate) struct Population {
     pub(crate) cells: Cells,
     /// Notes for the user.
     pub(crate) notes: Vec<String>,
+    /// How files were read that leave it open.
+    pub(crate) findings: Vec<Finding>,
     /// Names of the specimens that are left.
     pub(crate) specimens: Specimens,
 }
@@ -193,20 +223,15 @@ impl Shapes {
             content if landmarks::is_landmarks(content) => {
                 let landmarks =
                     landmarks::read(content, &bytes, self.specimens.reading()).map_err(refused)?;
-                self.notes.extend(landmarks.notes);
-                let specimens = landmarks.specimens;
-                let several = specimens.len() > 1;
-                for (index, specimen) in specimens.into_iter().enumerate() {
-                    let name = if several {
-                        format!("{}, specimen {}", input.name, index + 1)
-                    } else {
-                        input.name.clone()
-                    };
-                    self.scales.push(specimen.scale);
-                    let file = (!several).then(|| input.file_name());
-                    self.add(&name, file, specimen.mesh)?;
+                self.add_landmarks(&input, landmarks)
+            }
+            content if named_arrays::is_arrays(content) => {
+                let reading = self.specimens.reading();
+                let found = named_arrays::read_shapes(&input, content, None, reading);
+                match found.map_err(refused)? {
+                    Some(set) => self.add_landmarks(&input, set.landmarks),
+                    None => Err(refused(Fault::NoShape { format: content.name() })),
                 }
-                Ok(())
             }
             content if !landmarks::is_shape(content) => {
                 Err(refused(Fault::NoShape { format: content.name() }))
@@ -216,6 +241,25 @@ impl Shapes {
                 self.add(&input.name, Some(input.file_name()), mesh)
             }
         }
+    }
+
+    /// Adds the specimens of a file.
+    fn add_landmarks(&mut self, input: &Input, landmarks: Landmarks) -> Result<(), FormatError> {
+        self.notes.extend(landmarks.notes);
+        self.findings.extend(landmarks.findings);
+        let specimens = landmarks.specimens;
+        let several = specimens.len() > 1;
+        for (index, specimen) in specimens.into_iter().enumerate() {
+            let name = if several {
+                format!("{}, specimen {}", input.name, index + 1)
+            } else {
+                input.name.clone()
+            };
+            self.scales.push(specimen.scale);
+            let file = (!several).then(|| input.file_name());
+            self.add(&name, file, specimen.mesh)?;
+        }
+        Ok(())
     }
 
     fn add_corners(
@@ -331,15 +375,21 @@ impl Shapes {
         let specimens::Chosen { shapes, cells, notes } =
             self.specimens.choose(dimension, shapes, cells)?;
         self.notes.extend(notes);
-        let (notes, specimens) = (self.notes, self.specimens);
-        Ok(Some(Population { dimension, shapes, cells, notes, specimens }))
+        let (notes, findings, specimens) = (self.notes, self.findings, self.specimens);
+        Ok(Some(Population { dimension, shapes, cells, notes, findings, specimens }))
     }
 
     fn into_part(self, name: &str, local: usize) -> Result<Part, Fault> {
         let scaled = self.specimens.reading().scale;
         let Some(population) = self.into_population()? else { return Err(Fault::Empty) };
-        let Population { dimension, mut shapes, cells: mut drawn, notes: file_notes, specimens } =
-            population;
+        let Population {
+            dimension,
+            mut shapes,
+            cells: mut drawn,
+            notes: file_notes,
+            findings: of_files,
+            specimens,
+        } = population;
         let count = shapes.ncols();
         if count < 3 {
             return Err(Fault::Model(ModelError::TooFewShapes { found: count }));
@@ -365,6 +415,7 @@ impl Shapes {
         notes.extend(cells::turn_outwards(&mut drawn, model.mean().as_slice(), dimension));
         let model = model.with_cells(drawn).map_err(Fault::Model)?.with_name(name);
         findings.extend(specimens.first_column_finding());
+        findings.extend(of_files);
         Ok(Part {
             name: "shape".to_owned(),
             model,
