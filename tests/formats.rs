@@ -117,7 +117,7 @@ fn the_corpus_gives_the_format_or_the_exact_sentence() {
         .map(Result::unwrap)
         .filter(|entry| entry.file_type().unwrap().is_file())
         .map(|entry| entry.file_name().into_string().unwrap())
-        .filter(|name| !name.ends_with(".py") && !name.ends_with(".json"))
+        .filter(|name| ![".py", ".R", ".json"].iter().any(|ending| name.ends_with(ending)))
         .collect();
     for row in rows {
         assert!(!row.origin.is_empty(), "{}: a case has an origin", row.file);

@@ -18,6 +18,7 @@ mod export;
 mod first;
 mod fits;
 mod formats;
+mod formats_arrays;
 mod formats_landmarks;
 mod formats_meshes;
 mod formats_small;

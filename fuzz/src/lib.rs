@@ -69,7 +69,7 @@ fn watched(files: &[&[u8]], work: impl Fn()) {
 
 /// Whether a file may hold compressed bytes: HDF5 and ZIP may begin behind others.
 fn is_compressed(file: &[u8]) -> bool {
-    const SIGNATURES: [&[u8]; 4] = [b"PK", b"HDF", b"MATLAB", b"comp"];
+    const SIGNATURES: [&[u8]; 6] = [b"PK", b"HDF", b"MATLAB", b"comp", b"BZh", b"\xfd7zXZ"];
     let begins = |at: usize| SIGNATURES.iter().any(|signature| file[at..].starts_with(signature));
     file.starts_with(b"\x1f\x8b") || (0..file.len()).any(begins)
 }
@@ -136,10 +136,8 @@ fn open_files(data: &[u8]) {
         let files: Vec<Input> = group.files.iter().map(|&file| inputs[file].clone()).collect();
         let _ = formats::open(&files, &Options::default());
     }
-    let _ = formats::open(
-        &inputs,
-        &Options { reading: "scale".parse().unwrap_or_default(), ..Options::default() },
-    );
+    let scaled = formats::Reading { scale: true, ..Default::default() };
+    let _ = formats::open(&inputs, &Options { reading: scaled, ..Options::default() });
 }
 
 /// `data` with its first bytes replaced.
@@ -219,6 +217,15 @@ pub fn pickle(data: &[u8]) -> Vec<u8> {
         Some(b'(') => forced(data, b"(dp0\n"),
         Some(b'}') => forced(data, b"}q\0("),
         _ => forced(data, &[0x80, data.get(1).map_or(2, |byte| 2 + byte % 4)]),
+    }
+}
+
+/// R data of either form: the letter and the versions at the start, of `saveRDS` or of `save`.
+pub fn rdata(data: &[u8]) -> Vec<u8> {
+    match data.first() {
+        Some(b'A') => forced(data, b"A\n2\n262658\n131840\n"),
+        Some(b'R') => forced(data, b"RDX2\nX\n\0\0\0\x02"),
+        _ => forced(data, b"X\n\0\0\0\x02"),
     }
 }
 

@@ -96,9 +96,10 @@ pub fn open(inputs: &[Input], options: &Options) -> Result<Described, Error> {
 /// The words about arrays that say nothing about a set of shapes.
 fn without(reading: &Reading, used: &Reading) -> Reading {
     let Reading { dimension, order, modes, .. } = reading.of_arrays();
+    let sides = reading.sides.filter(|_| used.sides.is_none());
     let dimension = dimension.filter(|_| used.dimension.is_none());
     let order = order.filter(|_| used.order.is_none());
-    Reading { dimension, order, modes, ..Reading::default() }
+    Reading { dimension, order, modes, sides, ..Reading::default() }
 }
 
 /// That words of a reading say nothing about what was opened.
@@ -200,6 +201,7 @@ fn reading_of_shapes(described: &Described, reading: &Reading) -> Reading {
         Origin::Shapes { .. } => Reading {
             scale: reading.scale,
             first_column: reading.first_column,
+            sides: reading.sides,
             missing: reading.missing,
             without_points: reading.without_points.clone(),
             ..Reading::default()

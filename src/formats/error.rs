@@ -10,10 +10,10 @@ use super::reading::Choice;
 use crate::model::ModelError;
 
 /// Formats that can be read, as listed to the user.
-pub(super) const ACCEPTED: &str = "Accepted: models (.h5, .h5.json, .mat, .npz, .npy, .pkl, .bin, .scm, .js, .json, .pca), \
+pub(super) const ACCEPTED: &str = "Accepted: models (.h5, .h5.json, .mat, .npz, .npy, .pkl, .rds, .rda, .bin, .scm, .js, .json, .pca), \
      folders of meshes (.ply, .obj, .off, .stl, .vtk, .vtp) or landmarks (.tps, .csv, .txt, .nts, .dta, .pts, .particles, \
      .mrk.json, .fcsv, .landmarkAscii, .pp, .asf, .json of Scalismo), \
-     and .gz or .zip around them.";
+     arrays of shapes (.npy, .npz, .mat, .h5, .pkl, .rds, .rda), and .gz, .bz2, .xz or .zip around them.";
 
 /// Why a file could not be read or written.
 #[derive(Debug, Clone, PartialEq)]
@@ -405,6 +405,9 @@ impl FormatError {
                 "Get the real file with `git lfs pull`, or from the repository's download link."
             }
             Fault::Unknown { .. } => ACCEPTED,
+            Fault::NoModel { format: "R data file", .. } => {
+                "Save an array of landmarks × coordinates × specimens, or what `prcomp` returns, with `saveRDS`."
+            }
             Fault::NoModel { .. } => {
                 "Export the model from statismo or Scalismo, or save its arrays as `mean`, `basis` and `eigenvalues` (variances) with `numpy.savez`."
             }

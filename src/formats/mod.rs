@@ -44,7 +44,7 @@ pub use input::{Input, Storage};
 pub use open::open;
 pub use opened::{Opened, Options, Origin, Part};
 pub use reading::{
-    Applied, Choice, Finding, FirstColumn, Missing, ModeLength, Order, Reading, ReadingError,
+    Applied, Choice, Finding, FirstColumn, Missing, ModeLength, Order, Reading, ReadingError, Side,
 };
 pub use several::groups::{Group, groups};
 pub use several::populations::{ShapeSet, read_shapes, read_specimens};

@@ -41,7 +41,8 @@ fn open_within(inputs: &[Input], options: &Options, depth: u8) -> Result<Opened,
 
 /// Reads a single file.
 fn open_one(input: &Input, options: &Options, depth: u8) -> Result<Opened, FormatError> {
-    match sniff(input)? {
+    let content = sniff(input)?;
+    let opened = match content {
         Content::Hdf5 => match statismo::read(input, options) {
             Err(FormatError { fault: fault @ Fault::NoModel { .. }, .. }) => {
                 named_arrays::read_hdf5(input, options, fault)
@@ -52,6 +53,7 @@ fn open_one(input: &Input, options: &Options, depth: u8) -> Result<Opened, Forma
         Content::Mat4 => named_arrays::read_mat(input, options, mat4::index),
         Content::Npy => named_arrays::read_npy(input, options),
         Content::Pickle => named_arrays::read_pickle(input, options),
+        Content::RData => named_arrays::read_r(input, options),
         Content::Json => open_json(input, options),
         Content::Clmtrackr => clmtrackr::read(input, options),
         Content::Eos => eos::read(input, options),
@@ -59,10 +61,18 @@ fn open_one(input: &Input, options: &Options, depth: u8) -> Result<Opened, Forma
         Content::PointPca => point_pca::read(input, options),
         Content::Deep3d => Err(deep3d::alone().of(&input.name)),
         Content::Zip => open_zip(input, options, depth),
-        Content::Gzip => open_gzip(input, options, depth),
+        Content::Gzip | Content::Bzip2 | Content::Xz => open_packed(input, options, depth),
         Content::Tps => populations::read(core::slice::from_ref(input), options),
         content if landmarks::is_landmarks(content) => open_landmarks(input, content, options),
         other => Err(Fault::Alone { format: other.name() }.of(&input.name)),
+    };
+    let without_model =
+        |fault: &Fault| matches!(fault, Fault::NoModel { .. } | Fault::OneArray { .. });
+    match opened {
+        Err(error) if without_model(&error.fault) && named_arrays::is_arrays(content) => {
+            populations::read_arrays(input, content, options)?.ok_or(error)
+        }
+        opened => opened,
     }
 }
 
@@ -165,8 +175,8 @@ fn with_faces(mut opened: Opened, input: &Input) -> Opened {
     opened
 }
 
-/// Opens what is in a gzip file.
-fn open_gzip(input: &Input, options: &Options, depth: u8) -> Result<Opened, FormatError> {
+/// Opens what is in a gzip, bzip2 or xz file.
+fn open_packed(input: &Input, options: &Options, depth: u8) -> Result<Opened, FormatError> {
     if depth >= DEEPEST {
         return Err(Fault::Nested.of(&input.name));
     }
@@ -181,10 +191,13 @@ fn open_zip(input: &Input, options: &Options, depth: u8) -> Result<Opened, Forma
     if !members.is_empty() && members.iter().all(|member| is_array(&member)) {
         return named_arrays::read_npz(input, options);
     }
-    if members.iter().any(|member| is_array(&member))
-        && let Ok(opened) = named_arrays::read_npz(input, options)
-    {
-        return Ok(opened);
+    if members.iter().any(|member| is_array(&member)) {
+        if let Ok(opened) = named_arrays::read_npz(input, options) {
+            return Ok(opened);
+        }
+        if let Ok(Some(opened)) = populations::read_arrays(input, Content::Zip, options) {
+            return Ok(opened);
+        }
     }
     if members.iter().any(|member| member.name == "xl/workbook.xml") {
         return Err(Fault::Spreadsheet.of(&input.name));

@@ -25,14 +25,20 @@ pub struct Opened {
 
 impl Opened {
     /// What of `reading` says something about a set of shapes: the dimension and the order of coordinates only where the
-    /// file leaves them open.
+    /// file leaves them open, as arrays do.
     pub fn reading_of_shapes(&self, reading: &Reading) -> Reading {
+        if self.format.starts_with(OF_ARRAYS) {
+            return Reading { modes: None, ..reading.clone() };
+        }
         let is = |kind: &str| self.format.split(" and ").any(|format| format == kind);
         let dimension = reading.dimension.filter(|_| is(ROWS) || is(NTS_WITHOUT_DIMENSION));
         let order = reading.order.filter(|_| is(ROWS));
-        Reading { dimension, order, ..reading.of_shapes() }
+        Reading { dimension, order, sides: None, ..reading.of_shapes() }
     }
 }
+
+/// How the formats of arrays of shapes begin.
+const OF_ARRAYS: &str = "shapes in ";
 
 /// One model of a file.
 #[derive(Debug, Clone)]

@@ -8,6 +8,7 @@
 //! | `scale` | the shapes of a set are also brought to one size |
 //! | `dimension=2`, `dimension=3` | coordinates per point |
 //! | `order=points`, `order=axes` | x y z of each point in turn, or all x, then all y, then all z |
+//! | `sides=spc`, `sides=pcs` … | what the sides of an array of shapes are: specimens, points, coordinates |
 //! | `modes=unit`, `modes=scaled` | modes are to be multiplied by their standard deviations, or are already |
 //! | `first-column=number`, `first-column=coordinate` | what the first column of a list of points is |
 //! | `missing=specimens`, `missing=points` | specimens, or points, with a missing landmark are left out |
@@ -44,6 +45,41 @@ pub enum Order {
     Points,
     /// x₀ x₁ … y₀ y₁ …
     Axes,
+}
+
+/// What a side of an array of shapes counts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// Specimens.
+    Specimens,
+    /// Points of a specimen.
+    Points,
+    /// Coordinates of a point.
+    Coordinates,
+}
+
+impl Side {
+    /// All ways to order the sides of an array of shapes.
+    pub(super) const ORDERS: [[Self; 3]; 6] = {
+        const S: Side = Side::Specimens;
+        const P: Side = Side::Points;
+        const C: Side = Side::Coordinates;
+        [[S, P, C], [P, C, S], [C, P, S], [S, C, P], [P, S, C], [C, S, P]]
+    };
+
+    /// What it is called, and the letter for it.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Specimens => "specimens",
+            Self::Points => "points",
+            Self::Coordinates => "coordinates",
+        }
+    }
+}
+
+/// The first letters of three sides: "spc".
+fn letters(sides: [Side; 3]) -> String {
+    sides.iter().filter_map(|side| side.name().chars().next()).collect()
 }
 
 /// What the length of the modes is.
@@ -87,6 +123,8 @@ pub struct Reading {
     pub dimension: Option<usize>,
     /// Order of the coordinates.
     pub order: Option<Order>,
+    /// What the sides of an array of shapes are.
+    pub sides: Option<[Side; 3]>,
     /// Length of the modes.
     pub modes: Option<ModeLength>,
     /// What the first column of a list of points is.
@@ -138,7 +176,7 @@ impl ReadingError {
     /// Stable code, for programs.
     pub const CODE: &'static str = "reading";
     /// What to do next.
-    pub const HINT: &'static str = "Words are scale, dimension=2, order=axes, modes=scaled, first-column=number, missing=specimens, without=4, without-points=3, mirror=4, where=side:left, group=sex:female, adjust=size, rescale=4:1000, start=4:12 and reverse=4:12, apart by blanks.";
+    pub const HINT: &'static str = "Words are scale, dimension=2, order=axes, sides=spc, modes=scaled, first-column=number, missing=specimens, without=4, without-points=3, mirror=4, where=side:left, group=sex:female, adjust=size, rescale=4:1000, start=4:12 and reverse=4:12, apart by blanks.";
 }
 
 impl FromStr for Reading {
@@ -157,6 +195,12 @@ impl FromStr for Reading {
                 ("order", "points") => reading.order = Some(Order::Points),
                 ("order", "axes") => reading.order = Some(Order::Axes),
                 ("order", _) => return Err(wrong("order=points or order=axes")),
+                ("sides", letters) => {
+                    let of_letters = |sides: &[Side; 3]| self::letters(*sides) == letters;
+                    let found = Side::ORDERS.into_iter().find(of_letters);
+                    let expected = "sides= and the letters s, p and c in the order of specimens, points and coordinates";
+                    reading.sides = Some(found.ok_or_else(|| wrong(expected))?);
+                }
                 ("modes", "unit") => reading.modes = Some(ModeLength::Unit),
                 ("modes", "scaled") => reading.modes = Some(ModeLength::Scaled),
                 ("modes", _) => return Err(wrong("modes=unit or modes=scaled")),
@@ -219,7 +263,7 @@ impl FromStr for Reading {
                 }
                 _ => {
                     return Err(wrong(
-                        "one of scale, dimension=, order=, modes=, first-column=, missing=, without=, without-points=, mirror=, where=, group=, adjust=, rescale=, start=, reverse=",
+                        "one of scale, dimension=, order=, sides=, modes=, first-column=, missing=, without=, without-points=, mirror=, where=, group=, adjust=, rescale=, start=, reverse=",
                     ));
                 }
             }
@@ -261,6 +305,7 @@ impl Reading {
         words.extend(self.order.map(|order| {
             format!("order={}", if order == Order::Points { "points" } else { "axes" })
         }));
+        words.extend(self.sides.map(|sides| format!("sides={}", letters(sides))));
         words.extend(self.modes.map(|modes| {
             format!("modes={}", if modes == ModeLength::Unit { "unit" } else { "scaled" })
         }));
@@ -347,6 +392,11 @@ impl Reading {
                 }
             };
             step(sentence.to_owned(), &|reading| reading.order = None);
+        }
+        if let Some(sides) = self.sides {
+            let names = sides.map(Side::name).join(" × ");
+            let sentence = format!("The sides of the array of shapes were taken as {names}.");
+            step(sentence, &|reading| reading.sides = None);
         }
         if let Some(modes) = self.modes {
             let sentence = match modes {

@@ -1,4 +1,4 @@
-//! Reads files that contain named arrays, whatever these mean: NumPy, MATLAB, HDF5, JSON, pickles, tables.
+//! Reads files that contain named arrays, whatever these mean: NumPy, MATLAB, HDF5, JSON, pickles, R, tables.
 
 pub(crate) mod arrays;
 pub(crate) mod bytes;
@@ -13,6 +13,7 @@ pub(crate) mod npy;
 pub(crate) mod npz;
 pub(crate) mod pickle;
 pub(crate) mod pickle_arrays;
+pub(crate) mod rdata;
 pub(crate) mod tables;
 pub(crate) mod tree;
 
@@ -32,6 +33,12 @@ pub(crate) trait NamedArrays {
 
     /// Reads an array.
     fn read(&mut self, name: &str) -> Result<Array, Fault>;
+
+    /// What the entries along each side of an array are called, or the items of a list of arrays; empty lists, or none at
+    /// all, where the container does not say it.
+    fn labels(&self, _name: &str) -> Vec<Vec<String>> {
+        Vec::new()
+    }
 
     /// What is wrong with the container as a whole, though some of it may be read.
     fn damage(&self) -> Option<Fault> {

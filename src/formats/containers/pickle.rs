@@ -12,6 +12,8 @@
 //! | BUILD | the state of the object that the call would give |
 //! | `p`, `q`, MEMOIZE; `g`, `h` | values noted for later, and had again |
 //!
+//! joblib writes the bytes of an array behind its object, between the instructions; they are passed where they are.
+//!
 //! A model is a dictionary, or an object whose state is one; names are text or bytes (gias3). Inner
 //! dictionaries give dotted names.
 //!
@@ -25,6 +27,12 @@ use crate::formats::error::Fault;
 
 /// Most values on the stack, and in all.
 const MOST: usize = 1 << 21;
+
+/// The class of the objects that stand for arrays in joblib's pickles.
+pub(crate) const JOBLIB_ARRAY: &str = "joblib.numpy_pickle.NumpyArrayWrapper";
+
+/// Most entries of the state of such an object; it has six.
+const MOST_OF_JOBLIB: usize = 16;
 
 /// Number of a [`Value`] in [`Heap`].
 pub(crate) type Id = usize;
@@ -301,6 +309,7 @@ impl<'a> Machine<'a> {
                 if let Some(Value::Call { state, .. }) = self.heap.values.get_mut(object) {
                     *state = Some(new);
                 }
+                self.pass_joblib_array(object, new)?;
             }
             // Things that are elsewhere: persistent ones, registered classes, outer buffers.
             b'P' => {
@@ -348,6 +357,74 @@ impl<'a> Machine<'a> {
             _ => return Err(Stop::Reason("it has an unknown instruction")),
         }
         Ok(None)
+    }
+
+    /// joblib writes the bytes of an array behind the object that stands for it: here the object is given them, as its
+    /// arguments. Arrays of Python objects are pickles of their own, which are not read.
+    fn pass_joblib_array(&mut self, object: Id, state: Id) -> Result<(), Stop> {
+        let Value::Call { class, .. } = *self.heap.get(object) else { return Ok(()) };
+        let Value::Class(module, name) = *self.heap.get(class) else { return Ok(()) };
+        let (module, name) = (self.raw(module), self.raw(name));
+        if JOBLIB_ARRAY.as_bytes() != [module, b".", name].concat() {
+            return Ok(());
+        }
+        const OF_OBJECTS: Stop =
+            Stop::Reason("it has an array of Python objects as joblib writes them");
+        let length = self.joblib_length(state).ok_or(OF_OBJECTS)?;
+        let aligned = self.joblib_entry(state, b"numpy_array_alignment_bytes");
+        if matches!(aligned.map(|id| self.heap.get(id)), Some(Value::Integer(_))) {
+            let [padding] = self.array()?;
+            self.skip(usize::from(padding))?;
+        }
+        let span = self.span(length, Coding::Raw)?;
+        let bytes = self.add(Value::Bytes(span))?;
+        if let Some(Value::Call { arguments, .. }) = self.heap.values.get_mut(object) {
+            *arguments = bytes;
+        }
+        Ok(())
+    }
+
+    /// Bytes of text in the file.
+    fn raw(&self, span: Span) -> &[u8] {
+        self.heap.bytes.get(span.start..span.end).unwrap_or_default()
+    }
+
+    /// The value of a name in the state of an object of joblib.
+    fn joblib_entry(&self, state: Id, name: &[u8]) -> Option<Id> {
+        let Value::Dict(items) = self.heap.get(state) else { return None };
+        let is_it = |(key, _): &&(Id, Id)| match self.heap.get(*key) {
+            Value::Text(span) | Value::Bytes(span) => self.raw(*span) == name,
+            _ => false,
+        };
+        items.iter().take(MOST_OF_JOBLIB).find(is_it).map(|pair| pair.1)
+    }
+
+    /// Bytes of an array of joblib: the width of its type, `dtype('f8')`, times its sides.
+    fn joblib_length(&self, state: Id) -> Option<usize> {
+        let Value::Call { arguments, .. } = self.heap.get(self.joblib_entry(state, b"dtype")?)
+        else {
+            return None;
+        };
+        let (Value::Tuple(arguments), Value::Tuple(sides)) =
+            (self.heap.get(*arguments), self.heap.get(self.joblib_entry(state, b"shape")?))
+        else {
+            return None;
+        };
+        let kind = match self.heap.get(*arguments.first()?) {
+            Value::Text(span) | Value::Bytes(span) => *span,
+            _ => return None,
+        };
+        let (class, width) = self.ascii(kind).split_at_checked(1)?;
+        let width: usize = width.parse().ok()?;
+        let width = match class {
+            "U" => width.checked_mul(4)?,
+            "O" => return None,
+            _ => width,
+        };
+        sides.iter().try_fold(width, |length, side| match self.heap.get(*side) {
+            Value::Integer(side) => length.checked_mul(usize::try_from(*side).ok()?),
+            _ => None,
+        })
     }
 
     fn array<const N: usize>(&mut self) -> Result<[u8; N], Stop> {

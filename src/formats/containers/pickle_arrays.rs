@@ -9,7 +9,10 @@
 //! | bytes in protocols 0–2 of Python 3 | `_codecs.encode(text, 'latin1')` |
 //! | `chumpy.ch.Ch` | an object with the state {x: array} |
 //! | `chumpy.reordering.Select` | one with the state {a: array, idxs: places in it, preferred_shape} |
+//! | array of joblib | `NumpyArrayWrapper` with the state {shape, order, dtype}, then its bytes |
 //! | list of numbers, or of such lists | itself |
+//! | list of arrays | `name[0]`, `name[1]` … |
+//! | scikit-learn's PCA | its state, a dictionary |
 //!
 //! All else is reported by the name of its class: sparse matrices (`J_regressor`), tensors.
 //!
@@ -22,7 +25,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::formats::containers::NamedArrays;
 use crate::formats::containers::arrays::{Array, Data, count_of, trimmed};
 use crate::formats::containers::npy::{self, Header};
-use crate::formats::containers::pickle::{Coding, Heap, Id, Machine, Span, Value};
+use crate::formats::containers::pickle::{Coding, Heap, Id, JOBLIB_ARRAY, Machine, Span, Value};
 use crate::formats::error::Fault;
 use crate::formats::input::largest_array;
 
@@ -52,6 +55,9 @@ pub(crate) struct Objects<'a> {
     container: &'static str,
     limit: u64,
 }
+
+/// What a single array is called, which has no name.
+const ALONE: &str = "array";
 
 /// What objects are that are followed no further.
 const TOO_DEEP: &str = "objects nested too deeply";
@@ -85,6 +91,20 @@ enum Found {
 impl<'a> Objects<'a> {
     /// What is in a pickle; a fault when that is a single array.
     pub(crate) fn open(bytes: &'a [u8], container: &'static str) -> Result<Self, Fault> {
+        let objects = Self::of_array(bytes, container)?;
+        let is_alone = objects.names.get(ALONE) == Some(&objects.root);
+        match objects.find(objects.root) {
+            Found::Array { header: Header { shape, .. }, .. } | Found::Picked { shape, .. }
+                if is_alone =>
+            {
+                Err(Fault::OneArray { shape })
+            }
+            _ => Ok(objects),
+        }
+    }
+
+    /// The same, where a single array is one with the name [`ALONE`].
+    pub(crate) fn of_array(bytes: &'a [u8], container: &'static str) -> Result<Self, Fault> {
         let (heap, root) = Machine::run(bytes)?;
         let limit = largest_array(heap.bytes.len());
         let mut objects = Self { heap, root, names: BTreeMap::new(), container, limit };
@@ -97,8 +117,10 @@ impl<'a> Objects<'a> {
                     objects.root = item;
                 }
             }
-            Found::Array { header, .. } => return Err(Fault::OneArray { shape: header.shape }),
-            Found::Picked { shape, .. } => return Err(Fault::OneArray { shape }),
+            Found::Array { .. } | Found::Picked { .. } => {
+                objects.names.insert(ALONE.to_owned(), root);
+                return Ok(objects);
+            }
             _ => {}
         }
         objects.collect(objects.root, "", 0, &mut BTreeSet::new());
@@ -123,7 +145,7 @@ impl<'a> Objects<'a> {
         match self.heap.get(id) {
             Value::Dict(items) => entries.clone_from(items),
             Value::Call { items, .. } if !items.is_empty() => entries.clone_from(items),
-            Value::Call { state: Some(state), .. } if depth == 0 => {
+            Value::Call { state: Some(state), .. } if depth == 0 || self.is_of_scikit_learn(id) => {
                 if let Value::Dict(items) = self.heap.get(*state) {
                     entries.clone_from(items);
                 }
@@ -138,15 +160,32 @@ impl<'a> Objects<'a> {
             let full = format!("{prefix}{name}");
             let is_dict = match self.heap.get(value) {
                 Value::Dict(_) => true,
-                Value::Call { items, .. } => !items.is_empty(),
+                Value::Call { items, .. } => !items.is_empty() || self.is_of_scikit_learn(value),
                 _ => false,
             };
             if is_dict && depth < DEEPEST_NAMES && !seen.contains(&value) {
                 self.collect(value, &format!("{full}."), depth + 1, seen);
+            } else if let Some(items) = self.arrays_in_list(value) {
+                for (place, item) in items.into_iter().enumerate().take(MOST_NAMES) {
+                    self.names.insert(format!("{full}[{place}]"), item);
+                }
             } else {
                 self.names.insert(full, value);
             }
         }
+    }
+
+    /// The items of a list of two or more arrays.
+    fn arrays_in_list(&self, id: Id) -> Option<Vec<Id>> {
+        let (Value::List(items) | Value::Tuple(items)) = self.heap.get(id) else { return None };
+        let is_array = |item: &Id| matches!(self.find(*item), Found::Array { .. });
+        (items.len() > 1 && items.len() <= MOST_NAMES && items.iter().all(is_array))
+            .then(|| items.clone())
+    }
+
+    /// Whether an object is one of scikit-learn, whose state holds a model.
+    fn is_of_scikit_learn(&self, id: Id) -> bool {
+        self.class_of(id).is_some_and(|class| class.starts_with("sklearn."))
     }
 
     /// The fault of a pickle that has an object where arrays were expected.
@@ -238,6 +277,9 @@ impl<'a> Objects<'a> {
 
     /// An array of NumPy, made by the function `class`.
     fn array_of(&self, class: &str, arguments: Id, state: Option<Id>) -> Option<Found> {
+        if class == JOBLIB_ARRAY {
+            return self.array_of_joblib(arguments, state);
+        }
         let (module, function) = class.rsplit_once('.')?;
         if !module.starts_with("numpy") {
             return None;
@@ -262,6 +304,15 @@ impl<'a> Objects<'a> {
             return Some(Found::Objects(data));
         }
         Some(Found::Array { header, data: self.span(data)? })
+    }
+
+    /// An array of joblib, whose bytes lie in the file behind the object.
+    fn array_of_joblib(&self, arguments: Id, state: Option<Id>) -> Option<Found> {
+        let Value::Bytes(data) = *self.heap.get(arguments) else { return None };
+        let (shape, order) = (self.entry(state, "shape")?, self.entry(state, "order")?);
+        let kind = self.kind(self.entry(state, "dtype")?)?;
+        let fortran = self.text(order).as_deref() == Some("F");
+        Some(Found::Array { header: Header::new(self.sides(shape)?, kind, fortran), data })
     }
 
     /// The elements of an array that `Select` picks, itself inside `depth` objects.

@@ -1,8 +1,9 @@
-//! Unpacks gzip files and ZIP archives; their contents are read like files that were opened directly.
+//! Unpacks gzip, bzip2 and xz files and ZIP archives; their contents are read like files that were opened directly.
 //!
 //! | archive | is |
 //! |---|---|
 //! | gzip | one file; also several members one after the other |
+//! | bzip2, xz | the same |
 //! | ZIP of `*.npy` | a NumPy archive |
 //! | ZIP with `xl/` | a spreadsheet, refused |
 //! | any other ZIP | a drop: models, or folders of shapes, each a part |
@@ -10,12 +11,15 @@
 //! A path inside an archive is used only as a name: nothing is written to disk.
 //!
 //! **Limits.** Unpacked bytes are counted while they are made and end at 64 times the archive's (at
-//! least 16 MiB, at most 1 GiB), files at 10,000, archives in archives at two.
+//! least 16 MiB, at most 1 GiB), files at 10,000, archives in archives at two. The dictionary of an xz file may have
+//! 64 MiB, as much as its highest level takes.
 
 use std::io::{Cursor, Read};
 use std::sync::Arc;
 
+use bzip2_rs::DecoderReader;
 use flate2::read::MultiGzDecoder;
+use lzma_rust2::XzReader;
 use zip::ZipArchive;
 
 use super::paths::is_junk;
@@ -28,21 +32,43 @@ pub(crate) const DEEPEST: u8 = 2;
 
 const MOST_FILES: usize = 10_000;
 
-/// What `input` is; of a gzip file, what is in it.
+/// Most memory for unpacking an xz file, in KiB: the dictionary of the highest level, and what goes with it.
+const XZ_MEMORY: u32 = 66 << 10;
+
+/// Whether content is one file, compressed.
+pub(crate) fn is_packed(content: Content) -> bool {
+    matches!(content, Content::Gzip | Content::Bzip2 | Content::Xz)
+}
+
+/// What unpacks this content.
+fn unpacker<'a>(content: Content, packed: &'a [u8]) -> Box<dyn Read + 'a> {
+    match content {
+        Content::Bzip2 => Box::new(DecoderReader::new(packed)),
+        Content::Xz => Box::new(XzReader::new_mem_limit(packed, true, XZ_MEMORY)),
+        _ => Box::new(MultiGzDecoder::new(packed)),
+    }
+}
+
+/// What `input` is; of a compressed file, what is in it.
 pub(crate) fn content(input: &Input) -> Result<Content, FormatError> {
     /// Packed bytes that surely unpack to all that [`sniff`] searches.
     const PACKED: usize = 16 << 10;
+    /// bzip2 unpacks blocks of up to 900 kB as a whole.
+    const PACKED_BLOCK: usize = 1 << 20;
     let mut inner = input.clone();
     for _ in 0..DEEPEST {
-        if sniff(&inner)? != Content::Gzip {
+        let content = sniff(&inner)?;
+        if !is_packed(content) {
             break;
         }
         let mut start = Vec::new();
-        let packed = inner.start(PACKED)?;
+        let packed = inner.start(if content == Content::Gzip { PACKED } else { PACKED_BLOCK })?;
         // The end is missing, of course: what was unpacked until then counts.
-        let _ = MultiGzDecoder::new(packed.as_slice()).take(PACKED as u64).read_to_end(&mut start);
+        let _ = unpacker(content, &packed).take(PACKED as u64).read_to_end(&mut start);
         let mut length = [0; 4];
-        if let Some(offset) = inner.len().checked_sub(4) {
+        if content == Content::Gzip
+            && let Some(offset) = inner.len().checked_sub(4)
+        {
             let read = inner.storage().read_at(offset, &mut length);
             read.map_err(|reason| Fault::Unreadable { reason }.of(&input.name))?;
         }
@@ -74,11 +100,11 @@ impl Storage for Start {
     }
 }
 
-/// The file itself, or what is in it when it is a gzip file.
+/// The file itself, or what is in it when it is compressed.
 pub(crate) fn unpacked(input: &Input) -> Result<Input, FormatError> {
     let mut inner = input.clone();
     for _ in 0..DEEPEST {
-        if sniff(&inner)? != Content::Gzip {
+        if !is_packed(sniff(&inner)?) {
             break;
         }
         inner = inflated(&inner).map_err(|error| error.fault.of(&input.name))?;
@@ -87,17 +113,21 @@ pub(crate) fn unpacked(input: &Input) -> Result<Input, FormatError> {
 }
 
 pub(crate) fn inflated(input: &Input) -> Result<Input, FormatError> {
+    let content = sniff(input)?;
     let packed = input.bytes()?;
-    // The last four bytes say how long the last member is: nearly always all there is.
-    let expected = packed.last_chunk().map_or(0, |&length| u64::from(u32::from_le_bytes(length)));
-    let bytes = read_bounded(
-        MultiGzDecoder::new(packed.as_slice()),
-        largest_array(packed.len()),
-        expected,
-        "The gzip file",
-    )
-    .map_err(|fault| fault.of(&input.name))?;
-    let name = input.name.strip_suffix(".gz").unwrap_or(&input.name);
+    // The last four bytes of gzip say how long the last member is: nearly always all there is.
+    let length = packed.last_chunk().map_or(0, |&length| u64::from(u32::from_le_bytes(length)));
+    let (expected, what) = match content {
+        Content::Bzip2 => (0, "The bzip2 file"),
+        Content::Xz => (0, "The xz file"),
+        _ => (length, "The gzip file"),
+    };
+    let limit = largest_array(packed.len());
+    let bytes = read_bounded(unpacker(content, &packed), limit, expected, what)
+        .map_err(|fault| fault.of(&input.name))?;
+    let ending = |name: &'_ &str| input.name.ends_with(*name);
+    let packed = [".gz", ".bz2", ".xz"].into_iter().find(ending).unwrap_or_default();
+    let name = input.name.strip_suffix(packed).unwrap_or(&input.name);
     Ok(Input::of_bytes(name, bytes))
 }
 

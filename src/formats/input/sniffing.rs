@@ -30,6 +30,12 @@ pub(crate) enum Content {
     Zip,
     /// Something compressed.
     Gzip,
+    /// Something compressed by bzip2.
+    Bzip2,
+    /// Something compressed by xz.
+    Xz,
+    /// What R's `save` or `saveRDS` wrote, unpacked.
+    RData,
     /// A Python pickle.
     Pickle,
     /// Polygon file format.
@@ -110,6 +116,9 @@ impl Content {
             Self::Npy => "NumPy array",
             Self::Zip => "ZIP archive",
             Self::Gzip => "gzip file",
+            Self::Bzip2 => "bzip2 file",
+            Self::Xz => "xz file",
+            Self::RData => "R data file",
             Self::Pickle => "Python pickle",
             Self::Ply => "PLY mesh",
             Self::Vtk | Self::Vtp => "VTK mesh",
@@ -189,6 +198,7 @@ fn content_of(input: &Input, start: &[u8]) -> Option<Content> {
         (&b"PK\x03\x04"[..], Content::Zip),
         (b"PK\x05\x06", Content::Zip),
         (b"\x1f\x8b", Content::Gzip),
+        (b"\xfd7zXZ\0", Content::Xz),
         (b"\x93NUMPY", Content::Npy),
     ] {
         if start.starts_with(magic) {
@@ -200,6 +210,12 @@ fn content_of(input: &Input, start: &[u8]) -> Option<Content> {
         && start.starts_with(b"MATLAB 5.0 MAT-file")
     {
         return Some(Content::Mat5);
+    }
+    if matches!(start, [b'B', b'Z', b'h', b'1'..=b'9', 0x31, 0x41, 0x59, 0x26, 0x53, 0x59, ..]) {
+        return Some(Content::Bzip2);
+    }
+    if is_r_data(start) {
+        return Some(Content::RData);
     }
     if is_pickle(start) {
         return Some(Content::Pickle);
@@ -226,6 +242,17 @@ fn is_hdf5_further_on(input: &Input) -> bool {
             let mut found = [0; 8];
             input.storage().read_at(offset, &mut found).is_ok() && found == HDF5
         })
+}
+
+/// What `save` begins with, or the letter and the version with which `saveRDS` does.
+fn is_r_data(start: &[u8]) -> bool {
+    matches!(start, [b'R', b'D', b'X' | b'A', b'2' | b'3', b'\n', ..])
+        || matches!(
+            start,
+            [b'X', b'\n', 0, 0, 0, 2 | 3, ..]
+                | [b'B', b'\n', 2 | 3, 0, 0, 0, ..]
+                | [b'A', b'\n', b'2' | b'3', b'\n', ..]
+        )
 }
 
 fn is_pickle(start: &[u8]) -> bool {

@@ -30,7 +30,7 @@ mod tps;
 use super::error::Fault;
 use super::input::sniffing::Content;
 use super::mesh::{self, Mesh, damaged};
-use super::reading::Reading;
+use super::reading::{Finding, Reading};
 
 pub(super) use gathering::order_by_name;
 
@@ -45,6 +45,8 @@ pub(super) struct Landmarks {
     pub(super) notes: Vec<String>,
     /// What such specimens are called, several of them, where [`kind`] does not say it.
     pub(super) kind: Option<&'static str>,
+    /// What the user should look at, with readings to choose from.
+    pub(super) findings: Vec<Finding>,
 }
 
 /// The landmarks of one specimen.
@@ -117,6 +119,11 @@ pub(super) fn kind(content: Content) -> &'static str {
         Content::Asf => "ASF shapes",
         Content::PickedPoints => "picked points",
         Content::LandmarkTable => "tables of landmarks",
+        Content::Npy | Content::Zip => "shapes in NumPy arrays",
+        Content::Mat4 | Content::Mat5 => "shapes in a MATLAB file",
+        Content::Hdf5 => "shapes in an HDF5 file",
+        Content::Pickle => "shapes in a Python pickle",
+        Content::RData => "shapes in an R data file",
         _ => "lists of points",
     }
 }

@@ -29,21 +29,21 @@
 //!
 //! | what | names |
 //! |---|---|
-//! | mean | `mean`, `mu`, `meanshape`, `v_template` … (n × d, d × n or flat) |
-//! | basis | `basis`, `components`, `modes`, `shapedirs` … (D × q, q × D, n × d × q, q × n × d) |
-//! | variances λ | `eigenvalues`, `explained_variance`, `weights` … |
-//! | standard deviations | `std`, `sigma`, `sd`, `shapeEV` |
+//! | mean | `mean`, `mu`, `MU`, `meanshape`, `v_template`, `center` … (n × d, d × n or flat) |
+//! | basis | `basis`, `components`, `modes`, `shapedirs`, `coeff`, `rotation` … (D × q, q × D, n × d × q, q × n × d) |
+//! | variances λ | `eigenvalues`, `explained_variance`, `weights`, `latent` … |
+//! | standard deviations | `std`, `sigma`, `sd`, `shapeEV`, `sdev` |
 //! | faces | `faces`, `f`, `tri`, `triangles`, `cells` … |
 //!
 //! With variances the basis is taken as orthonormal, as its norms confirm or correct. Without them,
 //! modes of length 1 get the standard deviation 1, others are already scaled. Singular values are
-//! refused: they differ from standard deviations by √(N − 1), and N is not in the file.
+//! refused: they differ from standard deviations by √(N − 1), unless N is in the file (`n_samples_` of scikit-learn).
 //!
 //! A basis of integers (q × D) beside `basis_scale` (q) is our compact form: column i of the scaled
 //! basis is `basis[i]`·`basis_scale[i]`. `SD` scales the rows of `modes`.
 //!
 //! **Training shapes**: `training_coefficients` (q × N, lengths along the unit modes, times `training_scale` (q) where
-//! that is there), `projectedWeights` of gias3; what they are is seen from their variances (`scores`).
+//! that is there), `projectedWeights` of gias3, `score` of MATLAB's `pca` and `x` of R's `prcomp` (N × q); what they are is seen from their variances (`scores`).
 //!
 //! **Limits.** Bilinear models (FaceScape's `shape_bm_core`) are refused. Body models are read in their
 //! rest pose. Colours in 0…255 are divided by 255.
@@ -63,6 +63,7 @@ use crate::formats::readers::assemble::{Ingredients, Named, Scaling, assemble, m
 use crate::formats::readers::cells::Habit;
 use crate::formats::readers::parts::choose;
 use crate::formats::readers::scores::Scores;
+use crate::formats::readers::shape_arrays::axes_of;
 use crate::formats::reading::Reading;
 use crate::formats::{Opened, Options, Origin, Part};
 use crate::model::{Cells, Kind, Unit};
@@ -294,6 +295,8 @@ const MEANS: &[&str] = &[
     "mean_vertices",
     "template_vertex_positions",
     "mean_",
+    "MU",
+    "center",
 ];
 const BASES: &[&str] = &[
     "basis",
@@ -308,6 +311,10 @@ const BASES: &[&str] = &[
     "U",
     "vertex_identity_basis",
     "components_",
+    "coeff",
+    "COEFF",
+    "eigenvectors",
+    "rotation",
 ];
 const VARIANCES: &[&str] = &[
     "eigenvalues",
@@ -318,8 +325,12 @@ const VARIANCES: &[&str] = &[
     "pcaVariance",
     "weights",
     "eigVal",
+    "latent",
+    "LATENT",
 ];
-const DEVIATIONS: &[&str] = &["std", "sigma", "sd", "standard_deviations", "shapeEV"];
+const DEVIATIONS: &[&str] = &["std", "sigma", "sd", "standard_deviations", "shapeEV", "sdev"];
+/// Coefficients of the training shapes with a row for each shape: MATLAB's `pca`, R's `prcomp`.
+const SCORES_BY_SHAPE: &[&str] = &["score", "x"];
 const FACES: &[&str] = &["faces", "f", "tri", "triangles", "cells", "trilist", "tl"];
 
 /// Reads one model of a table: the part wanted, or the first that can be read.
@@ -444,7 +455,8 @@ fn layout_in(table: &mut dyn NamedArrays, prefix: &str) -> Result<Option<Layout>
     let notes = table
         .names()
         .into_iter()
-        .filter(holds_no_numbers)
+        // The state of scikit-learn's generator is not missed.
+        .filter(|name| holds_no_numbers(name) && !name.ends_with("random_state"))
         .take(MOST_NAMES)
         .map(|name| format!("The array {name} holds no numbers and was skipped."))
         .collect();
@@ -559,6 +571,13 @@ fn read_part(
     recipe: &Recipe,
     reading: &Reading,
 ) -> Result<(Part, Option<String>), Fault> {
+    // R names the coordinates of a matrix of shapes, and prcomp the rows of its modes after them.
+    let named = table.labels(&format!("{}{}", layout.prefix, recipe.basis));
+    let mut reading = reading.clone();
+    if let Some(axes) = named.first().and_then(|rows| axes_of(rows)) {
+        reading.dimension.get_or_insert(axes.dimension);
+        reading.order.get_or_insert(axes.order);
+    }
     let mut source = Source { table, prefix: &layout.prefix };
     let mut notes = layout.notes.clone();
     let general = layout.name.is_empty();
@@ -577,10 +596,17 @@ fn read_part(
     if recipe.is_color() {
         darken(&mut mean, &mut basis, &mut scaling, &mut notes)?;
     }
-    let rows = if recipe.basis == "modes" { source.numbers("SD", length)? } else { None };
+    let rows = match recipe.basis {
+        "modes" => source.numbers("SD", length)?,
+        // What R divided the coordinates by, unless it is FALSE.
+        "rotation" if length > 1 => source.numbers("scale", length)?,
+        _ => None,
+    };
     let scores = match layout.name {
         "gias3" => source.scores("projectedWeights", &mut notes),
-        "" => source.scores("training_coefficients", &mut notes),
+        "" => source
+            .scores("training_coefficients", &mut notes)
+            .or_else(|| source.scores_by_shape(modes, &mut notes)),
         _ => None,
     };
     let noise = if general { source.noise_variance()? } else { 0.0 };
@@ -621,7 +647,7 @@ fn read_part(
         scores: scores.map(Scores::plain),
         kind,
         order_stated: !layout.name.is_empty(),
-        reading: reading.clone(),
+        reading,
     })?;
     notes.extend(assembled.notes);
     let mut model = assembled.model.with_unit(unit).with_noise_variance(noise);
@@ -765,6 +791,16 @@ impl Source<'_> {
                 if let Some(name) = VARIANCES.iter().find(misfit) {
                     return Ok(Scaling::Unit(list(self.required(name)?)?));
                 }
+                // Of how many shapes, scikit-learn says.
+                for count in ["n_samples_", "n_samples_seen_"] {
+                    if let Some(&[count]) = self.numbers(count, 1)?.as_deref()
+                        && let Some(values) = self.numbers("singular_values_", modes)?
+                        && count > 1.0
+                    {
+                        let variance = |value: &f64| value * value / (count - 1.0);
+                        return Ok(Scaling::Unit(values.iter().map(variance).collect()));
+                    }
+                }
                 let singular = |name: &String| {
                     let own = name.strip_prefix(self.prefix).unwrap_or_default();
                     own.to_lowercase().starts_with("singular")
@@ -819,9 +855,22 @@ impl Source<'_> {
         })
     }
 
-    /// The noise variance of Shapevenn's own export; 0 where there is none.
+    /// Coefficients of the training shapes that have a row for each shape, turned.
+    fn scores_by_shape(&mut self, modes: usize, notes: &mut Vec<String>) -> Option<Named> {
+        let fits = |name: &&&str| matches!(self.shape(name).as_deref(), Some(&[_, columns]) if columns == modes as u64);
+        let name = SCORES_BY_SHAPE.iter().find(fits)?;
+        let Named { name, array } = self.scores(name, notes)?;
+        let &[rows, columns] = array.shape.as_slice() else { return None };
+        let values = array.into_f64()?;
+        let turned = (0..values.len()).map(|at| values[at % rows * columns + at / rows]).collect();
+        Some(Named { name, array: Array { shape: vec![columns, rows], data: Data::F64(turned) } })
+    }
+
+    /// The noise variance of Shapevenn's own export or of scikit-learn's PCA; 0 where there is none.
     fn noise_variance(&mut self) -> Result<f64, Fault> {
-        let found = self.numbers("noise_variance", 1)?.and_then(|values| values.first().copied());
+        let own = self.numbers("noise_variance", 1)?;
+        let of_scikit_learn = self.numbers("noise_variance_", 1)?;
+        let found = own.or(of_scikit_learn).and_then(|values| values.first().copied());
         Ok(found.filter(|noise| noise.is_finite() && *noise > 0.0).unwrap_or(0.0))
     }
 

@@ -15,6 +15,7 @@ pub(crate) mod plain_json;
 pub(crate) mod point_pca;
 pub(crate) mod sampled_blendshapes;
 pub(crate) mod scores;
+pub(crate) mod shape_arrays;
 pub(crate) mod shapeworks;
 pub(crate) mod statismo;
 pub(crate) mod surrey;

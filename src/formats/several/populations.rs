@@ -21,7 +21,7 @@ use crate::formats::input::{Input, compressed, paths};
 use crate::formats::landmarks::{self, Landmarks, Specimen, order_by_name};
 use crate::formats::mesh::stl::Welding;
 use crate::formats::mesh::{self, Mesh, stl};
-use crate::formats::readers::cells;
+use crate::formats::readers::{cells, named_arrays};
 use crate::formats::reading::{Finding, Reading};
 use crate::formats::several::naming::name_of;
 use crate::formats::several::specimens::{self, Specimens};
@@ -57,6 +57,27 @@ pub(crate) fn read(inputs: &[Input], options: &Options) -> Result<Opened, Format
     Ok(Opened { format, parts: vec![part.name.clone()], part })
 }
 
+/// Makes a model of the shapes in a file of arrays; `None` when they are none.
+pub(crate) fn read_arrays(
+    input: &Input,
+    content: Content,
+    options: &Options,
+) -> Result<Option<Opened>, FormatError> {
+    let reading = &options.reading;
+    let refused = |fault: Fault| fault.of(&input.name);
+    let wanted = options.part.as_deref();
+    let found = named_arrays::read_shapes(input, content, wanted, reading).map_err(refused)?;
+    let Some(set) = found else { return Ok(None) };
+    let mut shapes = Shapes::new(reading);
+    shapes.kinds.push(landmarks::kind(content));
+    shapes.add_landmarks(input, set.landmarks)?;
+    let format = shapes.format();
+    let file = input.file_name();
+    let name = if set.parts.len() > 1 { format!("{file}#{}", set.part) } else { file.to_owned() };
+    let part = shapes.into_part(&name, 0).map_err(refused)?;
+    Ok(Some(Opened { format, parts: set.parts, part: Part { name: set.part, ..part } }))
+}
+
 /// Shapes in correspondence, as they are in their files.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShapeSet {
@@ -84,7 +105,11 @@ pub fn read_shapes(inputs: &[Input], reading: &Reading) -> Result<ShapeSet, Form
     let shape_endings: Vec<String> = inputs
         .iter()
         .zip(&contents)
-        .filter(|(_, content)| content.is_some_and(landmarks::is_shape))
+        .filter(|(_, content)| {
+            content.is_some_and(|content| {
+                landmarks::is_shape(content) || named_arrays::is_arrays(content)
+            })
+        })
         .map(|(input, _)| paths::ending(input.file_name()))
         .collect();
     if !shape_endings.is_empty() {
@@ -103,8 +128,9 @@ pub fn read_shapes(inputs: &[Input], reading: &Reading) -> Result<ShapeSet, Form
     let refused = |fault: Fault| fault.of(&name);
     let population =
         shapes.into_population().map_err(refused)?.ok_or_else(|| refused(Fault::Empty))?;
-    let Population { dimension, shapes, specimens, .. } = population;
-    let findings = specimens.findings(dimension, &shapes);
+    let Population { dimension, shapes, specimens, findings: of_files, .. } = population;
+    let mut findings = specimens.findings(dimension, &shapes);
+    findings.extend(of_files);
     Ok(ShapeSet { dimension, shapes, findings })
 }
 
@@ -180,6 +206,8 @@ pub(crate) struct Shapes {
     landmarks: Option<(String, Vec<String>)>,
     scales: Vec<Option<f64>>,
     notes: Vec<String>,
+    /// How files were read that leave it open.
+    findings: Vec<Finding>,
     /// What each shape is called, and which of its points are missing.
     specimens: Specimens,
 }
@@ -194,6 +222,8 @@ pub(crate) struct Population {
     pub(crate) cells: Cells,
     /// Notes for the user.
     pub(crate) notes: Vec<String>,
+    /// How files were read that leave it open.
+    pub(crate) findings: Vec<Finding>,
     /// Names of the specimens that are left.
     pub(crate) specimens: Specimens,
 }
@@ -239,28 +269,17 @@ impl Shapes {
                 self.add_corners(&input.name, input.file_name(), &corners)
             }
             content if landmarks::is_landmarks(content) => {
-                let mut landmarks =
+                let landmarks =
                     landmarks::read(content, &bytes, self.specimens.reading()).map_err(refused)?;
-                if let (Some(kind), Some(last)) = (landmarks.kind, self.kinds.last_mut()) {
-                    *last = kind;
+                self.add_landmarks(&input, landmarks)
+            }
+            content if named_arrays::is_arrays(content) => {
+                let reading = self.specimens.reading();
+                let found = named_arrays::read_shapes(&input, content, None, reading);
+                match found.map_err(refused)? {
+                    Some(set) => self.add_landmarks(&input, set.landmarks),
+                    None => Err(refused(Fault::NoShape { format: content.name() })),
                 }
-                self.match_names(&input.name, &mut landmarks);
-                for note in landmarks.notes {
-                    self.note(note);
-                }
-                let specimens = landmarks.specimens;
-                let several = specimens.len() > 1;
-                for (index, mut specimen) in specimens.into_iter().enumerate() {
-                    let name = if several {
-                        format!("{}, specimen {}", input.name, index + 1)
-                    } else {
-                        input.name.clone()
-                    };
-                    self.scales.push(specimen.scale);
-                    let file = (!several).then(|| input.file_name());
-                    self.add(&name, file, &mut specimen)?;
-                }
-                Ok(())
             }
             content if !landmarks::is_shape(content) => {
                 Err(refused(Fault::NoShape { format: content.name() }))
@@ -301,6 +320,35 @@ impl Shapes {
         if !self.notes.contains(&note) {
             self.notes.push(note);
         }
+    }
+
+    /// Adds the specimens of a file.
+    fn add_landmarks(
+        &mut self,
+        input: &Input,
+        mut landmarks: Landmarks,
+    ) -> Result<(), FormatError> {
+        if let (Some(kind), Some(last)) = (landmarks.kind, self.kinds.last_mut()) {
+            *last = kind;
+        }
+        self.match_names(&input.name, &mut landmarks);
+        for note in landmarks.notes {
+            self.note(note);
+        }
+        self.findings.extend(landmarks.findings);
+        let specimens = landmarks.specimens;
+        let several = specimens.len() > 1;
+        for (index, mut specimen) in specimens.into_iter().enumerate() {
+            let name = if several {
+                format!("{}, specimen {}", input.name, index + 1)
+            } else {
+                input.name.clone()
+            };
+            self.scales.push(specimen.scale);
+            let file = (!several).then(|| input.file_name());
+            self.add(&name, file, &mut specimen)?;
+        }
+        Ok(())
     }
 
     fn add_corners(
@@ -443,15 +491,21 @@ impl Shapes {
         let specimens::Chosen { shapes, cells, notes } =
             self.specimens.choose(dimension, shapes, cells)?;
         self.notes.extend(notes);
-        let (notes, specimens) = (self.notes, self.specimens);
-        Ok(Some(Population { dimension, shapes, cells, notes, specimens }))
+        let (notes, findings, specimens) = (self.notes, self.findings, self.specimens);
+        Ok(Some(Population { dimension, shapes, cells, notes, findings, specimens }))
     }
 
     fn into_part(self, name: &str, local: usize) -> Result<Part, Fault> {
         let scaled = self.specimens.reading().scale;
         let Some(population) = self.into_population()? else { return Err(Fault::Empty) };
-        let Population { dimension, mut shapes, cells: mut drawn, notes: file_notes, specimens } =
-            population;
+        let Population {
+            dimension,
+            mut shapes,
+            cells: mut drawn,
+            notes: file_notes,
+            findings: of_files,
+            specimens,
+        } = population;
         let read = shapes.ncols();
         if read < 3 {
             return Err(Fault::Model(ModelError::TooFewShapes { found: read }));
@@ -496,6 +550,7 @@ impl Shapes {
         let model = model.with_cells(drawn).map_err(Fault::Model)?.with_name(&name);
         findings.extend(specimens.first_column_finding());
         findings.extend(specimens.columns_finding());
+        findings.extend(of_files);
         Ok(Part {
             name: "shape".to_owned(),
             model,

@@ -247,7 +247,8 @@ impl Specimens {
     pub(crate) fn columns_finding(&self) -> Option<Finding> {
         const MOST_CHOICES: usize = 6;
         let columns = self.columns.all();
-        if columns.is_empty() || self.reading.group.is_some() {
+        let divides = columns.iter().any(|column| column.kind != ColumnKind::Names);
+        if !divides || self.reading.group.is_some() {
             return None;
         }
         let message = format!("Of the specimens is known: {}.", self.columns.described());
