@@ -7,6 +7,7 @@
 use std::collections::BTreeMap;
 use std::io::{BufReader, Cursor, Read, Seek, Write};
 
+use zip::result::ZipError;
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
@@ -14,7 +15,7 @@ use crate::formats::FormatError;
 use crate::formats::containers::NamedArrays;
 use crate::formats::containers::arrays::Array;
 use crate::formats::containers::npy::{self, Header, NpyError};
-use crate::formats::error::Fault;
+use crate::formats::error::{Fault, unsupported};
 use crate::formats::input::largest_array;
 
 /// An open archive: what its members hold, not yet unpacked.
@@ -102,10 +103,13 @@ fn has_directory(mut source: impl Read + Seek) -> bool {
     false
 }
 
-fn damaged(what: &str, error: impl core::fmt::Display) -> Fault {
-    Fault::Damaged {
-        what: what.to_owned(),
-        reason: error.to_string().trim_end_matches('.').to_owned(),
+fn damaged(what: &str, error: ZipError) -> Fault {
+    let reason = error.to_string().trim_end_matches('.').to_owned();
+    match error {
+        ZipError::UnsupportedArchive(_) => {
+            unsupported(what, reason, "Save its arrays again with `numpy.savez`.")
+        }
+        _ => Fault::Damaged { what: what.to_owned(), reason },
     }
 }
 

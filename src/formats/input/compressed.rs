@@ -17,16 +17,20 @@ use std::sync::Arc;
 
 use flate2::read::MultiGzDecoder;
 use zip::ZipArchive;
+use zip::result::ZipError;
 
 use super::paths::is_junk;
 use super::sniffing::{Content, sniff};
 use super::{Input, Storage, largest_array};
-use crate::formats::error::{Fault, FormatError};
+use crate::formats::error::{Fault, FormatError, unsupported};
 
 /// Archives in archives.
 pub(crate) const DEEPEST: u8 = 2;
 
 const MOST_FILES: usize = 10_000;
+
+/// What to do with an archive that is whole and cannot be unpacked here.
+const UNPACK: &str = "Unpack it with the program that made it, and drop the files themselves.";
 
 /// What `input` is; of a gzip file, what is in it.
 pub(crate) fn content(input: &Input) -> Result<Content, FormatError> {
@@ -168,12 +172,11 @@ pub(crate) fn members(bytes: &[u8]) -> Result<Vec<Member>, Fault> {
             continue;
         }
         if member.encrypted() {
-            let reason = "it is locked with a password".to_owned();
-            return Err(Fault::Damaged { what: name, reason });
+            return Err(unsupported(name, "it is locked with a password", UNPACK));
         }
         if members.len() == MOST_FILES {
             let reason = format!("it holds more than {MOST_FILES} files");
-            return Err(Fault::Damaged { what: "The ZIP archive".to_owned(), reason });
+            return Err(unsupported("The ZIP archive", reason, UNPACK));
         }
         members.push(Member { index, name, size: member.size() });
     }
@@ -221,9 +224,11 @@ fn open_archive(bytes: &[u8]) -> Result<ZipArchive<Cursor<&[u8]>>, Fault> {
     })
 }
 
-fn damaged(error: impl core::fmt::Display) -> Fault {
-    Fault::Damaged {
-        what: "The ZIP archive".to_owned(),
-        reason: error.to_string().trim_end_matches('.').to_owned(),
+fn damaged(error: ZipError) -> Fault {
+    let what = "The ZIP archive".to_owned();
+    let reason = error.to_string().trim_end_matches('.').to_owned();
+    match error {
+        ZipError::UnsupportedArchive(_) => unsupported(what, reason, UNPACK),
+        _ => Fault::Damaged { what, reason },
     }
 }
