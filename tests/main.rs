@@ -28,6 +28,7 @@ mod moments;
 mod population;
 mod preparation;
 mod recompute;
+mod remedies;
 mod reproduce;
 mod run;
 mod runs;

@@ -395,6 +395,9 @@ impl FormatError {
             }
             Fault::Version { .. } => "Save the model with a current version of its software.",
             Fault::Filter { .. } => "Rewrite the file with gzip or without compression.",
+            Fault::Layout { layout, .. } if layout.contains("other file") => {
+                "Store the numbers in this file itself."
+            }
             Fault::Layout { .. } => {
                 "Rewrite the file with h5py's `libver='v114'`, or uncompressed."
             }
@@ -465,8 +468,7 @@ impl FormatError {
                 "Save its arrays as plain numbers where that class is installed:\n\
                  import numpy, pickle\n\
                  model = pickle.load(open('model.pkl', 'rb'), encoding='latin1')\n\
-                 numpy.savez('model.npz', **{name: numpy.array(model[name]) for name in \
-                 ('v_template', 'shapedirs', 'f')})"
+                 numpy.savez('model.npz', **{name: numpy.array(model[name]) for name in model})"
             }
             Fault::OneArray { .. } => {
                 "Save mean, basis and variances together: `numpy.savez('model.npz', mean=mean, basis=basis, eigenvalues=variances)`."

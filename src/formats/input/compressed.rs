@@ -16,8 +16,7 @@ use std::io::{Cursor, Read};
 use std::sync::Arc;
 
 use flate2::read::MultiGzDecoder;
-use zip::ZipArchive;
-use zip::result::ZipError;
+use zip::{CompressionMethod, ZipArchive};
 
 use super::paths::is_junk;
 use super::sniffing::{Content, sniff};
@@ -174,6 +173,9 @@ pub(crate) fn members(bytes: &[u8]) -> Result<Vec<Member>, Fault> {
         if member.encrypted() {
             return Err(unsupported(name, "it is locked with a password", UNPACK));
         }
+        if !is_read(member.compression()) {
+            return Err(unsupported(name, "it is packed by a method that is not read", UNPACK));
+        }
         if members.len() == MOST_FILES {
             let reason = format!("it holds more than {MOST_FILES} files");
             return Err(unsupported("The ZIP archive", reason, UNPACK));
@@ -224,11 +226,14 @@ fn open_archive(bytes: &[u8]) -> Result<ZipArchive<Cursor<&[u8]>>, Fault> {
     })
 }
 
-fn damaged(error: ZipError) -> Fault {
-    let what = "The ZIP archive".to_owned();
-    let reason = error.to_string().trim_end_matches('.').to_owned();
-    match error {
-        ZipError::UnsupportedArchive(_) => unsupported(what, reason, UNPACK),
-        _ => Fault::Damaged { what, reason },
+/// Whether files of an archive that are packed in this way are unpacked here.
+pub(crate) fn is_read(method: CompressionMethod) -> bool {
+    matches!(method, CompressionMethod::Stored | CompressionMethod::Deflated)
+}
+
+fn damaged(error: impl core::fmt::Display) -> Fault {
+    Fault::Damaged {
+        what: "The ZIP archive".to_owned(),
+        reason: error.to_string().trim_end_matches('.').to_owned(),
     }
 }
