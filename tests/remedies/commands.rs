@@ -271,7 +271,7 @@ fn commands_that_are_refused_work_as_their_hints_say() {
     // Links.
     let link = |rest: &str| format!("compare --link {rest}");
     let docs = "Correct the link, or leave this out of it; docs/links.md lists the keys and what each may be.";
-    let models = "draws=64&difference-draws=64";
+    let models = "draws=200";
     table.extend([
         (
             link("v=1&demo=planes&draws=4"),
@@ -319,7 +319,7 @@ fn commands_that_are_refused_work_as_their_hints_say() {
     }
     assert!(found["reach"]["aToB"]["mean"].as_f64().unwrap() < 1e-6, "{}", found["reach"]);
     let found = document(&words(&comparing(&format!("{a} {still} --region 0-2"))));
-    assert_eq!(found["models"]["a"]["points"], 12, "of three: {}", found["settings"]);
+    assert_eq!(found["models"]["a"]["points"], 3, "those chosen: {}", found["settings"]);
     // The demos that the hint lists, and the words of a reading.
     let said = refused(&["info", "demo:moon"]);
     let listed = said.split("Choose one of ").nth(1).unwrap().trim().trim_end_matches('.');
