@@ -375,7 +375,8 @@ fn sentences_about_chance_change_at_their_thresholds_and_nowhere_else() {
     assert_eq!(adjusted(LEVEL.next_up()), Topic::NoMoreThanChance);
     // So few relabellings that none could be.
     let statistics = found.evidence.as_ref().unwrap().one_population.statistics.len();
-    let least = (statistics as f64 / LEVEL).round() as usize;
+    let least = (1..).find(|count| statistics as f64 / f64::from(*count) <= LEVEL);
+    let least: usize = u32::try_into(least.unwrap()).unwrap();
     for (exhaustive, enough) in [(false, least - 1), (true, least)] {
         let relabelled = |permutations: usize| {
             about(&|evidence| {

@@ -507,7 +507,7 @@ impl Quantity {
                     format!("more than {NEARLY_ALL} %")
                 } else if percent < HARDLY_ANY {
                     format!("less than {HARDLY_ANY} %")
-                } else if percent > 99.0 || percent < 1.0 {
+                } else if !(1.0..=99.0).contains(&percent) {
                     format!("{percent:.2} %")
                 } else {
                     format!("{percent:.0} %")

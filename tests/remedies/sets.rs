@@ -311,7 +311,7 @@ fn archives_are_unpacked_as_told() {
 #[test]
 fn files_that_make_no_model_together_are_dropped_apart() {
     let (model, shapes) = (file("plain.npz"), plys(4));
-    let mixed = [&[model.clone()], shapes.as_slice()].concat();
+    let mixed = [std::slice::from_ref(&model), shapes.as_slice()].concat();
     let error = open(&mixed, "").unwrap_err();
     let hint = "Drop the files of one model at a time, or the shapes of each set in a folder.";
     assert_eq!((error.code(), error.hint()), ("mixed", hint), "{error}");
