@@ -85,12 +85,8 @@ remedies! { of_model, MODELS, ModelError:
 
 remedies! { of_comparison, COMPARISONS, ComparisonError:
     ComparisonError::Settings(_) | ComparisonError::Pair(_) => Within,
-    ComparisonError::Fit { .. } => None(
-        "lengths that are read are between 1e-30 and 1e30, where no fit overflows"
-    ),
-    ComparisonError::FlatIntersection => None(
-        "sigma is above 0, where the intersection of two models that vary is never flat"
-    ),
+    ComparisonError::Fit { .. } => By("commands_that_are_refused_work_as_their_hints_say"),
+    ComparisonError::FlatIntersection => None("no input that gives it is known"),
     ComparisonError::NoDraws { .. } | ComparisonError::NothingYet => By("what_is_not_yet_there_is_there_after_the_run"),
     ComparisonError::NoMode { .. } | ComparisonError::StoredDraws { .. } | ComparisonError::NoNormals
         | ComparisonError::Asked { .. } => By("what_does_not_exist_is_asked_for_among_what_does"),
@@ -142,7 +138,7 @@ remedies! { of_file, FILES, Error:
 remedies! { of_lesson, LESSONS, LessonError:
     LessonError::Unreadable { .. } | LessonError::Value { .. } => By("links_to_scenes_work_as_their_hints_say"),
     LessonError::Pair(_) => Within,
-    LessonError::Fit { .. } | LessonError::Flat => None("as of a comparison"),
+    LessonError::Fit { .. } | LessonError::Flat => None("no link to a scene that gives it is known"),
     LessonError::NotOpen | LessonError::NoChainGroup { .. } | LessonError::OtherTarget { .. }
         | LessonError::NoDraws { .. } | LessonError::EmptyDifference { .. } | LessonError::NoStart => None(
         "the page asks for nothing of the kind; the messages are for whoever writes a scene"

@@ -215,6 +215,15 @@ fn commands_that_are_refused_work_as_their_hints_say() {
             vec![format!("{same} --sigma 0.1"), same.clone()],
         ),
         (
+            comparing("demo:stars-1-a demo:stars-1-b --sigma 1e-10"),
+            "The numbers of model A overflow at σ = 1.0e-10: no intersection can be fitted.",
+            "Try a larger σ, or fewer modes.",
+            vec![
+                comparing("demo:stars-1-a demo:stars-1-b --sigma 0.003"),
+                comparing("demo:stars-1-a demo:stars-1-b --sigma 1e-10 --modes 3"),
+            ],
+        ),
+        (
             format!("{same} --variance 2"),
             "is 2; a share of the variance, more than 0 and at most 1, was expected.",
             "Choose a value inside the range.",
