@@ -148,6 +148,8 @@ pub mod measure;
 pub mod model;
 pub mod pair;
 pub mod relate;
+#[cfg(test)]
+mod remedies;
 pub mod report;
 #[doc(hidden)]
 pub mod reproduce;

@@ -6,7 +6,10 @@ use nalgebra::{DMatrix, DVector};
 use shapevenn::comparison::{Comparison, Stage};
 use shapevenn::demos;
 use shapevenn::model::{Alignment, LinearModel, model_of_population};
-use shapevenn::report::{ModelReport, Part, Report, Seconds, Topic};
+use shapevenn::report::{
+    EvidenceReport, FURTHER, LEVEL, ModelReport, Part, Quantity, ROUNDING, Report, SMALL, Seconds,
+    Sentence, Topic, answer,
+};
 use shapevenn::sampling::{Stream, fill_normal, stream};
 use shapevenn::settings::Settings;
 
@@ -277,4 +280,164 @@ fn the_report_stands_before_chance_is_known_and_grows() {
     // The share of own left-out shapes beyond σ, which is their mean distance: E[1 − exp(−½)] for equal ones.
     let beyond = last.evidence.unwrap().left_out.a.beyond_sigma.unwrap();
     assert!((beyond - 0.39).abs() < 0.1, "{beyond}");
+}
+
+/// The sentences of a report whose reach is another.
+fn with_reach(found: &Report, change: impl Fn(&mut shapevenn::report::ReachReport)) -> Report {
+    let mut changed = found.clone();
+    change(changed.reach.as_mut().unwrap());
+    changed.answer = answer(&changed, None);
+    changed
+}
+
+#[test]
+fn sentences_about_reach_change_at_their_thresholds_and_nowhere_else() {
+    let star = |name: &str| demos::generated(name).unwrap();
+    let found = report(&compared(&star("stars-1-a"), &star("stars-1-b"), few()));
+    let of_a = |changed: &Report| said(changed, Topic::ReachOfA).unwrap();
+    // Rounding: a distance, or none.
+    let rounded =
+        |relative: f64| of_a(&with_reach(&found, |reach| reach.a_to_b.relative = relative));
+    assert!(rounded(ROUNDING).starts_with("A shape of A is always one that B can make"), "none");
+    assert!(rounded(ROUNDING.next_up()).starts_with("A shape of A lies "), "a distance");
+    // Plausible shapes that are notably further.
+    let reach = found.reach.as_ref().unwrap();
+    let model = &found.models.a;
+    let own = (model.total_variance / model.points as f64).sqrt();
+    let least = reach.a_to_b.mean * (1.0 + FURTHER) + SMALL * own;
+    let further = |mean: f64, relative: f64| {
+        with_reach(&found, |reach| {
+            reach.meeting = None;
+            reach.b_to_a.plausible = None;
+            reach.a_to_b.relative = relative;
+            reach.a_to_b.plausible.as_mut().unwrap().mean = mean;
+        })
+    };
+    let plausible = |mean: f64| said(&further(mean, 1.0), Topic::NearestPlausible);
+    assert_eq!(plausible(least), None, "not notably");
+    assert!(plausible(least.next_up()).is_some(), "notably");
+    let inside = |mean: f64| of_a(&further(mean, ROUNDING));
+    assert!(!inside(least).contains("but lies"), "{}", inside(least));
+    assert!(inside(least.next_up()).contains(", but lies "), "{}", inside(least.next_up()));
+    // How far plausible shapes of the two are apart at least.
+    let meeting = |meeting: f64| {
+        of_a(&with_reach(&found, |reach| {
+            reach.meeting = Some(meeting);
+            reach.a_to_b.relative = 1.0;
+        }))
+    };
+    let mean = reach.a_to_b.mean;
+    for (distance, avoids, apart) in [
+        (SMALL * mean, false, false),
+        ((SMALL * mean).next_up(), true, false),
+        (mean, true, false),
+        (mean.next_up(), false, true),
+        ((1.0 + FURTHER) * mean, false, true),
+        (((1.0 + FURTHER) * mean).next_up(), false, false),
+    ] {
+        let text = meeting(distance);
+        assert_eq!(text.contains("of it no plausible one avoids"), avoids, "{distance}: {text}");
+        assert_eq!(text.contains("; plausible shapes of the two are"), apart, "{distance}: {text}");
+    }
+    // It is said once: of the nearest plausible shapes where it is more than the mean of either.
+    let both = reach.a_to_b.mean.min(reach.b_to_a.mean);
+    let never = |meeting: f64| {
+        let changed = with_reach(&found, |reach| {
+            reach.meeting = Some(meeting);
+            for side in [&mut reach.a_to_b, &mut reach.b_to_a] {
+                side.relative = 1.0;
+            }
+            reach.a_to_b.plausible.as_mut().unwrap().mean = 2.0 * least;
+        });
+        said(&changed, Topic::NearestPlausible).unwrap().contains(", and never less than ")
+    };
+    assert!(!never(both) && never(both.next_up()), "of one side nearer than plausible shapes");
+}
+
+#[test]
+fn sentences_about_chance_change_at_their_thresholds_and_nowhere_else() {
+    let a = population(&group(12, 0.0, 1));
+    let found = report(&compared(&a, &population(&group(12, 0.0, 2)), few()));
+    let about = |change: &dyn Fn(&mut EvidenceReport)| -> Vec<Topic> {
+        let mut evidence = found.evidence.clone().unwrap();
+        change(&mut evidence);
+        evidence.answer().iter().map(|sentence| sentence.about).collect()
+    };
+    // The level itself is more than chance.
+    let adjusted = |p: f64| {
+        about(&|evidence| {
+            for (place, one) in evidence.one_population.statistics.iter_mut().enumerate() {
+                one.p_adjusted = if place == 0 { p } else { 1.0 };
+            }
+        })[0]
+    };
+    assert_eq!(adjusted(LEVEL), Topic::MoreThanChance);
+    assert_eq!(adjusted(LEVEL.next_up()), Topic::NoMoreThanChance);
+    // So few relabellings that none could be.
+    let statistics = found.evidence.as_ref().unwrap().one_population.statistics.len();
+    let least = (1..).find(|count| statistics as f64 / f64::from(*count) <= LEVEL);
+    let least: usize = u32::try_into(least.unwrap()).unwrap();
+    for (exhaustive, enough) in [(false, least - 1), (true, least)] {
+        let relabelled = |permutations: usize| {
+            about(&|evidence| {
+                evidence.one_population.permutations = permutations;
+                evidence.one_population.exhaustive = exhaustive;
+                for one in &mut evidence.one_population.statistics {
+                    one.p_adjusted = 1.0;
+                }
+            })[0]
+        };
+        assert_eq!(relabelled(enough), Topic::NoMoreThanChance, "{enough}, {exhaustive}");
+        assert_eq!(relabelled(enough - 1), Topic::ChanceUnknown, "{enough} less one, {exhaustive}");
+    }
+    // Whether shapes are told apart.
+    let tells = |change: &dyn Fn(&mut EvidenceReport)| about(change).contains(&Topic::ToldApartA);
+    let chance = |p05: f64, p95: f64| {
+        tells(&|evidence| {
+            evidence.told_apart.a.chance.p05 = p05;
+            evidence.told_apart.a.chance.p95 = p95;
+        })
+    };
+    assert!(!chance(0.5, 0.5) && chance(0.5, 0.5_f64.next_up()), "every relabelling alike");
+    let missed = |mean: f64| tells(&|evidence| evidence.left_out.a.mean = mean);
+    assert!(!missed(0.0) && missed(f64::MIN_POSITIVE), "left out and not missed");
+}
+
+#[test]
+fn numbers_of_sentences_are_on_the_side_on_which_they_are() {
+    let written = |value: f64, quantity: Quantity| {
+        let number = Part::Number { metric: String::new(), value, quantity };
+        Sentence { about: Topic::ToldApartA, parts: vec![number] }.plain("mm")
+    };
+    for (value, text) in [
+        (0.0, "0 %"),
+        (1e-9, "Less than 0.01 %"),
+        (0.000_099, "Less than 0.01 %"),
+        (0.000_1, "0.01 %"),
+        (0.009_9, "0.99 %"),
+        (0.01, "1 %"),
+        (0.99, "99 %"),
+        (0.990_1, "99.01 %"),
+        (0.999_9, "99.99 %"),
+        (0.999_901, "More than 99.99 %"),
+        (1.0_f64.next_down(), "More than 99.99 %"),
+        (1.0, "100 %"),
+    ] {
+        assert_eq!(written(value, Quantity::Share), text, "{value}");
+    }
+    // A p-value above the level is not written as the level.
+    for (value, text) in [
+        (0.001, "0.001"),
+        (0.009_49, "0.009"),
+        (0.009_5, "0.01"),
+        (0.049_9, "0.05"),
+        (LEVEL, "0.05"),
+        (0.0501, "0.0501"),
+        (0.0504, "0.0504"),
+        (0.0506, "0.051"),
+        (0.054_9, "0.055"),
+        (0.055_1, "0.06"),
+    ] {
+        assert_eq!(written(value, Quantity::PValue), text, "{value}");
+    }
 }

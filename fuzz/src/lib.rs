@@ -31,6 +31,9 @@ const ALWAYS: usize = 16 << 20;
 /// The same of compressed files, any of which may unpack to 16 MiB; each byte may become a number in double precision.
 const ALWAYS_UNPACKED: usize = ALWAYS + 8 * (16 << 20);
 
+/// The dictionary that a packer of xz may ask for at its highest level.
+const XZ_DICTIONARY: usize = 64 << 20;
+
 /// Opens files of these bytes, and fails where that takes too long or too much memory. What takes too long is opened twice
 /// more, and the least counts: the machine may have been at something else.
 fn watched(files: &[&[u8]], work: impl Fn()) {
@@ -39,6 +42,8 @@ fn watched(files: &[&[u8]], work: impl Fn()) {
     let bytes: usize = files.iter().map(|file| file.len()).sum();
     let always =
         if files.iter().any(|file| is_compressed(file)) { ALWAYS_UNPACKED } else { ALWAYS };
+    let is_xz = |file: &&[u8]| file.windows(5).any(|bytes| bytes == b"7zXZ\0");
+    let always = if files.iter().any(is_xz) { always + XZ_DICTIONARY } else { always };
     let before = MEMORY.current_usage();
     MEMORY.reset_peak_usage();
     let timed = || {

@@ -201,6 +201,15 @@ pub enum Fault {
         /// What the reader said.
         reason: String,
     },
+    /// A whole file with something in it that is not read: another copy of it is no better.
+    Unsupported {
+        /// Where.
+        what: String,
+        /// What it is.
+        reason: String,
+        /// What to do, one sentence.
+        remedy: &'static str,
+    },
     /// The browser or the disk refuses to read the bytes.
     Unreadable {
         /// What they say.
@@ -351,6 +360,7 @@ impl FormatError {
             Fault::NotMesh { .. } => "notmesh",
             Fault::Size { .. } => "size",
             Fault::Damaged { .. } => "damaged",
+            Fault::Unsupported { .. } => "unsupported",
             Fault::DecimalComma { .. } => "decimal-comma",
             Fault::NoNumber { .. } => "no-number",
             Fault::Missing { .. } => "missing-landmarks",
@@ -413,6 +423,9 @@ impl FormatError {
             }
             Fault::Version { .. } => "Save the model with a current version of its software.",
             Fault::Filter { .. } => "Rewrite the file with gzip or without compression.",
+            Fault::Layout { layout, .. } if layout.contains("other file") => {
+                "Store the numbers in this file itself."
+            }
             Fault::Layout { .. } => {
                 "Rewrite the file with h5py's `libver='v114'`, or uncompressed."
             }
@@ -425,8 +438,12 @@ impl FormatError {
             Fault::CellCorners { .. } => {
                 "Store the faces as one row of 2 or 3 point numbers each, or leave them out."
             }
+            Fault::NotFinite { what, .. } if what == "the list of points" => {
+                "Leave this shape out, or correct its file."
+            }
             Fault::NotFinite { .. } => {
-                "Remove the NaN or infinite values and export the model again."
+                "Give these values as numbers, or leave out the points or modes that have them, and \
+                 export the model again."
             }
             Fault::NegativeVariances { .. } => {
                 "Check how the variances were computed, and export the model again."
@@ -458,10 +475,17 @@ impl FormatError {
             Fault::Size { .. } => {
                 "Check that the file is not damaged, or save fewer modes and load that."
             }
-            Fault::Damaged { what, .. } if what.starts_with("Line ") => {
+            Fault::Damaged { what, reason }
+                if what.starts_with("Line ") || reason.contains("line ") =>
+            {
                 "Correct this line, or export the file again."
             }
+            // The place in a text.
+            Fault::Damaged { reason, .. } if reason.contains("(byte ") => {
+                "Correct the text there, or export the model again."
+            }
             Fault::Damaged { .. } => "Download the file or export the model again.",
+            Fault::Unsupported { remedy, .. } => remedy,
             Fault::DecimalComma { .. } => {
                 "Write the numbers with points, or export the file again with English number formats."
             }
@@ -481,8 +505,7 @@ impl FormatError {
                 "Save its arrays as plain numbers where that class is installed:\n\
                  import numpy, pickle\n\
                  model = pickle.load(open('model.pkl', 'rb'), encoding='latin1')\n\
-                 numpy.savez('model.npz', **{name: numpy.array(model[name]) for name in \
-                 ('v_template', 'shapedirs', 'f')})"
+                 numpy.savez('model.npz', **{name: numpy.array(model[name]) for name in model})"
             }
             Fault::OneArray { .. } => {
                 "Save mean, basis and variances together: `numpy.savez('model.npz', mean=mean, basis=basis, eigenvalues=variances)`."
@@ -496,10 +519,14 @@ impl FormatError {
             }
             Fault::Companion { .. } => "Choose or drop all files of the model together.",
             Fault::JsonNumber { .. } => {
-                "Remove the NaN or infinite values, or load the file from which this one was converted."
+                "Give these values as numbers, or leave out the points or modes that have them, and \
+                 export the model again."
             }
             Fault::OtherVersion { .. } => "Save the model in a version that is known.",
             Fault::NoFace { .. } => "Load the whole model of which they are a part.",
+            Fault::CutOff { detail } if detail.contains("announced") => {
+                "Download or copy the file again; if it is whole, correct what it announces."
+            }
             Fault::CutOff { .. } => "Download or copy the file again.",
             Fault::Strips => "Save the mesh with single triangles.",
             Fault::Correspondence { .. } => {
@@ -522,7 +549,7 @@ impl FormatError {
                 "Drop the files of one model at a time, or the shapes of each set in a folder."
             }
             Fault::Model(error) => error.hint(),
-            Fault::Write { .. } => "Export the model in the other format.",
+            Fault::Write { .. } => "Export the model as .npz, which holds every model as it is.",
         }
     }
 }
@@ -628,7 +655,9 @@ impl fmt::Display for Fault {
                 quantity_of_bytes(*claimed),
                 quantity_of_bytes(*limit)
             ),
-            Self::Damaged { what, reason } => write!(f, "{what} cannot be read: {reason}."),
+            Self::Damaged { what, reason } | Self::Unsupported { what, reason, .. } => {
+                write!(f, "{what} cannot be read: {reason}.")
+            }
             Self::Unreadable { reason } => write!(f, "The file cannot be read: {reason}."),
             Self::NoPart { part, parts } => {
                 write!(f, "There is no part “{part}”, only {}.", parts.join(", "))
@@ -758,6 +787,15 @@ pub(super) fn shape_text<T: fmt::Display>(shape: &[T]) -> String {
         return "one number".to_owned();
     }
     shape.iter().map(T::to_string).collect::<Vec<_>>().join(" × ")
+}
+
+/// The fault of a whole file with something in it that is not read.
+pub(crate) fn unsupported(
+    what: impl Into<String>,
+    reason: impl Into<String>,
+    remedy: &'static str,
+) -> Fault {
+    Fault::Unsupported { what: what.into(), reason: reason.into(), remedy }
 }
 
 /// The fault of an array that holds something else.

@@ -195,7 +195,7 @@ impl ModelError {
                 "Check that the mean and the basis come from the same model, and export it again."
             }
             Self::NotFinite { .. } => {
-                "Remove the NaN or infinite values and export the model again."
+                "Give these values as numbers, or leave out the points or modes that have them, and export the model again."
             }
             Self::NoVariance => "Load a model with at least one mode of positive variance.",
             Self::Magnitude { .. } => {

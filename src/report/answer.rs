@@ -17,13 +17,19 @@ use crate::text::{listed, one_digit, three_digits};
 /// Level of the answer: below it a difference is called more than chance.
 pub const LEVEL: f64 = 0.05;
 /// Share of the distance to the nearest shapes by which plausible ones must be further to be spoken of.
-const FURTHER: f64 = 0.1;
+pub const FURTHER: f64 = 0.1;
 /// Share of the mean distance below which the least distance of plausible shapes is not worth a clause; its solver is
 /// accurate to about a thousandth.
-const SMALL: f64 = 0.01;
+pub const SMALL: f64 = 0.01;
 /// Reach over the distance from the own mean below which a model makes all shapes of the other; rounding of single
 /// precision.
-const ROUNDING: f64 = 1e-5;
+pub const ROUNDING: f64 = 1e-5;
+
+/// Per cent above and below which a share is not written with two digits after the point.
+const NEARLY_ALL: f64 = 99.99;
+const HARDLY_ANY: f64 = 0.01;
+/// Digits of a p-value after the point, at most.
+const MOST_DIGITS: usize = 6;
 
 /// A sentence of the answer.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -495,7 +501,13 @@ impl Quantity {
             Self::Share => {
                 let percent = 100.0 * value;
                 // Never “100 %” for less than all, nor “0 %” for more than none.
-                if percent > 99.0 && percent < 100.0 || percent > 0.0 && percent < 1.0 {
+                if value >= 1.0 || value <= 0.0 {
+                    format!("{percent:.0} %")
+                } else if percent > NEARLY_ALL {
+                    format!("more than {NEARLY_ALL} %")
+                } else if percent < HARDLY_ANY {
+                    format!("less than {HARDLY_ANY} %")
+                } else if !(1.0..=99.0).contains(&percent) {
                     format!("{percent:.2} %")
                 } else {
                     format!("{percent:.0} %")
@@ -503,8 +515,14 @@ impl Quantity {
             }
             Self::Count => format!("{value:.0}"),
             Self::PValue => {
-                let digits = if value < 0.0095 { 3 } else { 2 };
-                format!("{value:.digits$}")
+                let mut digits = if value < 0.0095 { 3 } else { 2 };
+                let written = |digits: usize| format!("{value:.digits$}");
+                // A value above the level is not written as the level.
+                let is_above = |text: &str| text.parse::<f64>().is_ok_and(|read| read > LEVEL);
+                while value > LEVEL && !is_above(&written(digits)) && digits < MOST_DIGITS {
+                    digits += 1;
+                }
+                written(digits)
             }
         }
     }

@@ -15,7 +15,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::model::{Kind, LinearModel, ShapesRole, Unit};
 
-pub use answer::{LEVEL, Name, NoEvidence, Part, Quantity, Sentence, Topic, answer};
+pub use answer::{
+    FURTHER, LEVEL, Name, NoEvidence, Part, Quantity, ROUNDING, SMALL, Sentence, Topic, answer,
+};
 pub use evidence::{
     Band, Bands, Chance, EvidenceReport, Histogram, Hypothesis, LeftOut, MatchedShares,
     ModeStability, Statistic, StatisticName, ToldApart, VertexEvidence,

@@ -30,7 +30,7 @@ const RUST = {
       "lessons",
       "reproduce",
     ],
-    ...["roofline", "typescript", "wasm", "bin"],
+    ...["roofline", "remedies", "typescript", "wasm", "bin"],
   ],
   "src/formats": [
     ...[

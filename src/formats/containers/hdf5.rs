@@ -21,7 +21,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::formats::containers::arrays::{Array, Data, count_of, half_to_single, trimmed};
 use crate::formats::containers::tree::Tree;
-use crate::formats::error::{Fault, shape_text};
+use crate::formats::error::{Fault, shape_text, unsupported};
 use crate::formats::input::{Input, Storage, largest_array};
 
 /// Longest text read from an attribute or a dataset, in bytes.
@@ -332,8 +332,8 @@ fn fault_of(error: &Error, what: &str, length: usize) -> Fault {
         }
         // Links by name have no address, which reads as one beyond all files.
         Error::Format(Low::UnexpectedEof { expected: usize::MAX, .. }) => {
-            let reason = "it is a soft link, or its address leads nowhere".to_owned();
-            Fault::Damaged { what, reason }
+            let reason = "it is a soft link, or its address leads nowhere";
+            unsupported(what, reason, "Store the array itself under this name.")
         }
         Error::Format(Low::UnexpectedEof { expected, available }) if *expected > *available => {
             Fault::Truncated {

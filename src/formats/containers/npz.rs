@@ -14,7 +14,8 @@ use crate::formats::FormatError;
 use crate::formats::containers::NamedArrays;
 use crate::formats::containers::arrays::Array;
 use crate::formats::containers::npy::{self, Header, NpyError};
-use crate::formats::error::Fault;
+use crate::formats::error::{Fault, unsupported};
+use crate::formats::input::compressed::is_read;
 use crate::formats::input::largest_array;
 
 /// An open archive: what its members hold, not yet unpacked.
@@ -36,6 +37,14 @@ impl<R: Read + Seek + Clone> Archive<R> {
         })?;
         let mut members = BTreeMap::new();
         for index in 0..zip.len() {
+            let packed =
+                zip.by_index_raw(index).map_err(|error| damaged("The ZIP archive", error))?;
+            if !is_read(packed.compression()) {
+                let name = String::from_utf8_lossy(packed.name_raw()).into_owned();
+                let remedy = "Save the arrays again with `numpy.savez`.";
+                return Err(unsupported(name, "it is packed by a method that is not read", remedy));
+            }
+            drop(packed);
             let mut member =
                 zip.by_index(index).map_err(|error| damaged("The ZIP archive", error))?;
             let name = String::from_utf8_lossy(member.name_raw()).into_owned();

@@ -20,12 +20,12 @@ use std::sync::Arc;
 use bzip2_rs::DecoderReader;
 use flate2::read::MultiGzDecoder;
 use lzma_rust2::XzReader;
-use zip::ZipArchive;
+use zip::{CompressionMethod, ZipArchive};
 
 use super::paths::is_junk;
 use super::sniffing::{Content, sniff};
 use super::{Input, Storage, largest_array};
-use crate::formats::error::{Fault, FormatError};
+use crate::formats::error::{Fault, FormatError, unsupported};
 
 /// Archives in archives.
 pub(crate) const DEEPEST: u8 = 2;
@@ -48,6 +48,9 @@ fn unpacker<'a>(content: Content, packed: &'a [u8]) -> Box<dyn Read + 'a> {
         _ => Box::new(MultiGzDecoder::new(packed)),
     }
 }
+
+/// What to do with an archive that is whole and cannot be unpacked here.
+const UNPACK: &str = "Unpack it with the program that made it, and drop the files themselves.";
 
 /// What `input` is; of a compressed file, what is in it.
 pub(crate) fn content(input: &Input) -> Result<Content, FormatError> {
@@ -198,12 +201,14 @@ pub(crate) fn members(bytes: &[u8]) -> Result<Vec<Member>, Fault> {
             continue;
         }
         if member.encrypted() {
-            let reason = "it is locked with a password".to_owned();
-            return Err(Fault::Damaged { what: name, reason });
+            return Err(unsupported(name, "it is locked with a password", UNPACK));
+        }
+        if !is_read(member.compression()) {
+            return Err(unsupported(name, "it is packed by a method that is not read", UNPACK));
         }
         if members.len() == MOST_FILES {
             let reason = format!("it holds more than {MOST_FILES} files");
-            return Err(Fault::Damaged { what: "The ZIP archive".to_owned(), reason });
+            return Err(unsupported("The ZIP archive", reason, UNPACK));
         }
         members.push(Member { index, name, size: member.size() });
     }
@@ -249,6 +254,11 @@ fn open_archive(bytes: &[u8]) -> Result<ZipArchive<Cursor<&[u8]>>, Fault> {
             Fault::TruncatedArchive
         }
     })
+}
+
+/// Whether files of an archive that are packed in this way are unpacked here.
+pub(crate) fn is_read(method: CompressionMethod) -> bool {
+    matches!(method, CompressionMethod::Stored | CompressionMethod::Deflated)
 }
 
 fn damaged(error: impl core::fmt::Display) -> Fault {

@@ -21,7 +21,7 @@ pub(super) mod vtk;
 pub(super) mod vtp;
 mod vtp_numbers;
 
-use super::error::Fault;
+use super::error::{Fault, unsupported};
 use crate::formats::input::sniffing::Content;
 use crate::model::{Cells, SMALLEST_LENGTH, check_magnitude};
 
@@ -69,7 +69,7 @@ impl Mesh {
     pub(super) fn new(dimension: usize, points: Vec<f64>, cells: Cells) -> Result<Self, Fault> {
         let count = points.len() / dimension;
         if count == 0 {
-            return Err(damaged("The mesh", "it has no points"));
+            return Err(unsupported("The mesh", "it has no points", LEAVE_OUT));
         }
         check_coordinates(&points)?;
         let beyond = corners(&cells).iter().filter(|&&corner| corner as usize >= count).count();
@@ -290,6 +290,9 @@ pub(super) fn lines(text: &[u8]) -> impl Iterator<Item = &[u8]> {
     let end = if text.contains(&b'\n') { b'\n' } else { b'\r' };
     text.split(move |byte| *byte == end).map(<[u8]>::trim_ascii)
 }
+
+/// What to do with a file that holds nothing.
+const LEAVE_OUT: &str = "Leave this file out, or export it again.";
 
 pub(super) fn damaged(what: impl Into<String>, reason: impl Into<String>) -> Fault {
     Fault::Damaged { what: what.into(), reason: reason.into() }

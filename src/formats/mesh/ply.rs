@@ -12,8 +12,8 @@
 //!
 //! **References.** Turk, "The PLY polygon file format", 1994.
 
-use super::{Collected, Mesh, damaged, ends_early, index_of, number};
-use crate::formats::error::Fault;
+use super::{Collected, LEAVE_OUT, Mesh, damaged, ends_early, index_of, number};
+use crate::formats::error::{Fault, unsupported};
 
 /// Reads a PLY mesh.
 pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
@@ -73,7 +73,7 @@ pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
         }
     }
     if !has_vertices {
-        return Err(damaged("The header", "it announces no vertices"));
+        return Err(unsupported("The header", "it announces no vertices", LEAVE_OUT));
     }
     cells.mesh(dimension, points)
 }

@@ -14,8 +14,8 @@
 
 use std::collections::BTreeMap;
 
-use super::{Mesh, check_coordinates, damaged, number, words};
-use crate::formats::error::Fault;
+use super::{LEAVE_OUT, Mesh, check_coordinates, damaged, number, words};
+use crate::formats::error::{Fault, unsupported};
 use crate::model::Cells;
 
 /// Where the corners of all triangles are.
@@ -23,7 +23,7 @@ pub(in crate::formats) fn corners(bytes: &[u8]) -> Result<Vec<[f64; 3]>, Fault> 
     let corners = binary(bytes).map_or_else(|| text(bytes), Ok)?;
     check_coordinates(corners.as_flattened())?;
     if corners.is_empty() {
-        return Err(damaged("The mesh", "it has no triangles"));
+        return Err(unsupported("The mesh", "it has no triangles", LEAVE_OUT));
     }
     Ok(corners)
 }

@@ -18,7 +18,10 @@
 //! **References.** Kitware, "VTK file formats".
 
 use super::{Collected, Mesh, damaged, ends_early, index_of, number};
-use crate::formats::error::Fault;
+use crate::formats::error::{Fault, unsupported};
+
+/// What to do with an image or another grid.
+const AS_MESH: &str = "Save a mesh of it, as POLYDATA or UNSTRUCTURED_GRID.";
 
 /// Reads a mesh in the legacy format of VTK.
 pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
@@ -42,7 +45,7 @@ pub(in crate::formats) fn read(bytes: &[u8]) -> Result<Mesh, Fault> {
                 if kind != "POLYDATA" && kind != "UNSTRUCTURED_GRID" {
                     let reason =
                         format!("{kind} was found, POLYDATA or UNSTRUCTURED_GRID expected");
-                    return Err(damaged("The data set", reason));
+                    return Err(unsupported("The data set", reason, AS_MESH));
                 }
             }
             ("POINTS", [count, kind, ..]) => {
@@ -306,9 +309,10 @@ mod tests {
         );
         assert_eq!(
             fault("DATASET STRUCTURED_POINTS\n"),
-            damaged(
+            unsupported(
                 "The data set",
-                "STRUCTURED_POINTS was found, POLYDATA or UNSTRUCTURED_GRID expected"
+                "STRUCTURED_POINTS was found, POLYDATA or UNSTRUCTURED_GRID expected",
+                AS_MESH
             ),
             "an image"
         );

@@ -16,7 +16,7 @@
 
 use crate::formats::containers::arrays::{Array, Data};
 use crate::formats::containers::json::{Document, Value};
-use crate::formats::error::Fault;
+use crate::formats::error::{Fault, unsupported};
 use crate::formats::input::Input;
 use crate::formats::readers::assemble::{Ingredients, Named, Scaling, assemble};
 use crate::formats::readers::cells::Habit;
@@ -62,8 +62,8 @@ pub(crate) fn read(
         Some(2.0) => 2,
         Some(3.0) => 3,
         _ => {
-            let reason = "2 or 3 was expected".to_owned();
-            return Err(Fault::Damaged { what: "dimension".to_owned(), reason });
+            let remedy = "Write the coordinates per point, 2 or 3, as `dimension`.";
+            return Err(unsupported("dimension", "2 or 3 was expected", remedy));
         }
     };
     let length = mean.len();

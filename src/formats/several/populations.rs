@@ -173,7 +173,7 @@ fn with_tables_apart(inputs: Vec<&Input>) -> (Vec<&Input>, Vec<(&Input, SideTabl
 /// The table in a file that is no shape.
 pub(crate) fn side_table(input: &Input) -> Option<SideTable> {
     const LONGEST: u64 = 16 << 20;
-    const ENDINGS: [&str; 4] = [".csv", ".tsv", ".txt", ".dat"];
+    const ENDINGS: [&str; 4] = ["csv", "tsv", "txt", "dat"];
     let may_be = ENDINGS.contains(&paths::ending(input.file_name()).as_str());
     if !may_be || input.len() > LONGEST || compressed::content(input).is_ok() {
         return None;

@@ -159,6 +159,10 @@ impl Specimens {
             let words = self.columns.words(column)?;
             let (with, lacking): (Vec<usize>, Vec<usize>) =
                 kept.iter().partition(|&&specimen| holds(words[specimen]));
+            if with.is_empty() {
+                let reason = "it is not a number for any specimen".to_owned();
+                return Err(Fault::Covariate { column: column.to_owned(), reason });
+            }
             if !lacking.is_empty() {
                 notes.push(format!("Left out without {column}: {}.", self.list(&lacking)));
                 kept = with;

@@ -41,6 +41,11 @@ test("numbers of every kind keep their path and are written as elsewhere on the 
 
 test("a p-value has the digits by which it is judged", () => {
   assert.deepEqual([0.5, 0.105, 0.0499, 0.001].map(pText), ["0.50", "0.10", "0.050", "0.001"]);
+  assert.deepEqual(
+    [0.05, 0.0501, 0.0506].map(pText),
+    ["0.050", "0.0501", "0.051"],
+    "above the level",
+  );
 });
 
 test("an older report has no answer", () => {

@@ -22,10 +22,16 @@ function written(value: number, quantity: Quantity, unit: string): string {
   }
 }
 
-/** A p-value, with as many digits as it is judged by. */
+/** The level of the answer, as the engine has it. */
+const LEVEL = 0.05;
+
+/** A p-value, with as many digits as it is judged by: one above the level is not written as the level. */
 export function pText(p: number): string {
   if (p >= 0.1) return p.toFixed(2);
-  return p >= 0.0005 ? p.toFixed(3) : number(p, 1);
+  if (p < 0.0005) return number(p, 1);
+  let digits = 3;
+  while (p > LEVEL && Number(p.toFixed(digits)) <= LEVEL && digits < 6) digits++;
+  return p.toFixed(digits);
 }
 
 const NAMES: Record<Name, keyof Nouns> = {
