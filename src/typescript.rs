@@ -16,7 +16,10 @@ use crate::comparison::{
     ShapeSource, Space, Stage, SweepPoint, VertexMap,
 };
 use crate::files::{Download, OpenedModel, RunFile, RunModel, ShownShape, Sources};
-use crate::formats::{Applied, Choice, Finding, Group, Origin};
+use crate::formats::{
+    Applied, Choice, Column, ColumnKind, ColumnValue, Finding, Group, Origin, SpecimenRow,
+    SpecimenTable,
+};
 use crate::inspect::{Agreement, Inspection, MeanDistance, Remedy, UnitFound};
 use crate::lessons::*;
 use crate::linalg::Moments;
@@ -120,7 +123,7 @@ fn declarations() -> String {
         SidePreparation, PointSelection, Preparation, Settings, FieldValue, Field,
         LinkValue, LinkPart, LinkKey,
         // Models.
-        Group, Origin, Spread, ShapesRole, KnownShapes, ModelReport, OpenedModel, Geometry,
+        Group, Origin, SpecimenRow, ColumnKind, ColumnValue, Column, SpecimenTable, Spread, ShapesRole, KnownShapes, ModelReport, OpenedModel, Geometry,
         Agreement, UnitFound, MeanDistance, Remedy, Inspection, RelationReport,
         Method, Placement, Evaluation,
         // The report.

@@ -179,6 +179,22 @@ impl Engine {
         Ok(plain(&groups))
     }
 
+    /// The table of the specimens in files of a set: `{ dimension, points, specimens, columns }`.
+    ///
+    /// # Errors
+    /// `{ code, message, hint }`.
+    #[wasm_bindgen(unchecked_return_type = "SpecimenTable")]
+    pub fn specimens(
+        &self,
+        #[wasm_bindgen(unchecked_param_type = "DroppedFile[]")] files: &Array,
+        reading: &str,
+    ) -> Result<JsValue, JsValue> {
+        let inputs = blobs::inputs(files, None)?;
+        let table = formats::read_specimens(&inputs, &reading_of(reading)?);
+        blobs::release();
+        Ok(plain(&table.map_err(thrown)?))
+    }
+
     /// Opens the model that files make together: `{ format, parts, model, part, report, origin, hasMap }`.
     /// `onRead(bytes, of)` is told of everything that is read from them.
     ///

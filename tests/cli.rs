@@ -1152,3 +1152,27 @@ fn numbers_of_options_are_written_as_in_links() {
         assert_eq!(sigma(text).0, Some(2), "{text}");
     }
 }
+
+#[test]
+fn one_set_is_compared_group_against_group() {
+    let set = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/groups");
+    let set = set.to_str().unwrap();
+    let few = ["--draws", "64", "--permutations", "19", "--json"];
+    let report = |words: &[&str]| -> serde_json::Value {
+        let output = shapevenn(&[&["compare", set], words, &few].concat());
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        serde_json::from_slice(&output.stdout).unwrap()
+    };
+    let both = report(&["--groups", "sex", "--a", "F", "--b", "M", "--adjust", "size"]);
+    assert_eq!(both["models"]["a"]["reading"], "group=sex:F adjust=size");
+    assert_eq!(both["models"]["b"]["reading"], "group=sex:M adjust=size");
+    let rest = report(&["--groups", "sex", "--a", "F"]);
+    assert_eq!(rest["models"]["b"]["reading"], "group=sex:!F", "all others");
+    let old = report(&["--groups", "age<40", "--read", "where=side:left"]);
+    assert_eq!(old["models"]["a"]["reading"], "where=side:left group=age<40");
+    assert_eq!(old["models"]["b"]["reading"], "where=side:left group=age>=40");
+    let output = shapevenn(&["compare", set, "--groups", "sex"]);
+    assert_eq!(output.status.code(), Some(2), "no group");
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(said.contains("--groups sex --a female"), "{said}");
+}

@@ -69,6 +69,10 @@ fn what_the_fuzzer_does_with_bytes_is_done_with_fixtures() {
     fuzz::open_group(&[&[2, 80, 80, 80], &shapes[..]].concat());
     fuzz::open(read("cpp-0.9.h5"));
     fuzz::read_pairs(b"1,2\n3,4\n");
+    // A table of one column, which the fuzzer found to divide by its number of coordinates, none.
+    fuzz::open_beside_mean(
+        b"|||||\x9f|||||||||||||||||&|||||||||||||&||||||||||||||||||||||||||||||&.",
+    );
 }
 
 #[test]

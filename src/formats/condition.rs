@@ -12,8 +12,6 @@
 use core::fmt;
 use std::str::FromStr;
 
-use crate::formats::input::columns::is_missing;
-
 /// A condition on one column.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Condition {
@@ -80,6 +78,14 @@ impl Condition {
             _ => self.label(),
         }
     }
+}
+
+/// Whether a word stands for a value that is missing.
+pub(crate) fn is_missing(word: &str) -> bool {
+    const WORDS: [&str; 9] = ["", "na", "nan", "n/a", "null", "none", "missing", "?", "."];
+    let word = word.to_ascii_lowercase();
+    let word = word.strip_prefix(['+', '-']).unwrap_or(&word);
+    WORDS.contains(&word)
 }
 
 /// The number that a word of a table writes, with a decimal point or comma.

@@ -196,6 +196,7 @@ impl Specimens {
     fn settle(&mut self) {
         const CANDIDATES: usize = 12;
         const COMPARED: usize = 30;
+        const MEDIAN_OF: usize = 200;
         let whole = |specimen: &usize| self.present[*specimen].len() == self.points;
         let mut candidates: Vec<usize> = (0..self.shapes.len()).filter(whole).collect();
         if candidates.is_empty() {
@@ -226,15 +227,19 @@ impl Specimens {
             .map_or(0, |(_, candidate)| candidate);
         self.reference = self.unit(best);
         let mut there = self.present[best].clone();
+        // The median of so many is known well enough to judge all by it.
+        let some = thinned(&all, MEDIAN_OF);
         for _ in 0..2 {
             self.fits =
-                all.iter().map(|&specimen| self.fit(&self.reference, &there, specimen)).collect();
+                some.iter().map(|&specimen| self.fit(&self.reference, &there, specimen)).collect();
             let middle = |row: usize| {
                 let values: Vec<f64> = self
                     .fits
                     .iter()
-                    .zip(&self.present)
-                    .filter(|(_, present)| present.binary_search(&(row / self.dimension)).is_ok())
+                    .zip(&some)
+                    .filter(|(_, one)| {
+                        self.present[**one].binary_search(&(row / self.dimension)).is_ok()
+                    })
                     .map(|(fit, _)| fit.moved[row])
                     .collect();
                 if values.is_empty() { self.reference[row] } else { median(values) }
@@ -299,9 +304,14 @@ impl Specimens {
         let steps = |trusted: Vec<usize>, steps: usize| {
             self.concentrated(reference, both, shape, mirrored, trusted, steps)
         };
+        let plain = steps(both.to_vec(), STEPS);
+        // No landmark is far away, not even half as far as a wrong one: no other start does better.
+        if both.iter().all(|&point| plain.0.residuals[point] < 0.5 * RADII) {
+            return plain.0;
+        }
         let threes = starts(both).into_iter().map(|three| steps(three, 2));
         let (best, trusted) = threes
-            .chain([steps(both.to_vec(), STEPS)])
+            .chain([plain])
             .min_by(|one, other| one.0.error.total_cmp(&other.0.error))
             .unwrap_or_else(|| steps(both.to_vec(), 1));
         let (settled, _) = steps(trusted, STEPS);

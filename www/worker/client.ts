@@ -39,6 +39,7 @@ import type {
   Side,
   Sides,
   Space,
+  SpecimenTable,
   SweepPoint,
   ToEngine,
   VertexMap,
@@ -101,6 +102,14 @@ export class EngineClient {
 
   async groups(signal: AbortSignal, files: DroppedFile[]): Promise<Group[]> {
     return (await this.#ask(signal, { t: "groups", files }, "groups")).groups;
+  }
+
+  async specimens(
+    signal: AbortSignal,
+    files: DroppedFile[],
+    reading: string,
+  ): Promise<SpecimenTable> {
+    return (await this.#ask(signal, { t: "specimens", files, reading }, "specimens")).table;
   }
 
   /** Aborting gives the model up; the engine lets go of it when it is read. */

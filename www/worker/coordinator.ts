@@ -52,6 +52,7 @@ const BUSY_WITH: Record<Question["t"], string> = {
   pairs: "reading the draws",
   relate: "relating the models",
   evaluate: "reading the shapes",
+  specimens: "reading the specimens",
   readRun: "reading the run file",
   runFile: "writing the run file",
   lesson: "preparing the lesson",
@@ -125,6 +126,10 @@ export class Coordinator {
     switch (message.t) {
       case "groups":
         return { t: "groups", id, groups: engine.groups(message.files) };
+      case "specimens": {
+        const { files, reading } = message;
+        return { t: "specimens", id, table: engine.specimens(files, reading) };
+      }
       case "open": {
         const { files, part, reading } = message;
         const onRead = this.#teller(id);

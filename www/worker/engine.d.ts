@@ -243,6 +243,13 @@ export class Engine {
      */
     runFile(sources: Sides<string | null>): string;
     /**
+     * The table of the specimens in files of a set: `{ dimension, points, specimens, columns }`.
+     *
+     * # Errors
+     * `{ code, message, hint }`.
+     */
+    specimens(files: DroppedFile[], reading: string): SpecimenTable;
+    /**
      * Begins the comparison of two models; the one before it is given up. A setting that is left out
      * has the default of the sampler.
      *

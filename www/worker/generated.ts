@@ -323,6 +323,58 @@ export type Origin = {
   sampled: number,
 };
 
+/** One specimen. */
+export type SpecimenRow = {
+  /** What a reading calls it (`without=`). */
+  key: string,
+  /** What a sentence calls it. */
+  name: string,
+  /** Centroid size: root of the sum of squared distances of its points from their centroid. `None` where one is missing. */
+  size: number | null,
+  /** Points that are missing. */
+  missing: number,
+  /** Whether the reading keeps it. */
+  kept: boolean,
+  /** What it has in each column; empty where nothing is known. */
+  values: Array<string>,
+};
+
+/** What a column holds. */
+export type ColumnKind = "groups" | "numbers" | "names";
+
+/** A word of a column. */
+export type ColumnValue = {
+  /** The word. */
+  word: string,
+  /** Specimens that have it. */
+  count: number,
+};
+
+/** One column. */
+export type Column = {
+  /** Its name. */
+  name: string,
+  /** What it holds. */
+  kind: ColumnKind,
+  /**
+   * The different words or numbers, with how many specimens have each; of numbers, and of words that name the specimens,
+   * none.
+   */
+  values: Array<ColumnValue>,
+};
+
+/** The specimens of a set, with what is known of each. */
+export type SpecimenTable = {
+  /** Coordinates per point. */
+  dimension: number,
+  /** Points of each. */
+  points: number,
+  /** In the order of the files. */
+  specimens: Array<SpecimenRow>,
+  /** What is known of them. */
+  columns: Array<Column>,
+};
+
 /** Smallest, mean and largest of a map over the vertices. */
 export type Spread = {
   /** Smallest value. */

@@ -37,6 +37,7 @@ import type {
   SidePreparation,
   Sides,
   Space,
+  SpecimenTable,
   SweepPoint,
   VertexMap,
 } from "./generated";
@@ -86,6 +87,8 @@ export type LessonAnswer = LessonAnswers[LessonAsk["ask"]];
 export type ToEngine =
   /** Which of these files belong together. */
   | { t: "groups"; id: number; files: DroppedFile[] }
+  /** What is known of each specimen of a set. */
+  | { t: "specimens"; id: number; files: DroppedFile[]; reading: string }
   /** `part` null takes the first; `reading` says how it is read where its file does not. */
   | { t: "open"; id: number; files: DroppedFile[]; part: string | null; reading: string }
   /** Takes shapes as training or test shapes of an open model, whichever they are; `name` is what they are called. */
@@ -177,6 +180,7 @@ export type FromEngine =
   /** Long indivisible work begins: no beats until it is done. */
   | { t: "busy"; what: string }
   | { t: "groups"; id: number; groups: Group[] }
+  | { t: "specimens"; id: number; table: SpecimenTable }
   /** While a model is read: bytes so far, of how many. */
   | { t: "reading"; id: number; bytes: number; of: number }
   | ({ t: "opened"; id: number } & OpenedModel)

@@ -136,8 +136,8 @@ struct Compare {
     /// First model: a file, a folder of shapes, `FILE#part` or `demo:NAME`
     #[arg(required_unless_present_any = ["run", "link"])]
     a: Option<String>,
-    /// Second model
-    #[arg(required_unless_present_any = ["run", "link"])]
+    /// Second model; with --groups the first holds both
+    #[arg(required_unless_present_any = ["run", "link", "groups"])]
     b: Option<String>,
     /// Make a comparison again: its run.json or report.json, and the models where they are no demos
     #[arg(long, value_name = "RUN.json", conflicts_with_all = decided())]
@@ -326,7 +326,9 @@ fn compare(arguments: &Compare) -> Result<(), Failure> {
         (Some((run, path)), _) => (rerun::models(run, path, given)?, run.settings.clone()),
         (None, Some(link)) => linked(link, given)?,
         (None, None) => {
-            (given.map(|source| source.unwrap_or_default().to_owned()), settings(arguments)?)
+            let second = given[1].or(given[0].filter(|_| arguments.prepare.reading.divides()));
+            let named = [given[0], second].map(|source| source.unwrap_or_default().to_owned());
+            (named, settings(arguments)?)
         }
     };
     let given = arguments.prepare.reading.readings()?;

@@ -1,5 +1,7 @@
 //! Splits lines of a list of points into columns: separators, headings, words for missing values.
 
+pub(crate) use crate::formats::condition::is_missing;
+
 /// The columns of a line: between semicolons, tabs or commas, whichever it has, else between blanks. An empty column
 /// between two separators is an empty word; one at the end of the line is none.
 pub(crate) fn columns(line: &str) -> Vec<&str> {
@@ -25,14 +27,6 @@ pub(crate) fn columns(line: &str) -> Vec<&str> {
 
 fn unquoted(word: &str) -> &str {
     word.strip_prefix('"').and_then(|word| word.strip_suffix('"')).unwrap_or(word)
-}
-
-/// Whether a word stands for a value that is missing.
-pub(crate) fn is_missing(word: &str) -> bool {
-    const WORDS: [&str; 9] = ["", "na", "nan", "n/a", "null", "none", "missing", "?", "."];
-    let word = word.to_ascii_lowercase();
-    let word = word.strip_prefix(['+', '-']).unwrap_or(&word);
-    WORDS.contains(&word)
 }
 
 /// A line that names the coordinates.

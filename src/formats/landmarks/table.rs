@@ -21,7 +21,7 @@ use super::gathering::{Gathered, LATIN, column_name, coordinate, shortened, text
 use super::markups::Frame;
 use super::rows::{self, Row};
 use super::{Landmarks, Specimen};
-use crate::formats::error::Fault;
+use crate::formats::error::{Fault, counted};
 use crate::formats::input::headings::{Axes, Layout, fields, separator};
 use crate::formats::mesh::{Mesh, MissingPoint, at_line};
 use crate::formats::reading::Reading;
@@ -154,7 +154,13 @@ pub(super) fn read(bytes: &[u8], reading: &Reading) -> Result<Landmarks, Fault> 
 
 /// One point a line with its name, without heading.
 fn of_named_points(table: &Table<'_>) -> Result<Landmarks, Fault> {
-    let mut points = Gathered::new(table.names.len() - 1);
+    let columns = table.names.len();
+    if columns < 3 {
+        let line = table.rows.first().map_or(0, |(line, _)| *line);
+        let columns = counted(columns, "column", "columns");
+        return Err(at_line(line, format!("it has {columns}, not a name and 2 or 3 numbers")));
+    }
+    let mut points = Gathered::new(columns - 1);
     for (index, row) in &table.rows {
         for word in &row[1..] {
             points.add_word(*index, word)?;

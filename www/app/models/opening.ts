@@ -30,7 +30,7 @@ import {
 } from "../state/state";
 import { closeUnused, release, retain } from "./list/handles";
 import { afterChoice } from "./list/order";
-import { withWord } from "./reading";
+import { withWord, wordOf } from "./reading";
 import { mayBeShapesOf } from "./shapes";
 import {
   baseName,
@@ -232,7 +232,8 @@ function show(opened: Record<Side, Slot | null>, alongside: () => void): void {
     modelList.value = afterChoice(modelList.value, before, now);
     // Each population is in the frame of its own first shape: the two models must be aligned to each other.
     const populations = SIDES.every((side) => slots[side].value?.origin.kind === "shapes");
-    if (populations && settings.value.align === "none") change({ align: "rigid" });
+    if (populations && !areGroupsOfOneSet(now) && settings.value.align === "none")
+      change({ align: "rigid" });
     emptyRegions.value = {};
     // The locked range of the former models no longer applies; that of a link which opens the page stays.
     if (before.a || before.b) lockedRange.value = null;
@@ -243,6 +244,12 @@ function show(opened: Record<Side, Slot | null>, alongside: () => void): void {
     alongside();
   });
   closeUnused();
+}
+
+/** Whether A and B are groups of one set, which are in one frame. */
+function areGroupsOfOneSet({ a, b }: Record<Side, Slot | null>): boolean {
+  const isGroup = (slot: Slot | null) => slot !== null && wordOf(slot.reading, "group") !== null;
+  return isGroup(a) && isGroup(b) && a?.source === b?.source;
 }
 
 /** Resets the settings of one model when it is replaced: unit, number of modes, list of points. */

@@ -13,6 +13,7 @@ import {
 } from "../state/state";
 import { fileName } from "./address/address";
 import { fetchModel } from "./address/fetching";
+import { wordOf } from "./reading";
 
 export interface NamedSource {
   name: string;
@@ -58,6 +59,11 @@ export function isOpen(slot: Slot, wanted: Wanted): boolean {
 
 export function nameOf(source: Source): string {
   return source.kind === "url" ? fileName(source.url) : source.name;
+}
+
+/** What a model is called: its file or set, or its group of a set. */
+export function titleOf({ source, reading, report }: Slot): string {
+  return wordOf(reading, "group") === null ? nameOf(source) : report.name;
 }
 
 export function baseName(path: string): string {

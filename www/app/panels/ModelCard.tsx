@@ -18,7 +18,8 @@ import {
 } from "../models/opening";
 import { hasWord } from "../models/reading";
 import { nameOfShapes } from "../models/shapes";
-import { filesSource, nameOf } from "../models/sources";
+import { filesSource, titleOf } from "../models/sources";
+import { isSet, readingSpecimens, showSpecimens } from "../models/specimens";
 import { cardPicture, drawable } from "../stage/stage-controller";
 import { keptModes } from "../state/preparation";
 import { otherSide } from "../state/regions";
@@ -51,7 +52,7 @@ export function ModelCard({ side }: { side: Side }) {
   const slot = slots[side].value;
   // Before the engine has started, the stored report describes both models.
   const report = slot?.report ?? result.value?.report.models[side];
-  const ofFile = slot && slot.source.kind !== "demo" ? nameOf(slot.source) : undefined;
+  const ofFile = slot && slot.source.kind !== "demo" ? titleOf(slot) : undefined;
   const asked = linked.value && askedName(linked.value, side);
   const name = ofFile ?? report?.name ?? demo.value?.[side] ?? asked ?? "";
   const busy = opening[side].value;
@@ -168,6 +169,17 @@ function Made({ side, slot }: { side: Side; slot: Slot }) {
         >
           Also scale to one size
         </Check>
+      )}
+      {isSet(slot) && (
+        <button
+          type="button"
+          class="as-link"
+          disabled={readingSpecimens.value !== null}
+          onClick={() => void showSpecimens(side)}
+        >
+          {readingSpecimens.value === side ? "Reading the specimens…" : "Specimens and groups…"}
+          <span class="unseen"> of model {side.toUpperCase()}</span>
+        </button>
       )}
       {(sentence || modes !== null || variance !== null) && (
         <ModesKept side={side} deviations={report.standardDeviations} />

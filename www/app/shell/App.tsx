@@ -8,6 +8,7 @@ import { OfferedShapes } from "../panels/OfferedShapes";
 import { PairCard } from "../panels/PairCard";
 import { RunPanel } from "../panels/RunPanel";
 import { SettingsPanel } from "../panels/SettingsPanel";
+import { Specimens } from "../panels/Specimens";
 import { PictureDialogs } from "../pictures/PictureDialogs";
 import { ShareDialog } from "../share/ShareDialog";
 import { demo, embedded, page, result, spoken, tab } from "../state/state";
@@ -46,6 +47,7 @@ function WholePage() {
       <PageShown framed={false} />
       <DropOverlay />
       <Chooser />
+      <Specimens />
       <OfferedShapes />
       <PictureDialogs />
       <ShareDialog />

@@ -1,7 +1,7 @@
 import type { Side } from "../../../worker/protocol";
 import { addModels, chooseFor, removeModel } from "../../models/list/actions";
 import { isSame, namesOf } from "../../models/list/order";
-import { nameOf } from "../../models/sources";
+import { titleOf } from "../../models/sources";
 import {
   addingModels,
   modelList,
@@ -18,7 +18,7 @@ import { CloseIcon } from "../../ui/icons";
 
 /** Names of the models of the model list, in its order. */
 export function listNames(): string[] {
-  return namesOf(modelList.value, (slot) => nameOf(slot.source));
+  return namesOf(modelList.value, titleOf);
 }
 
 /** Table of the open models: points, modes, and which two of them are compared. */
