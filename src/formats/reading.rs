@@ -139,7 +139,7 @@ pub struct Reading {
     pub only: Vec<Condition>,
     /// Which of the specimens that are read the model is made of.
     pub group: Option<Condition>,
-    /// The column of which the regression within groups is taken out; [`SIZE`] is the log centroid size.
+    /// The column of which the regression within groups is taken out; `size` is the log centroid size.
     pub adjust: Option<String>,
     /// Specimens that are mirrored.
     pub mirror: Vec<String>,

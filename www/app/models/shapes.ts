@@ -2,7 +2,8 @@
 import type { DroppedFile } from "../../worker/protocol";
 import type { Files, Slot } from "../state/state";
 
-const SHAPE_FILE = /\.(ply|obj|off|stl|vtk|vtp|tps|particles|pts|pp|asf|fcsv|mrk\.json|landmarkAscii)$/i;
+const SHAPE_FILE =
+  /\.(ply|obj|off|stl|vtk|vtp|tps|particles|pts|pp|asf|fcsv|mrk\.json|landmarkAscii)$/i;
 
 /** Whether these files are several shapes, dropped where a model that was made elsewhere is open. */
 export function mayBeShapesOf(slot: Slot | null, { files }: Files): boolean {
