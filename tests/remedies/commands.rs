@@ -436,6 +436,26 @@ fn literals(source: &str, start: &str) -> Vec<String> {
         .collect()
 }
 
+#[test]
+fn a_column_that_divides_a_set_takes_a_group_or_a_condition() {
+    let set = tests().join("fixtures/groups");
+    let set = set.to_str().unwrap();
+    let said = refused(&["compare", set, "--groups", "sex"]);
+    for hint in [
+        "Name the group that makes A, as --groups sex --a female",
+        "`shapevenn info` lists the columns",
+    ] {
+        assert!(said.contains(hint), "{said}");
+    }
+    // As it says: the columns are listed, and a group or a condition is given.
+    assert!(printed(&["info", set]).contains("sex (F 15, M 15), age (numbers from"));
+    let few = ["--draws", "64", "--permutations", "0"];
+    for words in [&["--groups", "sex", "--a", "F"][..], &["--groups", "age<40"]] {
+        let found = document(&[&["compare", set], words, &few].concat());
+        assert_eq!(found["models"]["a"]["modes"].as_u64().map(|modes| modes > 5), Some(true));
+    }
+}
+
 /// Whoever writes a hint of the command line tries it in this file.
 #[test]
 fn every_hint_of_the_command_line_is_tried_here() {
