@@ -124,6 +124,8 @@ fn groups_that_are_not_there_are_refused_with_what_is() {
         message.contains("a column “Sex”") && message.contains("sex (F 15, M 15)"),
         "{message}"
     );
+    let (code, message) = refused("group=sex<3 adjust=size");
+    assert_eq!(code, "no-group", "a threshold in a column of words: {message}");
     let (code, message) = refused("adjust=side group=sex:F");
     assert_eq!(code, "covariate", "{message}");
     let (_, message) = refused("where=age<20.1 group=sex:F");

@@ -29,7 +29,7 @@ pub use linear_model::{BasisCheck, Cells, Kind, LinearModel, ModelError, Unit};
 pub(crate) use linear_model::{SMALLEST_LENGTH, check_magnitude, lengths, reflect};
 pub use normals::vertex_normals;
 pub use points::evenly_spread;
-pub(crate) use population::into_principal_components;
+pub(crate) use population::{centroid_size, into_principal_components};
 pub use population::{generalised_procrustes, model_of_population, principal_components};
 pub(crate) use procrustes::Moment;
 pub use procrustes::{Alignment, Similarity, align_to, procrustes};

@@ -91,7 +91,7 @@ pub fn generalised_procrustes(
     /// Rounds shrink what is left of a change by the share of the variance in that of position, which is small.
     const MOST_ROUNDS: usize = 200;
     let mut mean: DVector<f64> = shapes.column(0).into_owned();
-    let sizes = shapes.column_iter().map(|shape| centroid_size(&shape.into_owned(), dimension));
+    let sizes = shapes.column_iter().map(|shape| centroid_size(shape.as_slice(), dimension));
     let size = sizes.sum::<f64>() / shapes.ncols() as f64;
     if alignment == Alignment::Similarity {
         resize(&mut mean, dimension, size);
@@ -115,7 +115,7 @@ pub fn generalised_procrustes(
         // Shapes are fitted to the mean smaller than it, by the cosine of their distance: so is the mean of them.
         let mean_of_fitted = shapes.column_mean();
         let centre = centroid(mean_of_fitted.as_slice(), dimension);
-        let factor = size / centroid_size(&mean_of_fitted, dimension);
+        let factor = size / centroid_size(mean_of_fitted.as_slice(), dimension);
         for mut shape in shapes.column_iter_mut() {
             resize_about(shape.as_mut_slice(), &centre, factor);
         }
@@ -126,7 +126,7 @@ pub fn generalised_procrustes(
 /// Gives a shape another centroid size, about its centroid: elsewhere a mean would move on in every round.
 fn resize(points: &mut DVector<f64>, dimension: usize, size: f64) {
     let centre = centroid(points.as_slice(), dimension);
-    let factor = size / centroid_size(points, dimension);
+    let factor = size / centroid_size(points.as_slice(), dimension);
     resize_about(points.as_mut_slice(), &centre, factor);
 }
 
@@ -138,10 +138,10 @@ fn resize_about(points: &mut [f64], centre: &[f64], factor: f64) {
     }
 }
 
-/// Root of the sum of the squared distances of interleaved points from their centroid.
-fn centroid_size(points: &DVector<f64>, dimension: usize) -> f64 {
-    let centre = centroid(points.as_slice(), dimension);
-    let squares = points.as_slice().chunks_exact(dimension).flat_map(|point| {
+/// Root of the sum of the squared distances of interleaved points from their centroid; NaN where a point is missing.
+pub(crate) fn centroid_size(points: &[f64], dimension: usize) -> f64 {
+    let centre = centroid(points, dimension);
+    let squares = points.chunks_exact(dimension).flat_map(|point| {
         point.iter().zip(&centre).map(|(value, centre)| (value - centre) * (value - centre))
     });
     squares.sum::<f64>().sqrt()
@@ -203,12 +203,12 @@ mod tests {
         let moved = |by: f64| {
             let mut shapes = varied.map(|value| value + by);
             let mean = generalised_procrustes(2, &mut shapes, Alignment::Similarity);
-            (shapes.map(|value| value - by), centroid_size(&mean, 2))
+            (shapes.map(|value| value - by), centroid_size(mean.as_slice(), 2))
         };
         let (near, size) = moved(0.0);
         let (far, far_size) = moved(1000.0);
         assert!((near - far).amax() < 1e-9, "moved by as much as the first shape");
-        let sizes = varied.column_iter().map(|shape| centroid_size(&shape.into_owned(), 2));
+        let sizes = varied.column_iter().map(|shape| centroid_size(shape.as_slice(), 2));
         let mean = sizes.sum::<f64>() / 5.0;
         assert!((size / mean - 1.0).abs() < 1e-12, "{size}, not {mean}");
         assert!((far_size / mean - 1.0).abs() < 1e-10, "{far_size}, not {mean}");

@@ -310,10 +310,8 @@ impl Specimens {
             return plain.0;
         }
         let threes = starts(both).into_iter().map(|three| steps(three, 2));
-        let (best, trusted) = threes
-            .chain([plain])
-            .min_by(|one, other| one.0.error.total_cmp(&other.0.error))
-            .unwrap_or_else(|| steps(both.to_vec(), 1));
+        let (best, trusted) =
+            threes.fold(plain, |best, next| if next.0.error <= best.0.error { next } else { best });
         let (settled, _) = steps(trusted, STEPS);
         if settled.error < best.error { settled } else { best }
     }
@@ -410,7 +408,7 @@ impl Specimens {
                 look.landmarks
                     .extend(found.iter().map(|&point| (specimen, point, fit.residuals[point])));
             }
-            if fit.error > 4.0 * middle_error && fit.error > 0.5 * RADII || !of_all {
+            if is_far(fit, middle_error) || !of_all {
                 look.far.push((specimen, fit.error / middle_error));
                 look.landmarks.retain(|(other, ..)| *other != specimen);
             } else if found.is_empty() {
@@ -433,8 +431,7 @@ impl Specimens {
         }
         let suspect = |specimen: &usize| {
             let fit = &self.fits[*specimen];
-            let far = fit.error > 4.0 * middle_error && fit.error > 0.5 * RADII;
-            (far || look.mirrored.contains(specimen))
+            (is_far(fit, middle_error) || look.mirrored.contains(specimen))
                 && self.present[*specimen].len() == self.points
         };
         let suspects: Vec<usize> =
@@ -512,6 +509,12 @@ impl Specimens {
         };
         (near(one, other) && near(other, one)).then_some([one, other])
     }
+}
+
+/// Whether a specimen lies far from the others as a whole: four times as far as the middle one, and half as far as a wrong
+/// landmark.
+fn is_far(fit: &Fit, middle_error: f64) -> bool {
+    fit.error > 4.0 * middle_error && fit.error > 0.5 * RADII
 }
 
 /// Threes of landmarks, drawn alike every time. With a third of the landmarks wrong, one in three is without them: of

@@ -87,7 +87,7 @@ pub fn groups(inputs: &[Input]) -> Result<Vec<Group>, FormatError> {
     let mut sets = sets(inputs, &contents, &rest);
     let claimed: Vec<usize> = sets.iter().chain(&groups).flatten().copied().collect();
     rest.retain(|index| !claimed.contains(index));
-    join_tables(inputs, &contents, &mut rest, &mut sets);
+    let tables = join_tables(inputs, &contents, &mut rest, &mut sets);
     let before = rest.clone();
     rest.retain(|&index| contents[index].is_some() || !joins_or_vanishes(inputs, index, &mut sets));
     let folders_of_groups: Vec<&str> =
@@ -131,7 +131,7 @@ pub fn groups(inputs: &[Input]) -> Result<Vec<Group>, FormatError> {
     groups.extend(sets);
     groups.extend(rest.into_iter().map(|index| vec![index]));
     groups.sort_by_key(|files| files.iter().copied().min());
-    let mut named = named(inputs, &contents, groups);
+    let mut named = named(inputs, &contents, &tables, groups);
     if let Some(set) =
         named.iter_mut().find(|group| first_set.is_some_and(|first| group.files.contains(&first)))
     {
@@ -192,20 +192,20 @@ fn is_set_by_itself(input: &Input, content: Content) -> bool {
 }
 
 /// Adds tables of specimens to the set that they can only be of: the one in their folder, or the only one there is. Sets
-/// that are one file leave the rest for that.
+/// that are one file leave the rest for that. Returns the tables that were added.
 fn join_tables(
     inputs: &[Input],
     contents: &[Option<Content>],
     rest: &mut Vec<usize>,
     sets: &mut Vec<Vec<usize>>,
-) {
+) -> Vec<usize> {
     let tables: Vec<usize> = rest
         .iter()
         .copied()
         .filter(|&index| contents[index].is_none() && side_table(&inputs[index]).is_some())
         .collect();
     if tables.is_empty() {
-        return;
+        return tables;
     }
     let alone = |index: &usize| {
         contents[*index].is_some_and(|content| is_set_by_itself(&inputs[*index], content))
@@ -213,6 +213,7 @@ fn join_tables(
     let by_themselves: Vec<usize> = rest.iter().copied().filter(alone).collect();
     let all: Vec<Vec<usize>> =
         sets.iter().cloned().chain(by_themselves.iter().map(|&index| vec![index])).collect();
+    let mut joined = Vec::new();
     for table in tables {
         let place = folder(&inputs[table].name);
         let beside: Vec<usize> = (0..all.len())
@@ -232,7 +233,9 @@ fn join_tables(
             }
         }
         rest.retain(|&index| index != table);
+        joined.push(table);
     }
+    joined
 }
 
 /// A file of no known format in the folder of a population: a damaged shape if its name ends as theirs
@@ -291,12 +294,18 @@ fn companion_meshes(
     pairs
 }
 
-/// Groups under names that tell them apart.
-fn named(inputs: &[Input], contents: &[Option<Content>], groups: Vec<Vec<usize>>) -> Vec<Group> {
+/// Groups under names that tell them apart; the tables beside sets do not name them.
+fn named(
+    inputs: &[Input],
+    contents: &[Option<Content>],
+    tables: &[usize],
+    groups: Vec<Vec<usize>>,
+) -> Vec<Group> {
     let mut named: Vec<Group> = groups
         .into_iter()
         .map(|files| {
-            let of_group: Vec<Input> = files.iter().map(|&index| inputs[index].clone()).collect();
+            let naming = files.iter().filter(|index| !tables.contains(index));
+            let of_group: Vec<Input> = naming.map(|&index| inputs[index].clone()).collect();
             Group { name: name_of(&of_group), files, left_out: Vec::new() }
         })
         .collect();

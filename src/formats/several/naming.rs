@@ -1,15 +1,11 @@
 //! Names a model that is made of several files.
 
-use super::populations::side_table;
 use crate::formats::input::paths::folder;
 use crate::formats::input::{Input, compressed};
 use crate::formats::landmarks;
 
 /// What to call files that make one model: the file's name, the model's, the folder's.
 pub(crate) fn name_of(inputs: &[Input]) -> String {
-    // A table of groups beside a set does not name it.
-    let shapes: Vec<&Input> = inputs.iter().filter(|input| side_table(input).is_none()).collect();
-    let inputs = if shapes.is_empty() { inputs.iter().collect() } else { shapes };
     let Some(first) = inputs.first() else { return String::new() };
     let is_shape = |input: &&Input| compressed::content(input).is_ok_and(landmarks::is_shape);
     if inputs.len() == 2

@@ -28,7 +28,8 @@ use crate::formats::several::specimens::{self, Specimens};
 use crate::formats::several::table::{SideTable, SpecimenTable};
 use crate::formats::{FormatError, Opened, Options, Origin, Part};
 use crate::model::{
-    Alignment, BasisCheck, Cells, ModelError, generalised_procrustes, model_of_population,
+    Alignment, BasisCheck, Cells, ModelError, centroid_size, generalised_procrustes,
+    model_of_population,
 };
 use crate::text::thousands;
 
@@ -38,14 +39,10 @@ const ROUNDING: f64 = 3e-7;
 
 /// Makes a model of shapes, one or several in each file.
 pub(crate) fn read(inputs: &[Input], options: &Options) -> Result<Opened, FormatError> {
-    let name = name_of(inputs);
-    let (inputs, local) = without_local(inputs);
-    let mut shapes = Shapes::new(&options.reading);
-    let (inputs, tables) = with_tables_apart(inputs);
-    for input in inputs {
-        shapes.add_file(input)?;
-    }
-    shapes.join(tables);
+    let (files, tables) = with_tables_apart(inputs);
+    let name = name_of(&files);
+    let (files, local) = without_local(&files);
+    let shapes = Shapes::of_files(&files, tables, &options.reading)?;
     let format = shapes.format();
     let part = shapes.into_part(&name, local).map_err(|fault| fault.of(&name))?;
     if let Some(wanted) = &options.part
@@ -95,12 +92,7 @@ pub struct ShapeSet {
 /// # Errors
 /// [`FormatError`] of the first file that has none, or that does not correspond to the first.
 pub fn read_shapes(inputs: &[Input], reading: &Reading) -> Result<ShapeSet, FormatError> {
-    let name = name_of(inputs);
-    let mut files = Vec::new();
-    for input in inputs {
-        files.extend(compressed::files_in(input)?);
-    }
-    let mut inputs = paths::in_order(&files);
+    let (name, mut inputs, tables) = unpacked_with_tables(inputs)?;
     let contents: Vec<_> = inputs.iter().map(|input| compressed::content(input).ok()).collect();
     let shape_endings: Vec<String> = inputs
         .iter()
@@ -119,12 +111,7 @@ pub fn read_shapes(inputs: &[Input], reading: &Reading) -> Result<ShapeSet, Form
                 || shape_endings.contains(&paths::ending(input.file_name()))
         });
     }
-    let mut shapes = Shapes::new(reading);
-    let (inputs, tables) = with_tables_apart(without_local(&inputs).0);
-    for input in inputs {
-        shapes.add_file(input)?;
-    }
-    shapes.join(tables);
+    let shapes = Shapes::of_files(&without_local(&inputs).0, tables, reading)?;
     let refused = |fault: Fault| fault.of(&name);
     let population =
         shapes.into_population().map_err(refused)?.ok_or_else(|| refused(Fault::Empty))?;
@@ -139,33 +126,41 @@ pub fn read_shapes(inputs: &[Input], reading: &Reading) -> Result<ShapeSet, Form
 /// # Errors
 /// [`FormatError`] of the first file that has none, or that does not correspond to the first.
 pub fn read_specimens(inputs: &[Input], reading: &Reading) -> Result<SpecimenTable, FormatError> {
-    let name = name_of(inputs);
-    let mut files = Vec::new();
-    for input in inputs {
-        files.extend(compressed::files_in(input)?);
-    }
-    let files = paths::in_order(&files);
-    let (inputs, tables) = with_tables_apart(without_local(&files).0);
-    let mut shapes = Shapes::new(reading);
-    for input in inputs {
-        shapes.add_file(input)?;
-    }
-    shapes.join(tables);
+    let (name, files, tables) = unpacked_with_tables(inputs)?;
+    let shapes = Shapes::of_files(&without_local(&files).0, tables, reading)?;
     shapes.into_table().map_err(|fault| fault.of(&name))
 }
 
+/// A table beside shapes, with the name of its file.
+type NamedTable = (String, SideTable);
+
+/// What files are called, those in them where they are archives, in order, and the tables beside them.
+fn unpacked_with_tables(
+    inputs: &[Input],
+) -> Result<(String, Vec<Input>, Vec<NamedTable>), FormatError> {
+    let (inputs, mut tables) = with_tables_apart(inputs);
+    let mut files = Vec::new();
+    for input in &inputs {
+        files.extend(compressed::files_in(input)?);
+    }
+    let (files, within) = with_tables_apart(&paths::in_order(&files));
+    tables.extend(within);
+    Ok((name_of(&inputs), files, tables))
+}
+
 /// Shapes, and tables beside them that say more of each.
-fn with_tables_apart(inputs: Vec<&Input>) -> (Vec<&Input>, Vec<(&Input, SideTable)>) {
+fn with_tables_apart(inputs: &[Input]) -> (Vec<Input>, Vec<NamedTable>) {
     let mut tables = Vec::new();
     let shapes = inputs
-        .into_iter()
+        .iter()
         .filter(|input| match side_table(input) {
             Some(table) => {
-                tables.push((*input, table));
+                tables.push((input.file_name().to_owned(), table));
                 false
             }
             None => true,
         })
+        .cloned()
         .collect();
     (shapes, tables)
 }
@@ -242,6 +237,22 @@ impl Shapes {
     /// No shapes yet, to be read in this way.
     pub(crate) fn new(reading: &Reading) -> Self {
         Self { specimens: Specimens::new(reading), ..Self::default() }
+    }
+
+    /// The shapes of files, with what tables beside them say of each.
+    fn of_files(
+        files: &[&Input],
+        tables: Vec<NamedTable>,
+        reading: &Reading,
+    ) -> Result<Self, FormatError> {
+        let mut shapes = Self::new(reading);
+        for file in files {
+            shapes.add_file(file)?;
+        }
+        for (name, table) in tables {
+            shapes.notes.push(shapes.specimens.join(&name, &table));
+        }
+        Ok(shapes)
     }
 
     /// Number of shapes.
@@ -437,13 +448,6 @@ impl Shapes {
         Ok(())
     }
 
-    /// Takes the columns of tables beside the shapes.
-    fn join(&mut self, tables: Vec<(&Input, SideTable)>) {
-        for (input, table) in tables {
-            self.notes.push(self.specimens.join(input.file_name(), &table));
-        }
-    }
-
     /// The table of all specimens, whatever the reading leaves out.
     fn into_table(mut self) -> Result<SpecimenTable, Fault> {
         let Some((dimension, shapes, _)) = self.as_read() else { return Err(Fault::Empty) };
@@ -510,10 +514,8 @@ impl Shapes {
         if read < 3 {
             return Err(Fault::Model(ModelError::TooFewShapes { found: read }));
         }
-        let sizes: Vec<f64> = shapes
-            .column_iter()
-            .map(|shape| specimens::centroid_size(shape.as_slice(), dimension))
-            .collect();
+        let sizes: Vec<f64> =
+            shapes.column_iter().map(|shape| centroid_size(shape.as_slice(), dimension)).collect();
         let mut findings = specimens.findings(dimension, &shapes);
         let alignment = if scaled { Alignment::Similarity } else { Alignment::Rigid };
         let mean = generalised_procrustes(dimension, &mut shapes, alignment);

@@ -13,7 +13,7 @@ use crate::formats::reading::{
     Choice, Finding, FirstColumn, Missing, Reading, SIZE, covariate_name,
 };
 use crate::formats::several::table::{ColumnKind, Columns, SideTable, SpecimenRow, SpecimenTable};
-use crate::model::{Cells, PointOrder, look, reflect, remove_within_groups};
+use crate::model::{Cells, PointOrder, centroid_size, look, reflect, remove_within_groups};
 use crate::text::{listed, thousands, three_digits};
 
 /// Numbers that mark a missing landmark when all coordinates have them.
@@ -155,32 +155,42 @@ impl Specimens {
             ));
             kept = holding;
         }
-        let mut known = |column: &str, holds: &dyn Fn(&str) -> bool| -> Result<(), Fault> {
-            let words = self.columns.words(column)?;
-            let (with, lacking): (Vec<usize>, Vec<usize>) =
-                kept.iter().partition(|&&specimen| holds(words[specimen]));
-            if with.is_empty() {
+        if let Some(group) = &self.reading.group {
+            // Whether there is such a group at all is told before anything is left out.
+            self.columns.holding(group, &kept)?;
+            let opposite = group.opposite();
+            let in_one = |word: &str| group.holds(word) || opposite.holds(word);
+            kept = self.with_known(&group.column, &kept, in_one, &mut notes)?;
+        }
+        if let Some(column) = self.reading.adjust.as_deref().filter(|column| *column != SIZE) {
+            kept = self.with_known(column, &kept, |word| number(word).is_some(), &mut notes)?;
+            if kept.is_empty() {
                 let reason = "it is not a number for any specimen".to_owned();
                 return Err(Fault::Covariate { column: column.to_owned(), reason });
             }
-            if !lacking.is_empty() {
-                notes.push(format!("Left out without {column}: {}.", self.list(&lacking)));
-                kept = with;
-            }
-            Ok(())
-        };
-        if let Some(group) = &self.reading.group {
-            let opposite = group.opposite();
-            known(&group.column, &|word| group.holds(word) || opposite.holds(word))?;
-        }
-        if let Some(column) = self.reading.adjust.as_deref().filter(|column| *column != SIZE) {
-            known(column, &|word| number(word).is_some())?;
         }
         if kept.len() + without.len() < self.names.len() {
             *without =
                 (0..self.names.len()).filter(|one| kept.binary_search(one).is_err()).collect();
         }
         Ok(notes)
+    }
+
+    /// Those of `kept` whose word in a column `holds`; a note names the others.
+    fn with_known(
+        &self,
+        column: &str,
+        kept: &[usize],
+        holds: impl Fn(&str) -> bool,
+        notes: &mut Vec<String>,
+    ) -> Result<Vec<usize>, Fault> {
+        let words = self.columns.words(column)?;
+        let (with, lacking): (Vec<usize>, Vec<usize>) =
+            kept.iter().partition(|&&specimen| holds(words[specimen]));
+        if !lacking.is_empty() {
+            notes.push(format!("Left out without {column}: {}.", self.list(&lacking)));
+        }
+        Ok(with)
     }
 
     /// Takes the regression on the covariate of the reading out of aligned shapes, within the groups of the column that
@@ -745,17 +755,6 @@ impl Specimens {
             to.without.extend(specimens.iter().map(|&specimen| self.key(specimen)));
         })
     }
-}
-
-/// Root of the sum of squared distances of interleaved points from their centroid; NaN where a point is missing.
-pub(crate) fn centroid_size(shape: &[f64], dimension: usize) -> f64 {
-    let points = (shape.len() / dimension) as f64;
-    let along = |axis: usize| shape.iter().skip(axis).step_by(dimension);
-    let squares = (0..dimension).map(|axis| {
-        let centre = along(axis).sum::<f64>() / points;
-        along(axis).map(|value| (value - centre) * (value - centre)).sum::<f64>()
-    });
-    squares.sum::<f64>().sqrt()
 }
 
 /// "landmark 6", "landmarks 2 and 4": from 1.

@@ -4,14 +4,16 @@
 //! A table beside a set is text with a first line of names: comma, semicolon or tab between the columns. One of its columns
 //! names the specimens, as their files or their names in a file do; the endings of files may be left out.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::formats::condition::{Condition, number};
+use crate::formats::condition::{Condition, is_missing, number};
 use crate::formats::error::{Fault, counted};
-use crate::formats::input::columns::is_missing;
+use crate::formats::input::headings::{fields, separator};
 use crate::formats::input::paths::stem;
+use crate::formats::input::text;
 use crate::text::{listed, thousands};
 
 /// Values of a column that are named in a sentence.
@@ -302,35 +304,28 @@ pub(crate) struct SideTable {
 impl SideTable {
     /// Reads a table with a first line of names and at least two columns; `None` when it is something else.
     pub(crate) fn read(bytes: &[u8]) -> Option<Self> {
-        let text = String::from_utf8_lossy(bytes);
+        let (text, _) = text(bytes);
         let text = text.trim_start_matches('\u{feff}');
-        let first = text.lines().find(|line| !line.trim().is_empty())?;
-        let holds = |byte: &u8| first.as_bytes().contains(byte);
-        let separator = [b'\t', b';', b',', b' '].into_iter().find(holds)?;
-        let mut reader = csv::ReaderBuilder::new()
-            .delimiter(separator)
-            .flexible(true)
-            .trim(csv::Trim::All)
-            .from_reader(text.as_bytes());
-        let mut headings: Vec<String> = reader.headers().ok()?.iter().map(str::to_owned).collect();
+        let mut lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+        let first = lines.next()?;
+        let between = separator(first);
+        let row = |line| -> Vec<String> {
+            fields(line, between).into_iter().map(Cow::into_owned).collect()
+        };
+        let mut headings = row(first);
         // A number is no name: then the first line is one of data.
         if headings.len() < 2 || headings.iter().any(|name| number(name).is_some()) {
             return None;
         }
-        let mut rows = Vec::new();
-        for row in reader.records() {
-            let row: Vec<String> = row.ok()?.iter().map(str::to_owned).collect();
-            if row.iter().any(|word| !word.is_empty()) {
-                rows.push(row);
-            }
-        }
+        let is_empty = |row: &Vec<String>| row.iter().all(String::is_empty);
+        let rows: Vec<Vec<String>> = lines.map(row).filter(|row| !is_empty(row)).collect();
         // R names the columns, and not that of the row names.
         if rows.iter().all(|row| row.len() == headings.len() + 1) {
             headings.insert(0, "row".to_owned());
         }
         // Words apart by blanks may be any text.
         let even = rows.len() >= FEWEST_ROWS && rows.iter().all(|row| row.len() == headings.len());
-        (!rows.is_empty() && (even || separator != b' ')).then_some(Self { headings, rows })
+        (!rows.is_empty() && (even || between != ' ')).then_some(Self { headings, rows })
     }
 
     fn words(&self, column: usize) -> impl Iterator<Item = &str> {
