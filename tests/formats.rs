@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 use std::process::Command;
 
 use crate::common::files::{
-    Expected, Failure, Row, assert_close, cell_count, covariance_of_probe, fixture, json, said_of,
-    tests,
+    Expected, Failure, Row, assert_close, cell_count, covariance_of_probe, damage, fixture, json,
+    said_of, tests,
 };
 use proptest::prelude::*;
 use serde::Deserialize;
@@ -287,13 +287,7 @@ proptest! {
         length in prop::option::weighted(0.2, any::<prop::sample::Index>()),
     ) {
         let (name, mut bytes) = victims().swap_remove(which);
-        for (place, value) in changes {
-            let place = place.index(bytes.len());
-            bytes[place] = value;
-        }
-        if let Some(length) = length {
-            bytes.truncate(length.index(bytes.len()));
-        }
+        damage(&mut bytes, &changes, length);
         let _ = read(&name, &bytes, None);
         let _ = formats::read_arrays(&name, &bytes);
     }

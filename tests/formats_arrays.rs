@@ -2,7 +2,7 @@
 //! shapes as TPS, models against the numbers that NumPy wrote, and the broken ones against their sentences.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use crate::common::files::{Failure, Row, assert_close, covariance_of_probe, json, tests};
+use crate::common::files::{Failure, Row, assert_close, covariance_of_probe, damage, json, tests};
 use proptest::prelude::*;
 use serde::Deserialize;
 use shapevenn::formats::{self, FormatError, Input, Opened, Options, Origin, Reading};
@@ -315,13 +315,7 @@ proptest! {
         length in prop::option::weighted(0.2, any::<prop::sample::Index>()),
     ) {
         let mut bytes = fixture(VICTIMS[which]);
-        for (place, value) in changes {
-            let place = place.index(bytes.len());
-            bytes[place] = value;
-        }
-        if let Some(length) = length {
-            bytes.truncate(length.index(bytes.len()));
-        }
+        damage(&mut bytes, &changes, length);
         let _ = read(VICTIMS[which], &bytes, None, "");
     }
 }

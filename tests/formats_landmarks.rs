@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
 
 use crate::common::files::{
-    Failure, assert_close, cell_count, covariance_of_probe, fixture, json, said_of, tests,
+    Failure, assert_close, cell_count, covariance_of_probe, damage, fixture, json, said_of, tests,
+    unzipped,
 };
 use proptest::prelude::*;
 use serde::Deserialize;
@@ -54,16 +55,7 @@ fn dropped(file: &str) -> Vec<Input> {
     if !file.ends_with(".zip") {
         return vec![input(file)];
     }
-    let mut zip = zip::ZipArchive::new(Cursor::new(fixture(&format!("landmarks/{file}")))).unwrap();
-    (0..zip.len())
-        .map(|index| {
-            let mut member = zip.by_index(index).unwrap();
-            let mut bytes = Vec::new();
-            member.read_to_end(&mut bytes).unwrap();
-            let name = String::from_utf8_lossy(member.name_raw());
-            Input::of_bytes(format!("{file}/{name}"), bytes)
-        })
-        .collect()
+    unzipped(file, &fixture(&format!("landmarks/{file}")))
 }
 
 #[test]
@@ -222,13 +214,7 @@ proptest! {
         let mut inputs = dropped(names[which.index(names.len())]);
         inputs.truncate(4);
         let mut bytes = fixture_of(&inputs[0], names[which.index(names.len())]);
-        for (place, value) in &changes {
-            let place = place.index(bytes.len());
-            bytes[place] = *value;
-        }
-        if let Some(length) = length {
-            bytes.truncate(length.index(bytes.len()));
-        }
+        damage(&mut bytes, &changes, length);
         inputs[0] = Input::of_bytes(inputs[0].name.as_str(), bytes);
         let _ = open(&inputs, "");
         let _ = groups(&inputs);

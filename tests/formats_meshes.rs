@@ -6,7 +6,8 @@ use std::collections::BTreeMap;
 use std::io::{Cursor, Read};
 
 use crate::common::files::{
-    Failure, assert_close, cell_count, covariance_of_probe, fixture, json, said_of, tests,
+    Failure, assert_close, cell_count, covariance_of_probe, damage, fixture, json, said_of, tests,
+    unzipped,
 };
 use proptest::prelude::*;
 use serde::Deserialize;
@@ -60,17 +61,7 @@ fn open(inputs: &[Input], part: Option<&str>, scale: bool) -> Result<Opened, For
 
 /// The files of an archive, as if they had been dropped.
 fn dropped(archive: &str) -> Vec<Input> {
-    let bytes = fixture(&format!("meshes/{archive}"));
-    let mut zip = zip::ZipArchive::new(Cursor::new(bytes)).unwrap();
-    (0..zip.len())
-        .map(|index| {
-            let mut member = zip.by_index(index).unwrap();
-            let mut bytes = Vec::new();
-            member.read_to_end(&mut bytes).unwrap();
-            let name = String::from_utf8_lossy(member.name_raw());
-            Input::of_bytes(format!("{archive}/{name}"), bytes)
-        })
-        .collect()
+    unzipped(archive, &fixture(&format!("meshes/{archive}")))
 }
 
 #[test]
@@ -383,13 +374,7 @@ proptest! {
         inputs.truncate(4);
         let mut shape = bytes_of(&inputs[1], archive);
         for bytes in [&mut bytes, &mut shape] {
-            for (place, value) in &changes {
-                let place = place.index(bytes.len());
-                bytes[place] = *value;
-            }
-            if let Some(length) = length {
-                bytes.truncate(length.index(bytes.len()));
-            }
+            damage(bytes, &changes, length);
         }
         let damaged = if all { 0..inputs.len() } else { 1..2 };
         for index in damaged {

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use crate::common::files::{
-    Expected, Failure, Row, assert_close, cell_count, covariance_of_probe, json, said_of,
+    Expected, Failure, Row, assert_close, cell_count, covariance_of_probe, damage, json, said_of,
 };
 use proptest::prelude::*;
 use serde::Deserialize;
@@ -294,13 +294,7 @@ proptest! {
         length in prop::option::weighted(0.2, any::<prop::sample::Index>()),
     ) {
         let mut bytes = fixture(VICTIMS[which]);
-        for (place, value) in changes {
-            let place = place.index(bytes.len());
-            bytes[place] = value;
-        }
-        if let Some(length) = length {
-            bytes.truncate(length.index(bytes.len()));
-        }
+        damage(&mut bytes, &changes, length);
         let _ = read(&[(VICTIMS[which], &bytes)], None);
     }
 

@@ -5,7 +5,8 @@
 use std::collections::BTreeMap;
 
 use crate::common::files::{
-    Expected, Failure, Row, assert_close, cell_count, covariance_of_probe, json, said_of, tests,
+    Expected, Failure, Row, assert_close, cell_count, covariance_of_probe, damage, json, said_of,
+    tests,
 };
 use proptest::prelude::*;
 use shapevenn::formats::{self, Array, Data, FormatError, Input, Opened, Options, Part};
@@ -381,13 +382,7 @@ proptest! {
         length in prop::option::weighted(0.2, any::<prop::sample::Index>()),
     ) {
         let mut bytes = fixture(VICTIMS[which]);
-        for (place, value) in changes {
-            let place = place.index(bytes.len());
-            bytes[place] = value;
-        }
-        if let Some(length) = length {
-            bytes.truncate(length.index(bytes.len()));
-        }
+        damage(&mut bytes, &changes, length);
         for part in [None, Some("color")] {
             let _ = read(VICTIMS[which], &bytes, part);
         }

@@ -9,7 +9,7 @@ mod commands;
 mod comparisons;
 mod sets;
 
-use std::io::{Cursor, Read};
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use shapevenn::formats::{self, Array, Data, FormatError, Input, Opened, Options,
 use shapevenn::model::{Cells, LinearModel};
 use zip::write::SimpleFileOptions;
 
-use crate::common::files::fixture;
+use crate::common::files::{fixture, unzipped};
 use crate::common::random_orthonormal;
 
 pub(crate) fn file(name: &str) -> Input {
@@ -116,19 +116,6 @@ fn matrix(values: &DMatrix<f64>) -> Array {
 
 fn archive(arrays: &[(&str, Array)]) -> Input {
     Input::of_bytes("model.npz", formats::write_arrays(arrays))
-}
-
-/// The files of an archive, as if it were unpacked.
-pub(crate) fn unzipped(bytes: &[u8]) -> Vec<Input> {
-    let mut zip = zip::ZipArchive::new(Cursor::new(bytes)).unwrap();
-    (0..zip.len())
-        .map(|index| {
-            let mut member = zip.by_index(index).unwrap();
-            let mut bytes = Vec::new();
-            member.read_to_end(&mut bytes).unwrap();
-            Input::of_bytes(format!("unpacked/{}", member.name().unwrap()), bytes)
-        })
-        .collect()
 }
 
 /// A fresh folder for one test.
@@ -563,7 +550,7 @@ fn a_model_that_unpacks_to_too_much_is_read_with_fewer_modes() {
                 numbers(&[modes], (0..modes).map(|mode| 100.0 - mode as f64).collect()),
             ),
         ]);
-        let files = unzipped(&arrays);
+        let files = unzipped("unpacked", &arrays);
         let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
         let mut source = zip::ZipArchive::new(Cursor::new(&arrays)).unwrap();
         for index in 0..files.len() {

@@ -2,10 +2,12 @@
 #![allow(dead_code, unreachable_pub, reason = "every test file uses its own part")]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
+use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
 
+use proptest::sample::Index;
 use serde::Deserialize;
-use shapevenn::formats::{FormatError, Part};
+use shapevenn::formats::{FormatError, Input, Part};
 use shapevenn::model::{Cells, Kind, LinearModel, Unit};
 
 /// What a `make_….py` noted about one model.
@@ -63,6 +65,31 @@ pub fn tests() -> PathBuf {
 pub fn fixture(name: &str) -> Vec<u8> {
     std::fs::read(tests().join("fixtures").join(name))
         .unwrap_or_else(|error| panic!("{name}: {error}"))
+}
+
+/// The files of a ZIP archive as if they had been dropped in a folder of this name.
+pub fn unzipped(folder: &str, archive: &[u8]) -> Vec<Input> {
+    let mut zip = zip::ZipArchive::new(Cursor::new(archive)).unwrap();
+    (0..zip.len())
+        .map(|index| {
+            let mut member = zip.by_index(index).unwrap();
+            let mut bytes = Vec::new();
+            member.read_to_end(&mut bytes).unwrap();
+            let name = String::from_utf8_lossy(member.name_raw());
+            Input::of_bytes(format!("{folder}/{name}"), bytes)
+        })
+        .collect()
+}
+
+/// Changes some bytes of a file, and cuts it off.
+pub fn damage(bytes: &mut Vec<u8>, changes: &[(Index, u8)], length: Option<Index>) {
+    for (place, value) in changes {
+        let place = place.index(bytes.len());
+        bytes[place] = *value;
+    }
+    if let Some(length) = length {
+        bytes.truncate(length.index(bytes.len()));
+    }
 }
 
 /// A JSON document below `tests`.

@@ -7,8 +7,8 @@ use shapevenn::formats::{self, Input, Options, Reading};
 use shapevenn::measure::Placement;
 use shapevenn::model::Cells;
 
-use super::{file, model_of, open, plain, text, tried, unzipped};
-use crate::common::files::fixture;
+use super::{file, model_of, open, plain, text, tried};
+use crate::common::files::{fixture, unzipped};
 use crate::common::{drawn, random_orthonormal};
 
 /// Shapes of the model of most fixtures, as meshes of their own.
@@ -98,7 +98,7 @@ fn a_shape_that_does_not_belong_is_left_out() {
         set[1] = second;
         set
     };
-    let broken = unzipped(&fixture("meshes/nan.zip"));
+    let broken = unzipped("unpacked", &fixture("meshes/nan.zip"));
     let lost = called("set/1.ply", &broken[1]);
     tried(
         &with(lost),
@@ -107,7 +107,7 @@ fn a_shape_that_does_not_belong_is_left_out() {
         vec![("left out", without.clone())],
         &expected,
     );
-    let nothing = unzipped(&fixture("meshes/no-points.zip"));
+    let nothing = unzipped("unpacked", &fixture("meshes/no-points.zip"));
     let nothing = called("set/1.ply", &nothing[1]);
     tried(
         &with(nothing),
@@ -117,7 +117,7 @@ fn a_shape_that_does_not_belong_is_left_out() {
         &expected,
     );
     // A shape of another number of points; landmarks of which one was forgotten.
-    let other = unzipped(&fixture("meshes/n-differs.zip"));
+    let other = unzipped("unpacked", &fixture("meshes/n-differs.zip"));
     let hint = "All shapes of a set need the same points in the same order: register one template to each of them, and drop the registered meshes.";
     let other = called("set/1.ply", &other[1]);
     tried(&with(other), "corr", hint, vec![("registered", all.clone())], &model_of(&all));
@@ -132,7 +132,7 @@ fn a_shape_that_does_not_belong_is_left_out() {
         &model_of(&[tps(&specimens)]),
     );
     // A mesh in triangle strips.
-    let strips = unzipped(&fixture("meshes/tri-strips.zip"));
+    let strips = unzipped("unpacked", &fixture("meshes/tri-strips.zip"));
     tried(
         &strips,
         "strips",
@@ -141,8 +141,8 @@ fn a_shape_that_does_not_belong_is_left_out() {
         &model_of(&all),
     );
     // An image among the formats of VTK.
-    let image = unzipped(&fixture("meshes/image.zip"));
-    let vtk = unzipped(&fixture("meshes/vtk-42-ascii.zip"));
+    let image = unzipped("unpacked", &fixture("meshes/image.zip"));
+    let vtk = unzipped("unpacked", &fixture("meshes/vtk-42-ascii.zip"));
     tried(
         &image,
         "unsupported",
@@ -263,7 +263,7 @@ fn archives_are_unpacked_as_told() {
         archive.write_all(&flat(index)).unwrap();
     }
     let bytes = archive.finish().unwrap().into_inner();
-    let unpacked = unzipped(&bytes);
+    let unpacked = unzipped("unpacked", &bytes);
     tried(
         &[Input::of_bytes("set.zip", bytes)],
         "size",
@@ -280,12 +280,12 @@ fn archives_are_unpacked_as_told() {
         (error.code(), error.hint()),
         ("nested", "Unpack the outer archive and drop what is in it.")
     );
-    let inside = unzipped(&nested);
+    let inside = unzipped("unpacked", &nested);
     let model = model_of(&inside);
     assert_eq!(model.point_count(), 12, "what is in it");
     // One with a password, and one that was packed by a newer method: each mark of it is another.
     let whole = fixture("meshes/ply-trimesh.zip");
-    let files = unzipped(&whole);
+    let files = unzipped("unpacked", &whole);
     let marked = |local: usize, central: usize, mark: u8| {
         let mut bytes = whole.clone();
         for start in 0..whole.len() - 12 {
@@ -431,8 +431,11 @@ fn a_file_of_no_known_format_is_saved_in_one_of_those_listed() {
                 if name.ends_with(ending) {
                     return Some(vec![file(name)]);
                 }
-                let files =
-                    if name.ends_with(".zip") { unzipped(&fixture(name)) } else { Vec::new() };
+                let files = if name.ends_with(".zip") {
+                    unzipped("unpacked", &fixture(name))
+                } else {
+                    Vec::new()
+                };
                 files.iter().any(|file| file.name.ends_with(ending)).then_some(files)
             };
             let files = known.iter().find_map(of_ending);
